@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "common/api/robot_api.hpp"
+
+namespace seeker::api {
+namespace {
+
+bool is_token(const std::string& text, std::size_t max_length) {
+  return !text.empty() && text.size() <= max_length && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+}
+
+double grey_sigma(const Image& grey) {
+  double sum = 0.0;
+  double sum2 = 0.0;
+  for (const std::uint8_t value : grey.data()) {
+    sum += value;
+    sum2 += static_cast<double>(value) * value;
+  }
+  const auto n = static_cast<double>(grey.data().size());
+  return std::sqrt(std::max(0.0, sum2 / n - (sum / n) * (sum / n)));
+}
+
+Status validate(const TargetSpec& target) {
+  constexpr std::size_t kMaxName = 32;
+  if (!is_token(target.name, kMaxName)) {
+    return fail(Errc::kInvalidArgument,
+                "target name '" + target.name.substr(0, kMaxName) + "' must be 1 to 32 of a-z, 0-9 and '-'");
+  }
+  const std::string who = "the picture of target '" + target.name + "' ";
+  const int small = std::min(target.picture.width_px(), target.picture.height_px());
+  const int large = std::max(target.picture.width_px(), target.picture.height_px());
+  if (target.picture.empty() || small < kMinTargetSide_px) {
+    return fail(Errc::kInvalidArgument, who + "is " + std::to_string(target.picture.width_px()) + "x" +
+                                            std::to_string(target.picture.height_px()) +
+                                            " pixels; give one of at least 8x8");
+  }
+  if (large > kMaxTargetSide_px) {
+    return fail(Errc::kTooLarge, who + "is larger than 1024 pixels; scale it down");
+  }
+  if (grey_sigma(to_grey(target.picture)) < kMinTargetGreySigma) {
+    return fail(Errc::kInvalidArgument, who + "has one colour only, so nothing can be matched; give one with contrast");
+  }
+  constexpr double kMaxSize_m = 20.0;
+  if (!(target.width_m > 0.0 && target.width_m <= kMaxSize_m && target.height_m > 0.0 &&
+        target.height_m <= kMaxSize_m)) {
+    return fail(Errc::kInvalidArgument, "the size of target '" + target.name + "' must be above 0 and at most 20 m");
+  }
+  return {};
+}
+
+Status validate_keep_outs(const std::vector<Polygon>& keep_outs) {
+  if (keep_outs.size() > kMaxKeepOuts) {
+    return fail(Errc::kTooLarge, "more than 64 keep-out areas");
+  }
+  for (std::size_t i = 0; i < keep_outs.size(); ++i) {
+    if (const Status ok = validate_polygon(keep_outs[i]); !ok) {
+      return fail_with_context("keep-out area " + std::to_string(i + 1), ok.error());
+    }
+  }
+  return {};
+}
+
+Status validate_task(const SearchMission& search) {
+  if (search.targets.empty() || search.targets.size() > kMaxTargets) {
+    return fail(Errc::kInvalidArgument, "a search needs 1 to 16 targets, got " + std::to_string(search.targets.size()));
+  }
+  std::set<std::string> names;
+  for (const TargetSpec& target : search.targets) {
+    if (Status ok = validate(target); !ok) {
+      return ok;
+    }
+    if (!names.insert(target.name).second) {
+      return fail(Errc::kInvalidArgument, "two targets have the name '" + target.name + "'");
+    }
+  }
+  if (search.bound) {
+    if (const Status ok = validate_polygon(*search.bound); !ok) {
+      return fail_with_context("bound", ok.error());
+    }
+  }
+  return validate_keep_outs(search.keep_out);
+}
+
+Status validate_task(const GotoMission& go) {
+  if (go.waypoints.empty() || go.waypoints.size() > kMaxWaypoints) {
+    return fail(Errc::kInvalidArgument, "goto needs 1 to 1024 waypoints, got " + std::to_string(go.waypoints.size()));
+  }
+  for (const Point2& p : go.waypoints) {
+    if (!p.allFinite()) {
+      return fail(Errc::kInvalidArgument, "a waypoint is not a finite number");
+    }
+  }
+  if (go.final_heading_rad && !std::isfinite(*go.final_heading_rad)) {
+    return fail(Errc::kInvalidArgument, "the final heading is not a finite number");
+  }
+  return validate_keep_outs(go.keep_out);
+}
+
+Status validate_task(const ReturnMission& /*unused*/) { return {}; }
+
+}  // namespace
+
+Status validate(const MissionRequest& request) {
+  constexpr std::size_t kMaxId = 64;
+  if (!is_token(request.id, kMaxId)) {
+    return fail(Errc::kInvalidArgument, "the mission id must be 1 to 64 of a-z, 0-9 and '-'");
+  }
+  if (request.time_limit && *request.time_limit <= Duration::zero()) {
+    return fail(Errc::kInvalidArgument, "the mission's time limit must be above zero");
+  }
+  return std::visit([](const auto& task) { return validate_task(task); }, request.task);
+}
+
+std::string_view task_name(const MissionTask& task) {
+  struct Name {
+    std::string_view operator()(const SearchMission&) const { return "search"; }
+    std::string_view operator()(const GotoMission&) const { return "goto"; }
+    std::string_view operator()(const ReturnMission&) const { return "return"; }
+  };
+  return std::visit(Name{}, task);
+}
+
+std::string_view to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kComplete: return "COMPLETE";
+    case Outcome::kTargetFound: return "TARGET_FOUND";
+    case Outcome::kNotFoundAreaCovered: return "NOT_FOUND_AREA_COVERED";
+    case Outcome::kUnreachable: return "UNREACHABLE";
+    case Outcome::kBoundReached: return "BOUND_REACHED";
+    case Outcome::kTimeLimit: return "TIME_LIMIT";
+    case Outcome::kUncertain: return "UNCERTAIN";
+    case Outcome::kLost: return "LOST";
+    case Outcome::kBattery: return "BATTERY";
+    case Outcome::kLinkLost: return "LINK_LOST";
+    case Outcome::kOperator: return "OPERATOR";
+    case Outcome::kFault: return "FAULT";
+  }
+  return "FAULT";
+}
+
+std::string_view to_string(LinkPolicy policy) {
+  switch (policy) {
+    case LinkPolicy::kStop: return "stop";
+    case LinkPolicy::kFinishStep: return "finish-step";
+    case LinkPolicy::kContinue: return "continue";
+    case LinkPolicy::kReturn: return "return";
+  }
+  return "stop";
+}
+
+std::string_view to_string(RecogniserKind kind) { return kind == RecogniserKind::kTemplate ? "template" : "features"; }
+
+std::string_view to_string(SearchMode mode) { return mode == SearchMode::kPaper ? "paper" : "plan"; }
+
+std::string_view to_string(OnFound on_found) {
+  switch (on_found) {
+    case OnFound::kStop: return "stop";
+    case OnFound::kApproach: return "approach";
+    case OnFound::kContinue: return "continue";
+  }
+  return "stop";
+}
+
+std::string_view to_string(MissionState state) {
+  switch (state) {
+    case MissionState::kRunning: return "RUNNING";
+    case MissionState::kPaused: return "PAUSED";
+    case MissionState::kEnded: return "ENDED";
+  }
+  return "ENDED";
+}
+
+std::string_view to_string(RangeSource source) {
+  switch (source) {
+    case RangeSource::kNone: return "none";
+    case RangeSource::kSonar: return "sonar";
+    case RangeSource::kLidar: return "lidar";
+    case RangeSource::kTriangulation: return "triangulation";
+  }
+  return "none";
+}
+
+std::string_view to_string(ComponentState state) {
+  switch (state) {
+    case ComponentState::kCreated: return "CREATED";
+    case ComponentState::kInactive: return "INACTIVE";
+    case ComponentState::kActive: return "ACTIVE";
+    case ComponentState::kError: return "ERROR";
+  }
+  return "ERROR";
+}
+
+std::string_view to_string(Severity severity) {
+  switch (severity) {
+    case Severity::kInfo: return "INFO";
+    case Severity::kWarning: return "WARNING";
+    case Severity::kError: return "ERROR";
+    case Severity::kCritical: return "CRITICAL";
+  }
+  return "CRITICAL";
+}
+
+StreamClass stream_class(Topic topic) {
+  switch (topic) {
+    case Topic::kMission:
+    case Topic::kEvent:
+    case Topic::kDetection: return StreamClass::kReliable;
+    default: return StreamClass::kLatest;
+  }
+}
+
+std::string_view to_string(Topic topic) {
+  switch (topic) {
+    case Topic::kStatus: return "status";
+    case Topic::kScan: return "scan";
+    case Topic::kSonar: return "sonar";
+    case Topic::kTiles: return "tiles";
+    case Topic::kGrid: return "grid";
+    case Topic::kImage: return "image";
+    case Topic::kMission: return "mission";
+    case Topic::kEvent: return "event";
+    case Topic::kDetection: return "detection";
+  }
+  return "status";
+}
+
+}  // namespace seeker::api

@@ -1,0 +1,161 @@
+/// \file
+/// Missions as values: what can be asked for, how it goes, how it ended.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/api/perception.hpp"
+#include "common/core/image.hpp"
+#include "common/core/polygon.hpp"
+#include "common/core/pose2.hpp"
+#include "common/core/time.hpp"
+
+namespace seeker::api {
+
+/// Chosen by the client so that repeating a start is harmless: [a-z0-9-]{1,64}.
+using MissionId = std::string;
+
+/// What the robot does on its own when the client that started the mission is gone.
+enum class LinkPolicy : std::uint8_t { kStop, kFinishStep, kContinue, kReturn };
+
+/// How a target is recognised in an image.
+enum class RecogniserKind : std::uint8_t {
+  kTemplate,  ///< dynamic template matching (spec S3.4)
+  kFeatures,  ///< SIFT matches verified by a homography
+};
+
+/// A thing to look for: its picture and its size.
+struct TargetSpec {
+  std::string name;      ///< [a-z0-9-]{1,32}, unique in a mission
+  Image picture;         ///< upright view of the target, cropped to its border
+  double width_m = 0.4;  ///< of the target's picture, used for range limits and evidence
+  double height_m = 0.4;
+  double depth_m = 0.0;  ///< of a solid that shows the picture on its sides; 0: flat. Its position is its centre
+  RecogniserKind recogniser = RecogniserKind::kTemplate;
+
+  friend bool operator==(const TargetSpec&, const TargetSpec&) = default;
+};
+
+enum class SearchMode : std::uint8_t {
+  kPaper,  ///< the algorithm as printed: sonar and bearing only (spec S3.3)
+  kPlan,   ///< cells are reached by paths planned through the occupancy
+};
+
+enum class OnFound : std::uint8_t {
+  kStop,      ///< end the mission where the robot stands
+  kApproach,  ///< drive up to the target, refine its position, end
+  kContinue,  ///< note it and go on until the area is covered
+};
+
+struct SearchMission {
+  std::vector<TargetSpec> targets;
+  SearchMode mode = SearchMode::kPlan;
+  OnFound on_found = OnFound::kApproach;
+  std::optional<Polygon> bound;   ///< search inside only
+  std::vector<Polygon> keep_out;  ///< never enter
+  bool gaps_only = false;         ///< keep the evidence of the last search and cover what it left
+
+  friend bool operator==(const SearchMission&, const SearchMission&) = default;
+};
+
+struct GotoMission {
+  std::vector<Point2> waypoints;  ///< visited in order, in the frame `map`
+  std::optional<double> final_heading_rad;
+  std::vector<Polygon> keep_out;
+
+  friend bool operator==(const GotoMission&, const GotoMission&) = default;
+};
+
+/// Back to where the robot was started.
+struct ReturnMission {
+  friend bool operator==(const ReturnMission&, const ReturnMission&) = default;
+};
+
+using MissionTask = std::variant<SearchMission, GotoMission, ReturnMission>;
+
+[[nodiscard]] std::string_view task_name(const MissionTask& task);
+
+struct MissionRequest {
+  MissionId id;
+  MissionTask task;
+  LinkPolicy link_policy = LinkPolicy::kStop;
+  std::optional<Duration> time_limit;  ///< robot time
+
+  friend bool operator==(const MissionRequest&, const MissionRequest&) = default;
+};
+
+/// Checks everything that can be checked without a robot; the robot calls it too.
+[[nodiscard]] Status validate(const MissionRequest& request);
+inline constexpr std::size_t kMaxTargets = 16;
+inline constexpr std::size_t kMaxKeepOuts = 64;
+inline constexpr std::size_t kMaxWaypoints = 1024;
+/// A template with less spread of grey than this carries nothing to match.
+inline constexpr double kMinTargetGreySigma = 4.0;
+inline constexpr int kMinTargetSide_px = 8;
+inline constexpr int kMaxTargetSide_px = 1024;
+
+/// How a mission ended.
+enum class Outcome : std::uint8_t {
+  kComplete,
+  kTargetFound,
+  kNotFoundAreaCovered,
+  kUnreachable,
+  kBoundReached,
+  kTimeLimit,
+  kUncertain,
+  kLost,
+  kBattery,
+  kLinkLost,
+  kOperator,
+  kFault,
+};
+
+[[nodiscard]] std::string_view to_string(Outcome outcome);
+[[nodiscard]] std::string_view to_string(LinkPolicy policy);
+[[nodiscard]] std::string_view to_string(RecogniserKind kind);
+[[nodiscard]] std::string_view to_string(SearchMode mode);
+[[nodiscard]] std::string_view to_string(OnFound on_found);
+
+enum class MissionState : std::uint8_t { kRunning, kPaused, kEnded };
+[[nodiscard]] std::string_view to_string(MissionState state);
+
+/// The end of a mission, with cause and remedy in one sentence each.
+struct MissionEnd {
+  Outcome outcome = Outcome::kFault;
+  std::string cause;
+  std::string remedy;               ///< empty when there is nothing to remedy
+  std::vector<Point2> unreachable;  ///< places that were asked for or found and could not be reached
+
+  friend bool operator==(const MissionEnd&, const MissionEnd&) = default;
+};
+
+/// One report of a running or ended mission.
+struct MissionStatus {
+  MissionId id;
+  std::string kind;  ///< task_name()
+  MissionState state = MissionState::kRunning;
+  std::string phase;      ///< "cover", "approach", "drive", ...
+  std::string activity;   ///< what the robot is doing and why, one sentence
+  double progress = 0.0;  ///< 0..1
+  RobotTime started;
+  RobotTime updated;
+  double path_length_m = 0.0;
+  int cells_searched = 0;
+  int cells_unsearched = 0;
+  std::optional<CoverageSummary> coverage;
+  std::vector<Point2> planned_path;  ///< in the frame `map`
+  LinkPolicy link_policy = LinkPolicy::kStop;
+  std::optional<MissionEnd> end;  ///< present exactly when state is kEnded
+
+  friend bool operator==(const MissionStatus&, const MissionStatus&) = default;
+};
+
+enum class MissionCommand : std::uint8_t { kPause, kResume, kStop };
+
+}  // namespace seeker::api

@@ -1,0 +1,93 @@
+/// \file
+/// What a search produces: grid lists, evidence, detections.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/core/grid.hpp"
+#include "common/core/pose2.hpp"
+#include "common/core/time.hpp"
+
+namespace seeker::api {
+
+/// Where the range of a detection comes from.
+enum class RangeSource : std::uint8_t { kNone, kSonar, kLidar, kTriangulation };
+[[nodiscard]] std::string_view to_string(RangeSource source);
+
+/// A sighting, or several fused ones, of a target.
+struct Detection {
+  std::uint64_t id = 0;  ///< never reused
+  std::string target;
+  RobotTime stamp;    ///< of the newest sighting
+  double u_px = 0.0;  ///< column and row in the image of the newest sighting
+  double v_px = 0.0;
+  double score = 0.0;              ///< of the recogniser, 0..1
+  Pose2 map_T_base;                ///< where the robot was
+  double bearing_base_rad = 0.0;   ///< alpha' of spec S3.5, eq (4)
+  double bearing_map_rad = 0.0;    ///< theta_0 of eq (5)
+  std::optional<Point2> position;  ///< of the target's centre in the frame `map`
+  Matrix2 position_covariance = Matrix2::Zero();
+  RangeSource range_source = RangeSource::kNone;
+  int sightings = 1;
+  std::uint32_t map_epoch = 0;
+
+  friend bool operator==(const Detection&, const Detection&) = default;
+};
+
+/// The two lists of spec S3.3, and what could not be reached.
+struct GridLists {
+  double cell_size_m = 0.8;
+  std::vector<Point2> searched;  ///< in the order of the visits
+  std::vector<Point2> unsearched;
+  std::vector<Point2> unreachable;
+  int passes_n = 0;        ///< n: consecutive passes over searched cells
+  int passes_limit_n = 0;  ///< N of eq (1)
+
+  friend bool operator==(const GridLists&, const GridLists&) = default;
+};
+
+/// The certificate of a search in numbers.
+struct CoverageSummary {
+  double reachable_area_m2 = 0.0;  ///< free floor eroded by the robot's radius and connected to the start
+  double covered_area_m2 = 0.0;    ///< of it, with probability of detection at or above the threshold
+  double threshold = 0.5;
+  double mean_probability = 0.0;  ///< over the reachable floor
+  int gaps = 0;                   ///< connected areas below the threshold
+
+  friend bool operator==(const CoverageSummary&, const CoverageSummary&) = default;
+};
+
+/// A connected area of reachable floor that the search left below the threshold.
+struct Gap {
+  Point2 centre = Point2::Zero();
+  double area_m2 = 0.0;
+  std::string reason;  ///< "unreachable", "not seen", "keep-out", "outside the bound"
+
+  friend bool operator==(const Gap&, const Gap&) = default;
+};
+
+inline constexpr std::uint8_t kNotReachableFloor = 255;
+
+/// Probability that the target would have been seen if it stood in a cell, times 254; kNotReachableFloor elsewhere.
+struct EvidenceMap {
+  Grid<std::uint8_t> probability;
+  std::vector<Gap> gaps;
+  CoverageSummary summary;
+  std::uint32_t map_epoch = 0;
+
+  friend bool operator==(const EvidenceMap&, const EvidenceMap&) = default;
+};
+
+struct GridReport {
+  GridLists lists;
+  EvidenceMap evidence;
+  std::uint32_t map_epoch = 0;
+
+  friend bool operator==(const GridReport&, const GridReport&) = default;
+};
+
+}  // namespace seeker::api

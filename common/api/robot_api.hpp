@@ -1,0 +1,138 @@
+/// \file
+/// What one may ask of a robot, in values. Two bodies: the robot itself (server/app) and the remote client
+/// (common/rpc). Handlers, the command line and experiments use nothing else.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/api/mission.hpp"
+#include "common/api/perception.hpp"
+#include "common/api/robot_state.hpp"
+#include "common/core/result.hpp"
+
+namespace seeker::api {
+
+/// Called exactly once, on a thread of the body's choice; it must not block.
+template <class T>
+using Reply = std::function<void(Result<T>)>;
+
+/// What can be subscribed to.
+enum class Topic : std::uint8_t {
+  kStatus,     ///< RobotStatus                      LATEST
+  kScan,       ///< LaserScan                        LATEST
+  kSonar,      ///< SonarScan                        LATEST
+  kTiles,      ///< TileUpdate                       LATEST per tile: the newest revision of each
+  kGrid,       ///< GridReport                       LATEST
+  kImage,      ///< ImageFrame                       LATEST
+  kMission,    ///< MissionStatus                    RELIABLE
+  kEvent,      ///< Event                            RELIABLE
+  kDetection,  ///< Detection (new or refined)       RELIABLE
+};
+inline constexpr std::size_t kTopicCount = 9;
+
+/// LATEST: a slow receiver gets the newest and is told how many it missed. RELIABLE: numbered, resumable, complete.
+enum class StreamClass : std::uint8_t { kLatest, kReliable };
+[[nodiscard]] StreamClass stream_class(Topic topic);
+[[nodiscard]] std::string_view to_string(Topic topic);
+
+using Payload = std::variant<RobotStatus, LaserScan, SonarScan, TileUpdate, GridReport, ImageFrame, MissionStatus,
+                             Event, Detection>;
+
+/// One item of a stream. Immutable and shared between all who receive it.
+struct Update {
+  Topic topic = Topic::kStatus;
+  std::uint64_t sequence = 0;  ///< per topic, from 1, without gaps at the source
+  std::uint64_t dropped = 0;   ///< items left out for this receiver since the one before (LATEST only)
+  RobotTime stamp;
+  Payload payload;
+};
+using UpdatePtr = std::shared_ptr<const Update>;
+/// Called from a thread of the body's choice, in order per topic; it must not block.
+using UpdateSink = std::function<void(const UpdatePtr&)>;
+
+struct TopicRequest {
+  Topic topic = Topic::kStatus;
+  double max_rate_hz = 0.0;        ///< wall rate for LATEST; 0: every update. A robot in process ignores it.
+  std::uint64_t resume_after = 0;  ///< RELIABLE: deliver from the item after this one; 0: from now on
+  friend bool operator==(const TopicRequest&, const TopicRequest&) = default;
+};
+
+/// Ends the subscription when destroyed; the sink is not called afterwards.
+class Subscription {
+ public:
+  Subscription() = default;
+  Subscription(const Subscription&) = delete;
+  Subscription& operator=(const Subscription&) = delete;
+  virtual ~Subscription() = default;
+};
+
+/// A robot as one client sees it. All calls return at once; the answer comes through the reply.
+class RobotApi {
+ public:
+  RobotApi() = default;
+  RobotApi(const RobotApi&) = delete;
+  RobotApi& operator=(const RobotApi&) = delete;
+  virtual ~RobotApi() = default;
+
+  virtual void get_info(Reply<RobotInfo> reply) = 0;
+  virtual void get_status(Reply<RobotStatus> reply) = 0;
+  virtual void list_components(Reply<std::vector<ComponentInfo>> reply) = 0;
+  virtual void restart_component(const std::string& name, Reply<void> reply) = 0;
+
+  /// Answers at once; progress comes as Topic::kMission. Repeating a request with the id of the mission that runs
+  /// is accepted and changes nothing; another one while one runs is kBusy.
+  virtual void start_mission(const MissionRequest& request, Reply<MissionId> reply) = 0;
+  virtual void command_mission(MissionCommand command, Reply<void> reply) = 0;
+  /// The running mission or the last one.
+  virtual void get_mission(Reply<MissionStatus> reply) = 0;
+
+  /// Ends mission and motion. Needs no lease.
+  virtual void stop(Reply<void> reply) = 0;
+  /// Latches until released on purpose. Needs no lease.
+  virtual void set_estop(bool engaged, Reply<void> reply) = 0;
+  virtual void command_lease(LeaseAction action, Reply<LeaseState> reply) = 0;
+  virtual void drive(const DriveCommand& command, Reply<void> reply) = 0;
+
+  /// Tiles changed since `revision` (0: all of them).
+  virtual void get_tiles(std::uint64_t since_revision, Reply<TileUpdate> reply) = 0;
+  virtual void get_grid(Reply<GridReport> reply) = 0;
+  virtual void get_detections(Reply<std::vector<Detection>> reply) = 0;
+  /// Poses of the robot since it was started, thinned, in the frame `map`.
+  virtual void get_trajectory(Reply<std::vector<Pose2>> reply) = 0;
+  virtual void grab_image(const std::string& camera, Reply<ImageFrame> reply) = 0;
+
+  [[nodiscard]] virtual Result<std::unique_ptr<Subscription>> subscribe(const std::vector<TopicRequest>& topics,
+                                                                        UpdateSink sink) = 0;
+};
+
+enum class Role : std::uint8_t { kObserver, kOperator, kAdmin };
+
+/// Who is on the other end of a session.
+struct Caller {
+  std::string client_name;  ///< program and instance, stable over reconnects
+  Role role = Role::kOperator;
+  friend bool operator==(const Caller&, const Caller&) = default;
+};
+
+/// The robot as the network sees it: opens one RobotApi per client and hears when a client is lost.
+class RobotHost {
+ public:
+  RobotHost() = default;
+  RobotHost(const RobotHost&) = delete;
+  RobotHost& operator=(const RobotHost&) = delete;
+  virtual ~RobotHost() = default;
+
+  [[nodiscard]] virtual std::shared_ptr<RobotApi> open(const Caller& caller) = 0;
+  /// The client said goodbye.
+  virtual void closed(const Caller& caller) = 0;
+  /// The client is silent or its connection broke; link policies apply. A later open() with the same name undoes it.
+  virtual void lost(const Caller& caller, const std::string& why) = 0;
+};
+
+}  // namespace seeker::api

@@ -1,0 +1,135 @@
+/// \file
+/// The robot's own state as values.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/api/mission.hpp"
+#include "common/core/occupancy_tile.hpp"
+#include "common/core/pose_estimate.hpp"
+#include "common/core/scan.hpp"
+
+namespace seeker::api {
+
+inline constexpr std::uint32_t kProtocolMajor = 1;
+inline constexpr std::uint32_t kProtocolMinor = 0;
+
+/// Who the robot is: answered before anything else.
+struct RobotInfo {
+  std::string robot_id;  ///< [a-z0-9-]{1,32}
+  std::string software_version;
+  std::uint32_t protocol_major = kProtocolMajor;
+  std::uint32_t protocol_minor = kProtocolMinor;
+  std::vector<std::string> capabilities;  ///< "search", "goto", "lidar", "camera:omni", ...
+  double robot_radius_m = 0.0;
+  bool realtime = true;  ///< false in lockstep at another speed than 1
+
+  friend bool operator==(const RobotInfo&, const RobotInfo&) = default;
+};
+
+enum class ComponentState : std::uint8_t { kCreated, kInactive, kActive, kError };
+[[nodiscard]] std::string_view to_string(ComponentState state);
+
+/// A part of the robot: registered by name, with a lifecycle (spec S4.9).
+struct ComponentInfo {
+  std::string name;
+  std::string kind;  ///< "driver", "estimator", "behaviour", "recogniser", ...
+  std::string type;  ///< "sim", "replay", "scan_match", ...
+  ComponentState state = ComponentState::kCreated;
+  double rate_hz = 0.0;  ///< outputs per second of robot time, over the last seconds
+  std::string last_error;
+
+  friend bool operator==(const ComponentInfo&, const ComponentInfo&) = default;
+};
+
+enum class Severity : std::uint8_t { kInfo, kWarning, kError, kCritical };
+[[nodiscard]] std::string_view to_string(Severity severity);
+
+/// Something is wrong now. It goes away when its cause does.
+struct Fault {
+  std::string id;  ///< stable, e.g. "sonar-silent"
+  std::string component;
+  Severity severity = Severity::kError;
+  RobotTime onset;
+  std::string message;
+  std::string remedy;
+
+  friend bool operator==(const Fault&, const Fault&) = default;
+};
+
+/// Who may command motion.
+struct LeaseState {
+  std::string owner;         ///< client name; empty: nobody
+  std::uint64_t epoch = 0;   ///< rises with every change of owner
+  std::string requested_by;  ///< somebody asks the owner for the lease
+
+  friend bool operator==(const LeaseState&, const LeaseState&) = default;
+};
+
+enum class LeaseAction : std::uint8_t { kAcquire, kRequest, kGrant, kDeny, kTakeOver, kRelease };
+
+struct RobotStatus {
+  RobotTime stamp;
+  PoseEstimate pose;
+  Pose2 odom_T_base;
+  Twist2 velocity;
+  std::optional<double> battery_v;  ///< absent where the base does not tell
+  bool estop = false;               ///< latched emergency stop
+  bool motors_armed = false;
+  LeaseState lease;
+  std::optional<MissionStatus> mission;  ///< running, paused or the last one
+  std::vector<Fault> faults;
+  std::string safety;        ///< why the last command was clamped or refused; empty when it was not
+  double clock_speed = 1.0;  ///< robot seconds per wall second asked for; 0: as fast as possible
+  std::uint64_t map_revision = 0;
+
+  friend bool operator==(const RobotStatus&, const RobotStatus&) = default;
+};
+
+/// A log entry of a mission or of the robot. Mission events are stamped from the mission's start.
+struct Event {
+  std::uint64_t sequence = 0;
+  RobotTime stamp;
+  std::optional<Duration> mission_time;
+  MissionId mission;  ///< empty: not part of a mission
+  Severity severity = Severity::kInfo;
+  std::string kind;  ///< stable word, e.g. "cell-searched", "target-found", "link-lost"
+  std::string text;
+
+  friend bool operator==(const Event&, const Event&) = default;
+};
+
+struct ImageFrame {
+  std::string camera;
+  CameraFrame frame;
+  Pose2 map_T_base;
+
+  friend bool operator==(const ImageFrame&, const ImageFrame&) = default;
+};
+
+/// A velocity for as long as `ttl` only; the robot stops when no newer one came.
+struct DriveCommand {
+  Twist2 velocity;
+  Duration ttl = std::chrono::milliseconds(300);
+  std::uint64_t lease_epoch = 0;
+
+  friend bool operator==(const DriveCommand&, const DriveCommand&) = default;
+};
+/// A longer life would defeat the purpose of a perishable command.
+inline constexpr Duration kMaxDriveTtl = std::chrono::seconds(1);
+
+/// Tiles changed since a revision.
+struct TileUpdate {
+  std::uint64_t revision = 0;  ///< of the whole map; ask for changes since it next time
+  std::uint32_t map_epoch = 0;
+  std::vector<OccupancyTile> tiles;
+
+  friend bool operator==(const TileUpdate&, const TileUpdate&) = default;
+};
+
+}  // namespace seeker::api

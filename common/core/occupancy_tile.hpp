@@ -1,0 +1,32 @@
+/// \file
+/// Occupancy travels and is stored in square tiles, so that a growing map is never sent whole twice.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/core/grid.hpp"
+
+namespace seeker {
+
+inline constexpr int kTileSide_cells = 64;
+inline constexpr double kTileResolution_m = 0.05;
+inline constexpr std::uint8_t kUnknownCell = 255;
+inline constexpr std::uint8_t kOccupiedCell = 254;  ///< probability 1
+
+/// Tile (i, j): row-major, row 0 at the lowest y, lower-left corner at (i, j) * 64 * 0.05 m in the frame `map`.
+/// A cell holds probability of occupied * 254, or kUnknownCell.
+struct OccupancyTile {
+  CellIndex index;
+  std::uint64_t revision = 0;  ///< of the map at the tile's last change; rises only
+  std::array<std::uint8_t, static_cast<std::size_t>(kTileSide_cells) * kTileSide_cells> cells{};
+
+  friend bool operator==(const OccupancyTile&, const OccupancyTile&) = default;
+};
+
+/// The tiles pasted into one grid that just holds them; nothing for an empty list.
+[[nodiscard]] std::optional<Grid<std::uint8_t>> assemble(const std::vector<OccupancyTile>& tiles);
+
+}  // namespace seeker

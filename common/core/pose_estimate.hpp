@@ -1,0 +1,31 @@
+/// \file
+/// Where the robot believes it is, and how much it believes it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "common/core/pose2.hpp"
+#include "common/core/time.hpp"
+
+namespace seeker {
+
+/// One enum for the quality of localisation, everywhere.
+enum class LocalisationQuality : std::uint8_t { kUnknown, kLocalised, kDegraded, kLost };
+
+[[nodiscard]] std::string_view to_string(LocalisationQuality quality);
+
+/// Result of an estimator. `covariance` is that of (x, y, theta) in m and rad, expressed in the frame `map`.
+struct PoseEstimate {
+  RobotTime stamp;
+  Pose2 map_T_base;
+  Matrix3 covariance = Matrix3::Zero();
+  LocalisationQuality quality = LocalisationQuality::kUnknown;
+  std::string cause;            ///< why it is not kLocalised; empty otherwise
+  std::uint32_t map_epoch = 0;  ///< rises when a loop closure or a merge moves the map
+
+  friend bool operator==(const PoseEstimate&, const PoseEstimate&) = default;
+};
+
+}  // namespace seeker

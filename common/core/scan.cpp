@@ -1,0 +1,53 @@
+#include "common/core/scan.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace seeker {
+
+Status validate(const LaserScan& scan) {
+  if (scan.ranges_m.size() > kMaxScanBeams) {
+    return fail(Errc::kTooLarge, "a laser scan of " + std::to_string(scan.ranges_m.size()) +
+                                     " beams is over the limit of " + std::to_string(kMaxScanBeams));
+  }
+  if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_step_rad) || scan.angle_step_rad == 0.0) {
+    return fail(Errc::kInvalidArgument, "the laser scan has no valid first angle and angle step");
+  }
+  if (!scan.quality.empty() && scan.quality.size() != scan.ranges_m.size()) {
+    return fail(Errc::kInvalidArgument, "the laser scan has " + std::to_string(scan.quality.size()) +
+                                            " quality values for " + std::to_string(scan.ranges_m.size()) + " beams");
+  }
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (std::isnan(scan.ranges_m[i]) || scan.ranges_m[i] < 0.0F) {
+      return fail(
+          Errc::kInvalidArgument,
+          "beam " + std::to_string(i) + " of the laser scan is negative or not a number; check the laser's driver");
+    }
+  }
+  return {};
+}
+
+std::vector<Point2> points_in_base(const LaserScan& scan) {
+  std::vector<Point2> points;
+  points.reserve(scan.ranges_m.size());
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double range = scan.ranges_m[i];
+    if (std::isfinite(range) && range >= scan.range_min_m && range <= scan.range_max_m) {
+      const double angle = scan.angle_rad(i);
+      points.push_back(scan.base_T_laser * Point2(range * std::cos(angle), range * std::sin(angle)));
+    }
+  }
+  return points;
+}
+
+Status validate(const SonarScan& scan) {
+  for (std::size_t i = 0; i < scan.readings.size(); ++i) {
+    if (std::isnan(scan.readings[i].range_m) || scan.readings[i].range_m < 0.0F) {
+      return fail(Errc::kInvalidArgument,
+                  "sonar " + std::to_string(i) + " is negative or not a number; check the sonar board and its cable");
+    }
+  }
+  return {};
+}
+
+}  // namespace seeker

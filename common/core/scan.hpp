@@ -1,0 +1,64 @@
+/// \file
+/// Readings of range sensors as values. "No return" is +infinity, never zero and never NaN: a driver translates its
+/// device's codes, so that algorithms test std::isfinite() only.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "common/core/result.hpp"
+#include "common/core/time.hpp"
+
+namespace seeker {
+
+inline constexpr float kNoReturn = std::numeric_limits<float>::infinity();
+/// Largest number of beams accepted from any device, file or peer.
+inline constexpr std::size_t kMaxScanBeams = 8192;
+
+/// One sweep of a planar laser scanner. Beam i points to `angle_min_rad + i * angle_step_rad` in the frame `laser`;
+/// a negative step is a scanner that turns clockwise.
+struct LaserScan {
+  RobotTime stamp;
+  double angle_min_rad = 0.0;
+  double angle_step_rad = 0.0;
+  double range_min_m = 0.0;
+  double range_max_m = 0.0;
+  Pose2 base_T_laser;
+  std::vector<float> ranges_m;        ///< kNoReturn where nothing came back
+  std::vector<std::uint8_t> quality;  ///< empty, or one value per beam; higher is better, 0 unusable
+
+  [[nodiscard]] double angle_rad(std::size_t beam) const {
+    return angle_min_rad + static_cast<double>(beam) * angle_step_rad;
+  }
+  friend bool operator==(const LaserScan&, const LaserScan&) = default;
+};
+
+/// Refuses what no estimator may see: NaN, negative ranges, no angle step, more beams than kMaxScanBeams.
+[[nodiscard]] Status validate(const LaserScan& scan);
+
+/// Valid returns as points in the frame `base`.
+[[nodiscard]] std::vector<Point2> points_in_base(const LaserScan& scan);
+
+/// One ultrasonic transducer: where it sits on the base and what it read.
+struct SonarReading {
+  Pose2 base_T_sonar;  ///< x axis of the sonar = axis of its cone
+  float range_m = kNoReturn;
+
+  friend bool operator==(const SonarReading&, const SonarReading&) = default;
+};
+
+/// The newest reading of every transducer of a ring, in the ring's order.
+struct SonarScan {
+  RobotTime stamp;
+  double range_max_m = 0.0;
+  double cone_half_angle_rad = 0.0;
+  std::vector<SonarReading> readings;
+
+  friend bool operator==(const SonarScan&, const SonarScan&) = default;
+};
+
+[[nodiscard]] Status validate(const SonarScan& scan);
+
+}  // namespace seeker
