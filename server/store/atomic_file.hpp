@@ -1,0 +1,27 @@
+/// \file
+/// Files that are either whole or as they were: written under a temporary name, synced, renamed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/core/result.hpp"
+
+namespace seeker::store {
+
+/// Replaces or creates `path` with `bytes`, on the disk when it returns. The temporary file lies beside it and is
+/// removed on failure; `path` then still has its old content. kIo: full disk, no permission, no such folder.
+[[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+[[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// The whole file. kNotFound: none there; kTooLarge: longer than `limit_bytes`.
+[[nodiscard]] Result<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);
+
+/// Makes a rename or a new file in `folder` survive a power cut.
+[[nodiscard]] Status sync_folder(const std::filesystem::path& folder);
+
+}  // namespace seeker::store
