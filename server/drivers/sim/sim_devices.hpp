@@ -1,0 +1,135 @@
+/// \file
+/// The simulated robot behind the driver interfaces: the loop cannot tell it from hardware.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "server/drivers/interfaces/drivers.hpp"
+#include "server/sim/simulation.hpp"
+
+namespace seeker::drivers {
+
+/// Faults that can be switched on and off while the robot runs, to test what it does about them.
+struct SimFaults {
+  bool base_silent = false;
+  bool lidar_silent = false;
+  bool sonar_silent = false;  ///< no sonar scan any more
+  int sonar_nan = -1;         ///< this transducer reads NaN; -1: none
+  bool camera_dead = false;   ///< grab() fails
+};
+
+/// Periods of the devices and the base's own safety.
+struct SimDeviceParams {
+  Duration base_period = std::chrono::milliseconds(100);
+  Duration lidar_period = std::chrono::milliseconds(100);
+  Duration sonar_period = std::chrono::milliseconds(100);
+  Duration command_timeout = std::chrono::milliseconds(500);  ///< the base halts when no newer command came
+};
+
+/// Wheels, encoders and battery. Motors are off until set_motors(true).
+class SimBase final : public BaseDriver {
+ public:
+  SimBase(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults,
+          const SimDeviceParams& params);
+  [[nodiscard]] Status activate() override;
+  void deactivate() override;
+  [[nodiscard]] Result<std::optional<OdometrySample>> read() override;
+  [[nodiscard]] Status set_velocity(const Twist2& velocity, RobotTime now) override;
+  [[nodiscard]] Status set_motors(bool enabled) override;
+
+  /// The clock calls this before the world advances by `period`: halts where the last command becomes too old.
+  void before_advance(Duration period);
+
+ private:
+  std::shared_ptr<sim::Simulation> simulation_;
+  std::shared_ptr<const SimFaults> faults_;
+  SimDeviceParams params_;
+  bool active_ = false;
+  bool motors_ = false;
+  bool moving_ = false;  ///< a command is in force
+  Pose2 odom_T_activation_;
+  std::optional<RobotTime> last_sample_;
+  RobotTime last_command_;
+};
+
+class SimLidar final : public LidarDriver {
+ public:
+  SimLidar(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults,
+           const SimDeviceParams& params);
+  [[nodiscard]] Status activate() override;
+  void deactivate() override;
+  [[nodiscard]] Result<std::optional<LaserScan>> read() override;
+
+ private:
+  std::shared_ptr<sim::Simulation> simulation_;
+  std::shared_ptr<const SimFaults> faults_;
+  Duration period_;
+  bool active_ = false;
+  std::optional<RobotTime> last_sample_;
+};
+
+class SimSonar final : public SonarDriver {
+ public:
+  SimSonar(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults,
+           const SimDeviceParams& params);
+  [[nodiscard]] Status activate() override;
+  void deactivate() override;
+  [[nodiscard]] Result<std::optional<SonarScan>> read() override;
+
+ private:
+  std::shared_ptr<sim::Simulation> simulation_;
+  std::shared_ptr<const SimFaults> faults_;
+  Duration period_;
+  bool active_ = false;
+  std::optional<RobotTime> last_sample_;
+};
+
+/// The omnidirectional camera.
+class SimCamera final : public CameraDriver {
+ public:
+  SimCamera(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults);
+  [[nodiscard]] Status activate() override;
+  void deactivate() override;
+  [[nodiscard]] Result<CameraFrame> grab() override;
+
+ private:
+  std::shared_ptr<sim::Simulation> simulation_;
+  std::shared_ptr<const SimFaults> faults_;
+  bool active_ = false;
+};
+
+/// Robot time of the simulated world. Speed 0: as fast as the machine can; otherwise paced by the wall clock.
+class LockstepClock final : public Clock {
+ public:
+  /// `base` may be null; otherwise it must outlive the clock.
+  LockstepClock(std::shared_ptr<sim::Simulation> simulation, SimBase* base, double speed);
+  [[nodiscard]] RobotTime now() const override;
+  [[nodiscard]] Status advance(Duration period) override;
+  [[nodiscard]] bool lockstep() const override { return true; }
+  [[nodiscard]] double speed() const override { return speed_; }
+
+ private:
+  std::shared_ptr<sim::Simulation> simulation_;
+  SimBase* base_;
+  double speed_;
+  std::optional<std::chrono::steady_clock::time_point> next_wake_;
+};
+
+/// A whole simulated robot. The clock refers to the base: destroy or keep them together.
+struct SimDevices {
+  std::shared_ptr<sim::Simulation> simulation;
+  std::shared_ptr<SimFaults> faults;  ///< set at run time from the loop's thread
+  std::unique_ptr<SimBase> base;
+  std::unique_ptr<SimLidar> lidar;
+  std::unique_ptr<SimSonar> sonar;
+  std::unique_ptr<SimCamera> camera;
+  std::unique_ptr<LockstepClock> clock;
+};
+
+/// Fails as Simulation::create does, or for a speed that is negative or not finite.
+[[nodiscard]] Result<SimDevices> make_sim_devices(sim::World world, sim::RobotModel model, std::uint64_t seed,
+                                                  double speed, const SimDeviceParams& params = {},
+                                                  std::size_t start = 0);
+
+}  // namespace seeker::drivers

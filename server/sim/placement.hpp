@@ -1,0 +1,32 @@
+/// \file
+/// Seeded placement of targets and starts, for experiments over many seeds.
+#pragma once
+
+#include <cstddef>
+
+#include "common/core/pose2.hpp"
+#include "common/core/result.hpp"
+#include "common/core/rng.hpp"
+#include "server/sim/world.hpp"
+
+namespace seeker::sim {
+
+struct PlacementParams {
+  double robot_radius_m = 0.30;     ///< the robot must be able to come near with this much room
+  double target_clearance_m = 0.5;  ///< centre of the target to anything else
+  double target_to_start_m = 2.0;   ///< at least this far from the start
+  double start_clearance_m = 0.45;  ///< centre of the robot to anything
+  double resolution_m = 0.1;        ///< of the raster that places are drawn from
+};
+
+/// Moves target `index` to a random place that the robot can come near to from the first start, with a random
+/// heading, and returns the new pose. kUnreachable: no such place. A poster (depth 0) is refused: it needs a wall.
+[[nodiscard]] Result<Pose2> place_target(World& world, std::size_t index, Rng& rng, const PlacementParams& params = {});
+
+/// Replaces the starts by one random pose in the floor that is connected to the first of them.
+[[nodiscard]] Result<Pose2> place_start(World& world, Rng& rng, const PlacementParams& params = {});
+
+/// Area of the floor that the centre of a robot of this radius can reach from the first start.
+[[nodiscard]] double reachable_area_m2(const World& world, double robot_radius_m, double resolution_m = 0.05);
+
+}  // namespace seeker::sim

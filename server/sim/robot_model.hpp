@@ -1,0 +1,104 @@
+/// \file
+/// The simulated robot: a Pioneer 3-DX with a laser scanner, a sonar ring and an omnidirectional camera. The numbers
+/// are those of the hardware, with its errors: the simulator must not flatter (design.md 8).
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "common/core/angle.hpp"
+#include "common/core/pose2.hpp"
+#include "common/core/result.hpp"
+
+namespace seeker::sim {
+
+/// What the wheel encoders get wrong. Random parts grow with the square root of the way, as a random walk.
+struct OdometryModel {
+  double sigma_distance = 0.010;           ///< m per sqrt(m) driven, along the way
+  double sigma_turn = 0.015;               ///< rad per sqrt(rad) turned
+  double sigma_turn_per_distance = 0.010;  ///< rad per sqrt(m) driven
+  double left_wheel_scale = 1.002;         ///< measured / true distance of the left wheel
+  double right_wheel_scale = 0.999;        ///< the wheels are not equal
+  double wheel_base_scale = 1.006;         ///< assumed / true distance of the wheels
+};
+
+/// A SICK LMS200 (180 deg, 0.5 deg, 8 m).
+struct LidarModel {
+  int beams = 361;
+  double angle_min_rad = -std::numbers::pi / 2.0;
+  double angle_step_rad = std::numbers::pi / 360.0;
+  double range_min_m = 0.05;
+  double range_max_m = 8.0;
+  Pose2 base_T_laser{0.021, 0.0, 0.0};
+  double height_m = 0.30;
+  double sigma_range_m = 0.010;
+  double sigma_bearing_rad = 0.0008;
+  double quantisation_m = 0.001;
+  double dropout = 0.002;                         ///< probability that a beam returns nothing
+  double grazing_rad = deg_to_rad(80.0);          ///< from this incidence on returns get lost ...
+  double grazing_certain_rad = deg_to_rad(88.0);  ///< ... and from here on all are
+};
+
+/// The front ring of a Pioneer 3-DX (protocols.md 1.8).
+struct SonarModel {
+  std::vector<Pose2> base_T_sonar = {
+      {0.069, 0.136, deg_to_rad(90.0)},   {0.114, 0.119, deg_to_rad(50.0)},   {0.148, 0.078, deg_to_rad(30.0)},
+      {0.166, 0.027, deg_to_rad(10.0)},   {0.166, -0.027, deg_to_rad(-10.0)}, {0.148, -0.078, deg_to_rad(-30.0)},
+      {0.114, -0.119, deg_to_rad(-50.0)}, {0.069, -0.136, deg_to_rad(-90.0)},
+  };
+  double height_m = 0.20;
+  double cone_half_angle_rad = deg_to_rad(15.0);
+  int rays = 15;  ///< over the cone
+  double range_min_m = 0.15;
+  double range_max_m = 5.0;
+  double sigma_m = 0.005;                  ///< constant part
+  double sigma_relative = 0.006;           ///< part that grows with the range
+  double specular_rad = deg_to_rad(25.0);  ///< beyond this incidence the echo goes elsewhere, corners apart
+  double corner_m = 0.04;                  ///< an edge or corner this near to the hit sends an echo back
+  double cross_talk = 0.002;               ///< probability of an echo of another transducer
+  double dropout = 0.003;
+};
+
+/// Camera below a hyperbolic mirror. Radius in the picture of a ray of elevation e (0 = horizon, up positive):
+/// `gain_px cos e / (shape - sin e)`: straight down in the middle, the horizon and what is above it towards the rim.
+struct OmniModel {
+  int width_px = 640;
+  int height_px = 480;
+  double centre_u_px = 315.0;  ///< spec S3.5
+  double centre_v_px = 240.0;
+  double rim_px = 235.0;  ///< outside the mirror the picture is black
+  double shape = 1.1;
+  double gain_px = 190.0;
+  Pose2 base_T_camera{0.0, 0.0, deg_to_rad(1.0)};  ///< mounted with an error of a degree (spec S3.5), never told
+  double height_m = 0.60;                          ///< of the mirror's focus over the floor
+  double hood_px = 34.0;                           ///< radius of the camera's own reflection
+  double noise_sigma = 2.0;                        ///< grey values
+  double shot_noise = 0.12;                        ///< grey values per sqrt(grey value)
+  double blur_sigma_px = 0.6;
+  double vignetting = 0.22;  ///< loss of light at the rim
+};
+
+struct RobotModel {
+  double radius_m = 0.26;  ///< spec S3.3
+  double body_height_m = 0.65;
+  double deck_height_m = 0.28;  ///< what the camera sees of the robot itself
+  double wheel_base_m = 0.357;
+  double v_max_m_s = 0.75;
+  double omega_max_rad_s = deg_to_rad(100.0);
+  double acceleration_m_s2 = 0.3;
+  double angular_acceleration_rad_s2 = deg_to_rad(100.0);
+  double battery_v = 12.8;
+  double battery_drain_v_per_h = 0.35;
+  OdometryModel odometry;
+  LidarModel lidar;
+  SonarModel sonar;
+  OmniModel omni;
+};
+
+/// Refuses what cannot be simulated: not finite, not positive, more than kMaxScanBeams beams.
+[[nodiscard]] Status validate(const RobotModel& model);
+
+/// The same robot with every error switched off: for tests of geometry.
+[[nodiscard]] RobotModel without_errors(RobotModel model);
+
+}  // namespace seeker::sim
