@@ -1,0 +1,68 @@
+/// \file
+/// Parameters of the recognisers (spec S3.4 [J values]).
+#pragma once
+
+#include <optional>
+
+#include "common/core/angle.hpp"
+#include "server/vision/omni_camera.hpp"
+
+namespace seeker::vision {
+
+/// Where pictures come from.
+struct ViewParams {
+  /// Set: pictures of this omnidirectional camera, searched in its cylindrical panorama. Unset: plain photographs.
+  std::optional<OmniCameraParams> omni;
+  double photo_fov_rad = deg_to_rad(62.8);  ///< horizontal field of view of plain photographs
+  double panorama_scale = 1.0;              ///< columns of the panorama per pixel of the horizon circle
+  double min_elevation_rad = -0.70;         ///< the panorama's lower edge
+
+  friend bool operator==(const ViewParams&, const ViewParams&) = default;
+};
+
+/// Dynamic template matching, spec S3.4.
+struct TemplateParams {
+  double stretch_low = 0.01;  ///< percentiles of the contrast stretch
+  double stretch_high = 0.99;
+  double min_area = 0.0005;  ///< of the picture, region
+  double max_area = 0.20;
+  double aspect_tolerance = 0.25;  ///< relative
+  double accept_ncc = 0.70;
+  double accept_gradient_ncc = 0.45;  ///< gradient check; 0 switches it off
+  double position_jitter_px = 2.0;
+  double scale_jitter = 0.10;
+  double min_contrast = 6.0;        ///< standard deviation of a candidate, grey levels
+  int adaptive_block_px = 41;       ///< side of the local threshold's window, odd
+  double adaptive_offset = 6.0;     ///< grey levels from the local mean
+  bool extra_binarisations = true;  ///< beside Otsu's: Otsu within each class, local mean
+  bool inner_anchors = true;        ///< also place the target by the regions inside its picture
+
+  friend bool operator==(const TemplateParams&, const TemplateParams&) = default;
+};
+
+/// SIFT and homography.
+struct FeatureParams {
+  int max_features = 1000;           ///< in the scene
+  double contrast_threshold = 0.04;  ///< of SIFT; halved up to twice while fewer than wanted_features are found
+  int wanted_features = 300;
+  double ratio = 0.8;            ///< best to second-best descriptor distance
+  double reprojection_px = 3.0;  ///< RANSAC's and the recount's inlier distance
+  int min_inliers = 12;
+  double min_inlier_share = 0.25;  ///< of the mutual matches
+  double max_scale_change = 8.0;   ///< side ratio between target picture and sighting, either way
+
+  friend bool operator==(const FeatureParams&, const FeatureParams&) = default;
+};
+
+struct RecogniserParams {
+  ViewParams view;
+  TemplateParams templates;
+  FeatureParams features;
+
+  friend bool operator==(const RecogniserParams&, const RecogniserParams&) = default;
+};
+
+/// kInvalidArgument with the field's name.
+[[nodiscard]] Status validate(const RecogniserParams& params);
+
+}  // namespace seeker::vision
