@@ -1,0 +1,110 @@
+/// \file
+/// A robot over the network: RobotApi over one connection that is kept up and made again.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/api/robot_api.hpp"
+#include "common/rpc/endpoint.hpp"
+
+namespace seeker::rpc {
+
+/// State of the link as the client sees it.
+enum class LinkState : std::uint8_t {
+  kConnected,  ///< hello was exchanged; calls and streams work
+  kStale,      ///< nothing was heard for longer than a heartbeat: what is shown may be old
+  kLost,       ///< the connection broke or is silent; the client tries again if allowed to
+  kClosed,     ///< for good: closed by us, refused by the robot, or out of attempts
+};
+[[nodiscard]] std::string_view to_string(LinkState state);
+
+/// A change of the link, told on the client's thread.
+struct LinkEvent {
+  LinkState state = LinkState::kConnected;
+  std::string why;               ///< cause and remedy for people; empty when connected for the first time
+  bool robot_restarted = false;  ///< connected again, to another run of the robot: its streams count from 1 again
+};
+
+struct ReconnectParams {
+  bool enabled = true;
+  Duration first_delay = std::chrono::milliseconds(100);  ///< wall time before the first attempt
+  Duration max_delay = std::chrono::seconds(5);           ///< the delay doubles up to this
+};
+
+/// All times are wall time.
+struct ClientParams {
+  std::string client_name = "seeker";     ///< program and instance, stable over reconnects; printable ASCII, no spaces
+  std::string robot_id;                   ///< refuse any other robot; empty: any
+  api::Role role = api::Role::kOperator;  ///< asked for; see RobotClient::role()
+  Duration connect_timeout = std::chrono::seconds(3);  ///< for address look-up, connection and hello together
+  Duration call_timeout = std::chrono::seconds(5);
+  Duration heartbeat = std::chrono::seconds(1);  ///< send at least this often; stale after 1.5, lost after 3 of them
+  ReconnectParams reconnect;
+  std::function<void(const LinkEvent&)> on_link;  ///< on the client's thread; must not block
+};
+
+/// Estimate of the offset between the robot's and this machine's clock, from the exchange with the shortest way.
+struct TimeSync {
+  Duration robot_minus_local = Duration::zero();  ///< robot time = local steady clock + this
+  Duration round_trip = Duration::zero();
+  bool realtime = true;  ///< false: robot time does not run with the wall clock, the offset says nothing
+};
+
+/// RobotApi over TCP. Calls may come from any thread; replies, sinks and link events are called on the client's own
+/// thread and must not block or wait for another call. A call ends with kTimeout when no answer came in time and with
+/// kLinkLost when the connection broke while it was open (it may or may not have been carried out).
+///
+/// Subscriptions survive a reconnect: RELIABLE topics resume after the last item that was delivered, so that nothing
+/// is lost or delivered twice; where the robot no longer keeps the items, Update::dropped tells how many are missing.
+class RobotClient final : public api::RobotApi {
+ public:
+  /// Connects and exchanges hello; waits at most `connect_timeout`. Errors: kLinkLost (nobody answers there),
+  /// kTimeout, kUnsupportedVersion, kRefused, kBusy, kNotFound (another robot), kInvalidArgument (name).
+  [[nodiscard]] static Result<std::shared_ptr<RobotClient>> connect(const Endpoint& endpoint, ClientParams params);
+  /// Says goodbye: link policies of missions do not apply.
+  ~RobotClient() override;
+
+  /// As told in hello, without asking again.
+  [[nodiscard]] api::RobotInfo robot() const;
+  /// Granted by the robot.
+  [[nodiscard]] api::Role role() const;
+  [[nodiscard]] LinkState link() const;
+  /// Says goodbye and ends all calls with kCancelled. Harmless when repeated.
+  void close();
+  /// Compares the clocks once; the best estimate so far is the answer.
+  void sync_time(api::Reply<TimeSync> reply);
+
+  void get_info(api::Reply<api::RobotInfo> reply) override;
+  void get_status(api::Reply<api::RobotStatus> reply) override;
+  void list_components(api::Reply<std::vector<api::ComponentInfo>> reply) override;
+  void restart_component(const std::string& name, api::Reply<void> reply) override;
+  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override;
+  void command_mission(api::MissionCommand command, api::Reply<void> reply) override;
+  void get_mission(api::Reply<api::MissionStatus> reply) override;
+  void stop(api::Reply<void> reply) override;
+  void set_estop(bool engaged, api::Reply<void> reply) override;
+  void command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) override;
+  void drive(const api::DriveCommand& command, api::Reply<void> reply) override;
+  void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override;
+  void get_grid(api::Reply<api::GridReport> reply) override;
+  void get_detections(api::Reply<std::vector<api::Detection>> reply) override;
+  void get_trajectory(api::Reply<std::vector<Pose2>> reply) override;
+  void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override;
+  /// Returns at once. Fails (kInvalidArgument) for an empty list, a topic named twice or a negative rate.
+  [[nodiscard]] Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
+                                                                     api::UpdateSink sink) override;
+
+ private:
+  class Impl;
+  explicit RobotClient(std::shared_ptr<Impl> impl);
+  std::shared_ptr<Impl> impl_;
+};
+
+}  // namespace seeker::rpc

@@ -1,0 +1,359 @@
+#include "tests/support/fake_robot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <utility>
+
+namespace seeker::testing {
+
+struct FakeRobotHost::Shared {
+  struct Subscriber {
+    std::vector<api::Topic> topics;
+    api::UpdateSink sink;
+  };
+
+  std::mutex mutex;
+  FakeRobotValues values = default_fake_values();
+  bool hold = false;
+  std::vector<std::function<void()>> held;
+  /// Serialises deliveries, so that updates arrive in order and none arrives after the end of a subscription.
+  std::recursive_mutex delivery;
+  std::uint64_t next_subscriber = 1;
+  std::map<std::uint64_t, Subscriber> subscribers;
+  std::array<std::uint64_t, api::kTopicCount> sequences{};
+
+  template <class T>
+  void answer(const api::Reply<T>& reply, Result<T> result) {
+    {
+      const std::lock_guard lock(mutex);
+      if (values.failure) {
+        result = tl::unexpected<Error>(*values.failure);
+      }
+      if (hold) {
+        held.emplace_back([reply, result] { reply(result); });
+        return;
+      }
+    }
+    reply(std::move(result));
+  }
+};
+
+/// The robot as one caller sees it.
+class FakeRobot final : public api::RobotApi {
+ public:
+  FakeRobot(std::shared_ptr<FakeRobotHost::Shared> shared, api::Caller caller)
+      : shared_(std::move(shared)), caller_(std::move(caller)) {}
+
+  void get_info(api::Reply<api::RobotInfo> reply) override {
+    read<api::RobotInfo>("get_info", reply, [](const FakeRobotValues& v) { return v.info; });
+  }
+  void get_status(api::Reply<api::RobotStatus> reply) override {
+    read<api::RobotStatus>("get_status", reply, [](const FakeRobotValues& v) {
+      api::RobotStatus status = v.status;
+      status.lease = v.lease;
+      status.estop = v.estop;
+      status.mission = v.mission;
+      return status;
+    });
+  }
+  void list_components(api::Reply<std::vector<api::ComponentInfo>> reply) override {
+    read<std::vector<api::ComponentInfo>>("list_components", reply,
+                                          [](const FakeRobotValues& v) { return v.components; });
+  }
+  void restart_component(const std::string& name, api::Reply<void> reply) override {
+    change("restart_component " + name, reply, [&](FakeRobotValues& v) -> Status {
+      const bool known = std::any_of(v.components.begin(), v.components.end(),
+                                     [&](const api::ComponentInfo& c) { return c.name == name; });
+      return known ? Status{} : fail(Errc::kNotFound, "no component '" + name + "'; seeker components lists them");
+    });
+  }
+  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override {
+    Result<api::MissionId> result = request.id;
+    {
+      const std::lock_guard lock(shared_->mutex);
+      FakeRobotValues& v = shared_->values;
+      v.calls.push_back(caller_.client_name + " start_mission " + request.id);
+      if (const Status valid = api::validate(request); !valid) {
+        result = tl::unexpected<Error>(valid.error());
+      } else if (v.mission && !v.mission->end && v.mission->id != request.id) {
+        result = fail(Errc::kBusy, "mission '" + v.mission->id + "' runs; stop it first");
+      } else if (!v.mission || v.mission->id != request.id) {
+        v.missions.push_back(request);
+        v.mission = api::MissionStatus{};
+        v.mission->id = request.id;
+        v.mission->kind = std::string(api::task_name(request.task));
+        v.mission->phase = "cover";
+        v.mission->link_policy = request.link_policy;
+      }
+    }
+    shared_->answer(reply, std::move(result));
+  }
+  void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
+    change("command_mission", reply, [&](FakeRobotValues& v) -> Status {
+      if (!v.mission || v.mission->end) {
+        return fail(Errc::kNotFound, "no mission runs");
+      }
+      if (command == api::MissionCommand::kStop) {
+        end_mission(v);
+      } else {
+        v.mission->state =
+            command == api::MissionCommand::kPause ? api::MissionState::kPaused : api::MissionState::kRunning;
+      }
+      return {};
+    });
+  }
+  void get_mission(api::Reply<api::MissionStatus> reply) override {
+    read<api::MissionStatus>("get_mission", reply, [](const FakeRobotValues& v) -> Result<api::MissionStatus> {
+      if (!v.mission) {
+        return fail(Errc::kNotFound, "there was no mission since the robot started");
+      }
+      return *v.mission;
+    });
+  }
+  void stop(api::Reply<void> reply) override {
+    change("stop", reply, [](FakeRobotValues& v) -> Status {
+      if (v.mission && !v.mission->end) {
+        end_mission(v);
+      }
+      return {};
+    });
+  }
+  void set_estop(bool engaged, api::Reply<void> reply) override {
+    change(engaged ? "set_estop on" : "set_estop off", reply, [&](FakeRobotValues& v) -> Status {
+      v.estop = engaged;
+      return {};
+    });
+  }
+  void command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) override {
+    Result<api::LeaseState> result;
+    {
+      const std::lock_guard lock(shared_->mutex);
+      shared_->values.calls.push_back(caller_.client_name + " command_lease");
+      result = lease(shared_->values.lease, action);
+    }
+    shared_->answer(reply, std::move(result));
+  }
+  void drive(const api::DriveCommand& command, api::Reply<void> reply) override {
+    change("drive", reply, [&](FakeRobotValues& v) -> Status {
+      if (v.lease.owner != caller_.client_name || v.lease.epoch != command.lease_epoch) {
+        return fail(Errc::kRefused, "the lease belongs to '" + v.lease.owner + "'; acquire it first");
+      }
+      v.drives.push_back(command);
+      return {};
+    });
+  }
+  void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override {
+    read<api::TileUpdate>("get_tiles", reply, [&](const FakeRobotValues& v) {
+      api::TileUpdate update = v.tiles;
+      std::erase_if(update.tiles, [&](const OccupancyTile& tile) { return tile.revision <= since_revision; });
+      return update;
+    });
+  }
+  void get_grid(api::Reply<api::GridReport> reply) override {
+    read<api::GridReport>("get_grid", reply, [](const FakeRobotValues& v) { return v.grid; });
+  }
+  void get_detections(api::Reply<std::vector<api::Detection>> reply) override {
+    read<std::vector<api::Detection>>("get_detections", reply, [](const FakeRobotValues& v) { return v.detections; });
+  }
+  void get_trajectory(api::Reply<std::vector<Pose2>> reply) override {
+    read<std::vector<Pose2>>("get_trajectory", reply, [](const FakeRobotValues& v) { return v.trajectory; });
+  }
+  void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override {
+    read<api::ImageFrame>("grab_image " + camera, reply, [&](const FakeRobotValues& v) -> Result<api::ImageFrame> {
+      const auto found = v.cameras.find(camera);
+      if (found == v.cameras.end()) {
+        return fail(Errc::kNotFound, "no camera '" + camera + "'");
+      }
+      return found->second;
+    });
+  }
+  Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
+                                                       api::UpdateSink sink) override;
+
+ private:
+  template <class T, class Read>
+  void read(const std::string& call, const api::Reply<T>& reply, Read&& make) {
+    Result<T> result;
+    {
+      const std::lock_guard lock(shared_->mutex);
+      shared_->values.calls.push_back(caller_.client_name + " " + call);
+      result = make(shared_->values);
+    }
+    shared_->answer(reply, std::move(result));
+  }
+  template <class Change>
+  void change(const std::string& call, const api::Reply<void>& reply, Change&& apply) {
+    Status result;
+    {
+      const std::lock_guard lock(shared_->mutex);
+      shared_->values.calls.push_back(caller_.client_name + " " + call);
+      result = apply(shared_->values);
+    }
+    shared_->answer(reply, std::move(result));
+  }
+  static void end_mission(FakeRobotValues& v) {
+    v.mission->state = api::MissionState::kEnded;
+    v.mission->end = api::MissionEnd{api::Outcome::kOperator, "stopped by an operator", "", {}};
+  }
+  Result<api::LeaseState> lease(api::LeaseState& state, api::LeaseAction action) const;
+
+  std::shared_ptr<FakeRobotHost::Shared> shared_;
+  api::Caller caller_;
+};
+
+Result<api::LeaseState> FakeRobot::lease(api::LeaseState& state, api::LeaseAction action) const {
+  const std::string& me = caller_.client_name;
+  const auto hand_to = [&](const std::string& owner) {
+    state = {owner, state.epoch + 1, ""};
+    return state;
+  };
+  switch (action) {
+    case api::LeaseAction::kAcquire:
+      if (state.owner == me) {
+        return state;
+      }
+      if (!state.owner.empty()) {
+        return fail(Errc::kBusy, "'" + state.owner + "' holds the lease; request it or take it over");
+      }
+      return hand_to(me);
+    case api::LeaseAction::kTakeOver: return hand_to(me);
+    case api::LeaseAction::kRequest: state.requested_by = me; return state;
+    default: break;
+  }
+  if (state.owner != me) {
+    return fail(Errc::kRefused, "only the owner of the lease may do this");
+  }
+  if (action == api::LeaseAction::kRelease) {
+    return hand_to("");
+  }
+  if (action == api::LeaseAction::kGrant) {
+    return hand_to(state.requested_by);
+  }
+  state.requested_by.clear();
+  return state;
+}
+
+namespace {
+
+class FakeSubscription final : public api::Subscription {
+ public:
+  explicit FakeSubscription(std::function<void()> end) : end_(std::move(end)) {}
+  FakeSubscription(const FakeSubscription&) = delete;
+  FakeSubscription& operator=(const FakeSubscription&) = delete;
+  ~FakeSubscription() override { end_(); }
+
+ private:
+  std::function<void()> end_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<api::Subscription>> FakeRobot::subscribe(const std::vector<api::TopicRequest>& topics,
+                                                                api::UpdateSink sink) {
+  const std::lock_guard lock(shared_->delivery);
+  const std::uint64_t id = shared_->next_subscriber++;
+  auto& subscriber = shared_->subscribers[id];
+  for (const api::TopicRequest& request : topics) {
+    subscriber.topics.push_back(request.topic);
+  }
+  subscriber.sink = std::move(sink);
+  return std::make_unique<FakeSubscription>([shared = shared_, id] {
+    const std::lock_guard ending(shared->delivery);
+    shared->subscribers.erase(id);
+  });
+}
+
+FakeRobotHost::FakeRobotHost() : shared_(std::make_shared<Shared>()) {}
+FakeRobotHost::~FakeRobotHost() = default;
+
+std::shared_ptr<api::RobotApi> FakeRobotHost::open(const api::Caller& caller) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->values.opened.push_back(caller);
+  return std::make_shared<FakeRobot>(shared_, caller);
+}
+
+void FakeRobotHost::closed(const api::Caller& caller) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->values.closed.push_back(caller);
+}
+
+void FakeRobotHost::lost(const api::Caller& caller, const std::string& why) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->values.lost.emplace_back(caller, why);
+}
+
+FakeRobotValues FakeRobotHost::values() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->values;
+}
+
+void FakeRobotHost::edit(const std::function<void(FakeRobotValues&)>& change) {
+  const std::lock_guard lock(shared_->mutex);
+  change(shared_->values);
+}
+
+void FakeRobotHost::publish(api::Topic topic, RobotTime stamp, api::Payload payload) {
+  const std::lock_guard lock(shared_->delivery);
+  auto update = std::make_shared<api::Update>();
+  update->topic = topic;
+  update->sequence = ++shared_->sequences[static_cast<std::size_t>(topic)];
+  update->stamp = stamp;
+  update->payload = std::move(payload);
+  for (const auto& [id, subscriber] : shared_->subscribers) {
+    if (std::find(subscriber.topics.begin(), subscriber.topics.end(), topic) != subscriber.topics.end()) {
+      subscriber.sink(update);
+    }
+  }
+}
+
+void FakeRobotHost::hold_replies(bool hold) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->hold = hold;
+}
+
+void FakeRobotHost::release_replies() {
+  std::vector<std::function<void()>> held;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    held.swap(shared_->held);
+  }
+  for (const auto& reply : held) {
+    reply();
+  }
+}
+
+FakeRobotValues default_fake_values() {
+  FakeRobotValues v;
+  v.info.robot_id = "fake";
+  v.info.software_version = "0.1.0";
+  v.info.capabilities = {"search", "goto", "camera:omni"};
+  v.info.robot_radius_m = 0.25;
+  v.status.stamp = robot_time_s(1.0);
+  v.status.pose.map_T_base = {1.0, 2.0, 0.5};
+  v.status.pose.quality = LocalisationQuality::kLocalised;
+  v.components.push_back({"base", "driver", "fake", api::ComponentState::kActive, 10.0, ""});
+  v.tiles.revision = 4;
+  for (int k = 0; k < 4; ++k) {
+    OccupancyTile tile;
+    tile.index = {k % 2, k / 2};
+    tile.revision = static_cast<std::uint64_t>(k) + 1;
+    tile.cells.fill(static_cast<std::uint8_t>(k * 80));
+    v.tiles.tiles.push_back(tile);
+  }
+  api::Detection detection;
+  detection.id = 1;
+  detection.target = "exit-sign";
+  detection.score = 0.9;
+  detection.position = Point2(3.0, 4.0);
+  v.detections.push_back(detection);
+  v.trajectory = {{0.0, 0.0, 0.0}, {0.5, 0.0, 0.0}, {1.0, 2.0, 0.5}};
+  constexpr int kSide_px = 32;
+  api::ImageFrame frame;
+  frame.camera = "omni";
+  frame.frame.image = Image(kSide_px, kSide_px, 1, 128);
+  v.cameras.emplace("omni", frame);
+  return v;
+}
+
+}  // namespace seeker::testing

@@ -1,0 +1,70 @@
+/// \file
+/// A robot of values in memory, for tests of everything that talks to one.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/api/robot_api.hpp"
+
+namespace seeker::testing {
+
+/// What the fake robot answers and what it was asked. Change `values` through edit() while a server runs.
+struct FakeRobotValues {
+  api::RobotInfo info;
+  api::RobotStatus status;
+  std::vector<api::ComponentInfo> components;
+  std::optional<api::MissionStatus> mission;
+  api::TileUpdate tiles;
+  api::GridReport grid;
+  std::vector<api::Detection> detections;
+  std::vector<Pose2> trajectory;
+  std::map<std::string, api::ImageFrame> cameras;
+  api::LeaseState lease;
+  bool estop = false;
+  /// When set, every call fails with it.
+  std::optional<Error> failure;
+  /// Calls that arrived, in order, e.g. "operator-1 stop".
+  std::vector<std::string> calls;
+  std::vector<api::DriveCommand> drives;
+  std::vector<api::MissionRequest> missions;
+  std::vector<api::Caller> opened;
+  std::vector<api::Caller> closed;
+  std::vector<std::pair<api::Caller, std::string>> lost;
+};
+
+/// Robot id "fake", one component, one camera "omni", four tiles, one detection, a mission when one was started.
+[[nodiscard]] FakeRobotValues default_fake_values();
+
+/// All clients see the same robot. Every method may be called from any thread; replies come at once on the calling
+/// thread, unless hold_replies(true) keeps them back until release_replies().
+class FakeRobotHost : public api::RobotHost {
+ public:
+  FakeRobotHost();
+  ~FakeRobotHost() override;
+
+  [[nodiscard]] std::shared_ptr<api::RobotApi> open(const api::Caller& caller) override;
+  void closed(const api::Caller& caller) override;
+  void lost(const api::Caller& caller, const std::string& why) override;
+
+  /// A copy of the values as they are now.
+  [[nodiscard]] FakeRobotValues values() const;
+  void edit(const std::function<void(FakeRobotValues&)>& change);
+  /// Numbers the payload in its topic and hands it to all subscribers, on the calling thread.
+  void publish(api::Topic topic, RobotTime stamp, api::Payload payload);
+  void hold_replies(bool hold);
+  /// Answers everything that was held, on the calling thread.
+  void release_replies();
+
+ private:
+  friend class FakeRobot;
+  struct Shared;
+  std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace seeker::testing
