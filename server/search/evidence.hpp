@@ -1,0 +1,81 @@
+/// \file
+/// Proof of what was searched: per floor cell, the probability that the target would have been seen were it there.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "common/core/grid.hpp"
+#include "common/core/pose2.hpp"
+#include "server/search/hit_rate.hpp"
+#include "server/search/search_types.hpp"
+
+namespace seeker::search {
+
+struct EvidenceParams {
+  double cell_m = 0.2;
+  double threshold = 0.5;            ///< a cell at or above it counts as covered
+  double independent_after_m = 0.4;  ///< looks from nearer places are one look: only the best of them counts
+  double max_probability = 0.98;     ///< no number of looks proves more: a recogniser can fail for all of them alike
+  double min_gap_m2 = 0.04;          ///< smaller connected areas are not listed
+};
+
+/// Accumulates looks. Combination over independent places: P = 1 - prod(1 - p_k), where p_k is the best probability of
+/// all looks from place k. Monotone in looks and bounded by max_probability.
+class EvidenceGrid {
+ public:
+  explicit EvidenceGrid(const EvidenceParams& params = {}, const HitRate& rate = {});
+
+  /// Credits one picture taken from `camera_map` to every cell in range with line of sight through `occupancy` (cells
+  /// as in OccupancyTile; unknown and occupied cells hide what lies behind). `target_size_m`: the smallest of the
+  /// targets looked for. Returns the probability mass added, cells x probability.
+  double add_look(const Grid<std::uint8_t>& occupancy, const Point2& camera_map, double target_size_m);
+
+  /// What add_look would add within the cells of `wanted` (same cell size, 1 = count), without adding it.
+  [[nodiscard]] double expected_gain(const Grid<std::uint8_t>& occupancy, const Grid<std::uint8_t>& wanted,
+                                     const Point2& camera_map, double target_size_m) const;
+
+  /// Probability at a place; 0 where no look has been.
+  [[nodiscard]] double probability_at(const Point2& p_map) const { return probability(frame().cell_of(p_map)); }
+  /// The same by cell of frame().
+  [[nodiscard]] double probability(CellIndex cell) const;
+  /// Cells lie on multiples of cell_m, indices may be negative.
+  [[nodiscard]] GridFrame frame() const { return {Point2::Zero(), params_.cell_m}; }
+
+  /// Moves everything when a map epoch moved the map: `new_T_old` takes old map coordinates to new ones.
+  void transform(const Pose2& new_T_old);
+  void clear();
+
+  /// The certificate. `reachable`: grid of cell_m cells on multiples of cell_m, 1 = reachable floor (see
+  /// nav::reachable_floor). `excluded`: floor that would be reachable but is forbidden or could not be reached, with
+  /// the reason per cell; cells given no reason are ignored.
+  using ReasonOf = std::function<std::optional<std::string>(const Point2&)>;
+  [[nodiscard]] EvidenceReport report(const Grid<std::uint8_t>& reachable, const ReasonOf& reason_of) const;
+  /// Numbers only.
+  [[nodiscard]] CoverageSummary summary(const Grid<std::uint8_t>& reachable) const;
+
+  [[nodiscard]] const EvidenceParams& params() const { return params_; }
+  [[nodiscard]] const HitRate& hit_rate() const { return rate_; }
+
+ private:
+  /// Best probability per place that has seen the cell.
+  struct CellEvidence {
+    std::vector<std::pair<std::uint32_t, float>> by_place;
+  };
+  using Key = std::uint64_t;
+  [[nodiscard]] static Key key_of(CellIndex cell);
+  [[nodiscard]] std::uint32_t place_of(const Point2& camera_map) const;
+  [[nodiscard]] double combined(const CellEvidence& evidence) const;
+  [[nodiscard]] double combined_with(const CellEvidence* evidence, std::uint32_t place, double p) const;
+
+  EvidenceParams params_;
+  HitRate rate_;
+  std::vector<Point2> places_;
+  std::unordered_map<Key, CellEvidence> cells_;  ///< looked up only, never walked in an order that matters
+};
+
+}  // namespace seeker::search
