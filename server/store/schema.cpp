@@ -1,0 +1,102 @@
+#include "server/store/schema.hpp"
+
+#include <string>
+
+#include "server/store/store.hpp"
+
+namespace seeker::store {
+namespace {
+
+constexpr const char* kTables = R"sql(
+CREATE TABLE missions (
+  id TEXT PRIMARY KEY,
+  begun INTEGER NOT NULL,           -- rises with every mission begun: the order of missions over restarts
+  kind TEXT NOT NULL,
+  request BLOB NOT NULL,
+  started_ns INTEGER NOT NULL,
+  ended_ns INTEGER,                 -- NULL while the mission runs
+  outcome TEXT, cause TEXT, remedy TEXT
+) STRICT;
+CREATE UNIQUE INDEX missions_by_begun ON missions (begun);
+
+CREATE TABLE checkpoints (
+  mission TEXT PRIMARY KEY REFERENCES missions (id) ON DELETE CASCADE,
+  robot_time_ns INTEGER NOT NULL,
+  journal BLOB NOT NULL             -- zstd frame with checksum
+) STRICT;
+
+-- Without a reference to missions: an event outside a mission has the empty id.
+CREATE TABLE mission_events (
+  mission TEXT NOT NULL,
+  sequence INTEGER NOT NULL,
+  robot_time_ns INTEGER NOT NULL,
+  mission_time_ns INTEGER,
+  severity TEXT NOT NULL, kind TEXT NOT NULL, text TEXT NOT NULL,
+  PRIMARY KEY (mission, sequence)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE detections (
+  id INTEGER PRIMARY KEY,
+  mission TEXT NOT NULL,
+  target TEXT NOT NULL,
+  stamp_ns INTEGER NOT NULL,
+  data BLOB NOT NULL
+) STRICT;
+CREATE INDEX detections_by_mission ON detections (mission, id);
+
+CREATE TABLE settings (key TEXT PRIMARY KEY, value BLOB NOT NULL) STRICT, WITHOUT ROWID;
+)sql";
+
+Status check_structure(Database& database) {
+  const Result<std::string> verdict = database.query_text("PRAGMA quick_check(1)");
+  if (!verdict) {
+    return tl::unexpected(verdict.error());
+  }
+  if (*verdict != "ok") {
+    return fail(Errc::kCorrupt, "the state file is damaged (" + *verdict + ")");
+  }
+  return {};
+}
+
+Status create_tables(Database& database) {
+  Result<Transaction> transaction = Transaction::begin(database);
+  if (!transaction) {
+    return tl::unexpected(transaction.error());
+  }
+  const std::string marks = "PRAGMA application_id = " + std::to_string(kApplicationId) +
+                            "; PRAGMA user_version = " + std::to_string(kSchemaVersion) + ";";
+  if (Status ok = database.execute(kTables + marks); !ok) {
+    return ok;
+  }
+  return transaction->commit();
+}
+
+}  // namespace
+
+Status prepare_schema(Database& database) {
+  if (Status ok = check_structure(database); !ok) {
+    return ok;
+  }
+  const Result<std::int64_t> tables = database.query_integer("SELECT count(*) FROM sqlite_master");
+  const Result<std::int64_t> version = database.query_integer("PRAGMA user_version");
+  const Result<std::int64_t> application = database.query_integer("PRAGMA application_id");
+  for (const auto* value : {&tables, &version, &application}) {
+    if (!*value) {
+      return tl::unexpected(value->error());
+    }
+  }
+  if (*tables == 0 && *version == 0) {
+    return create_tables(database);
+  }
+  if (*application != kApplicationId) {
+    return fail(Errc::kInvalidArgument, "the file is a database of another program; choose another state folder");
+  }
+  if (*version > kSchemaVersion) {
+    return fail(Errc::kUnsupportedVersion, "the file has version " + std::to_string(*version) +
+                                               ", this program knows versions up to " + std::to_string(kSchemaVersion) +
+                                               "; update the program or choose another state folder");
+  }
+  return {};
+}
+
+}  // namespace seeker::store

@@ -1,0 +1,240 @@
+#include "server/store/store.hpp"
+
+#include <system_error>
+#include <utility>
+
+#include "server/store/atomic_file.hpp"
+#include "server/store/pack.hpp"
+#include "server/store/schema.hpp"
+#include "server/store/store_body.hpp"
+
+namespace seeker::store {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFileName = "seeker.db";
+constexpr const char* kMissionColumns =
+    "SELECT id, kind, request, started_ns, ended_ns, outcome, cause, remedy FROM missions ";
+
+/// Moves a damaged file out of the way, under the first free name; its log belongs to it.
+Result<fs::path> set_aside(const fs::path& file) {
+  for (int n = 1;; ++n) {
+    const fs::path kept = file.string() + ".damaged-" + std::to_string(n);
+    std::error_code error;
+    if (fs::exists(kept, error)) {
+      continue;
+    }
+    for (const char* part : {"-wal", "-shm", ""}) {
+      const fs::path from = file.string() + part;
+      if (fs::exists(from, error)) {
+        fs::rename(from, kept.string() + part, error);
+      }
+      if (error) {
+        return fail(Errc::kIo, "and cannot be moved to '" + kept.string() + "': " + error.message());
+      }
+    }
+    return kept;
+  }
+}
+
+tl::unexpected<Error> open_failure(const fs::path& file, const Error& cause) {
+  if (cause.code != Errc::kCorrupt) {
+    return fail_with_context("state file '" + file.string() + "'", cause);
+  }
+  const Result<fs::path> kept = set_aside(file);
+  return fail(Errc::kCorrupt,
+              cause.message + ": '" + file.string() + "' " +
+                  (kept ? "was moved to '" + kept->string() + "'; start again to begin with an empty one"
+                        : kept.error().message));
+}
+
+MissionRecord read_mission(const Statement& row) {
+  MissionRecord mission{row.text(0), row.text(1), row.blob(2), row.integer(3), std::nullopt};
+  if (!row.is_null(4)) {
+    mission.end = MissionEndRecord{row.integer(4), row.text(5), row.text(6), row.text(7)};
+  }
+  return mission;
+}
+
+Status remove_checkpoint(Database& database, const std::string& mission) {
+  Result<Statement> remove = database.prepare("DELETE FROM checkpoints WHERE mission = ?");
+  if (!remove) {
+    return tl::unexpected(remove.error());
+  }
+  return remove->bind(mission).run();
+}
+
+Result<std::optional<Checkpoint>> read_checkpoint(Database& database, const std::string& mission) {
+  Result<Statement> select = database.prepare("SELECT robot_time_ns, journal FROM checkpoints WHERE mission = ?");
+  if (!select) {
+    return tl::unexpected(select.error());
+  }
+  const Result<bool> row = select->bind(mission).step();
+  if (!row) {
+    return tl::unexpected(row.error());
+  }
+  if (!*row) {
+    return std::nullopt;
+  }
+  Result<Blob> journal = unpack(select->blob(1), kMaxBlob_bytes);
+  if (!journal) {
+    return fail_with_context("checkpoint of mission '" + mission + "'", journal.error());
+  }
+  return Checkpoint{select->integer(0), std::move(*journal)};
+}
+
+}  // namespace
+
+Store::Store(std::unique_ptr<Body> body) : body_(std::move(body)) {}
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+Store::~Store() = default;
+
+Result<Store> Store::open(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error)) {
+    return fail(Errc::kIo, "the state folder '" + folder.string() + "' cannot be made (" +
+                               (error ? error.message() : "a file of that name is in the way") +
+                               "); choose another one with --state");
+  }
+  const fs::path file = folder / kFileName;
+  Result<Database> database = Database::open(file);
+  if (!database) {
+    return open_failure(file, database.error());
+  }
+  if (const Status ok = prepare_schema(*database); !ok) {
+    { const Database closed = std::move(*database); }
+    return open_failure(file, ok.error());
+  }
+  if (const Status ok = sync_folder(folder); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  return Store(std::make_unique<Body>(Body{std::move(*database)}));
+}
+
+Status Store::begin_mission(const MissionRecord& mission) {
+  if (Status ok = check_id("the mission's id", mission.id); !ok) {
+    return ok;
+  }
+  if (Status ok = check_blob("a mission's request", mission.request); !ok) {
+    return ok;
+  }
+  Result<Transaction> transaction = Transaction::begin(body_->database);
+  if (!transaction) {
+    return tl::unexpected(transaction.error());
+  }
+  if (Status ok = remove_checkpoint(body_->database, mission.id); !ok) {
+    return ok;
+  }
+  Result<Statement> insert = body_->database.prepare(
+      "INSERT OR REPLACE INTO missions (id, begun, kind, request, started_ns, ended_ns, outcome, cause, remedy) "
+      "VALUES (?, (SELECT coalesce(max(begun), 0) + 1 FROM missions), ?, ?, ?, ?, ?, ?, ?)");
+  if (!insert) {
+    return tl::unexpected(insert.error());
+  }
+  insert->bind(mission.id).bind(mission.kind).bind(mission.request).bind(mission.started_ns);
+  if (mission.end) {
+    insert->bind(mission.end->ended_ns).bind(mission.end->outcome).bind(mission.end->cause).bind(mission.end->remedy);
+  } else {
+    insert->bind_null().bind_null().bind_null().bind_null();
+  }
+  if (Status ok = insert->run(); !ok) {
+    return ok;
+  }
+  return transaction->commit();
+}
+
+Status Store::end_mission(const std::string& id, const MissionEndRecord& end) {
+  if (Status ok = check_texts({end.outcome, end.cause, end.remedy}); !ok) {
+    return ok;
+  }
+  Result<Transaction> transaction = Transaction::begin(body_->database);
+  if (!transaction) {
+    return tl::unexpected(transaction.error());
+  }
+  Result<Statement> update =
+      body_->database.prepare("UPDATE missions SET ended_ns = ?, outcome = ?, cause = ?, remedy = ? WHERE id = ?");
+  if (!update) {
+    return tl::unexpected(update.error());
+  }
+  if (Status ok = update->bind(end.ended_ns).bind(end.outcome).bind(end.cause).bind(end.remedy).bind(id).run(); !ok) {
+    return ok;
+  }
+  if (body_->database.changes() == 0) {
+    return fail(Errc::kNotFound, "there is no mission '" + id + "' to end");
+  }
+  if (Status ok = remove_checkpoint(body_->database, id); !ok) {
+    return ok;
+  }
+  return transaction->commit();
+}
+
+Status Store::save_checkpoint(const std::string& mission, const Checkpoint& checkpoint) {
+  if (Status ok = check_blob("a checkpoint", checkpoint.journal); !ok) {
+    return ok;
+  }
+  const Result<Blob> frame = pack(checkpoint.journal);
+  if (!frame) {
+    return tl::unexpected(frame.error());
+  }
+  Result<Statement> insert =
+      body_->database.prepare("INSERT OR REPLACE INTO checkpoints SELECT id, ?, ? FROM missions WHERE id = ?");
+  if (!insert) {
+    return tl::unexpected(insert.error());
+  }
+  if (Status ok = insert->bind(checkpoint.robot_time_ns).bind(*frame).bind(mission).run(); !ok) {
+    return ok;
+  }
+  if (body_->database.changes() == 0) {
+    return fail(Errc::kNotFound, "there is no mission '" + mission + "' to keep a checkpoint of");
+  }
+  return {};
+}
+
+Result<std::optional<UnfinishedMission>> Store::unfinished_mission() const {
+  Result<Statement> select =
+      body_->database.prepare(std::string(kMissionColumns) + "WHERE ended_ns IS NULL ORDER BY begun DESC LIMIT 1");
+  if (!select) {
+    return tl::unexpected(select.error());
+  }
+  const Result<bool> row = select->step();
+  if (!row) {
+    return tl::unexpected(row.error());
+  }
+  if (!*row) {
+    return std::nullopt;
+  }
+  UnfinishedMission unfinished{read_mission(*select), std::nullopt};
+  Result<std::optional<Checkpoint>> checkpoint = read_checkpoint(body_->database, unfinished.mission.id);
+  if (!checkpoint) {
+    return tl::unexpected(checkpoint.error());
+  }
+  unfinished.checkpoint = std::move(*checkpoint);
+  return unfinished;
+}
+
+Result<std::optional<MissionRecord>> Store::mission(const std::string& id) const {
+  Result<Statement> select = body_->database.prepare(std::string(kMissionColumns) + "WHERE id = ?");
+  if (!select) {
+    return tl::unexpected(select.error());
+  }
+  const Result<bool> row = select->bind(id).step();
+  if (!row) {
+    return tl::unexpected(row.error());
+  }
+  return *row ? std::optional(read_mission(*select)) : std::nullopt;
+}
+
+Result<std::vector<MissionRecord>> Store::missions(std::size_t limit) const {
+  Result<Statement> select = body_->database.prepare(std::string(kMissionColumns) + "ORDER BY begun DESC LIMIT ?");
+  if (!select) {
+    return tl::unexpected(select.error());
+  }
+  select->bind(static_cast<std::int64_t>(limit));
+  return collect(select, &read_mission);
+}
+
+}  // namespace seeker::store
