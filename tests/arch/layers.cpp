@@ -49,6 +49,10 @@ Status parse_line(const std::string& line, Layers& layers) {
     layers.libraries[rest[0]] = {rest.begin() + 1, rest.end()};
     return {};
   }
+  if (words[0] == "everywhere") {
+    layers.everywhere.insert(rest.begin(), rest.end());
+    return {};
+  }
   if (words[0] == "hidden" || words[0] == "pure") {
     (words[0] == "hidden" ? layers.hidden : layers.pure).insert(rest.begin(), rest.end());
     return {};

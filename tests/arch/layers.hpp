@@ -20,6 +20,7 @@ struct Folder {
 struct Layers {
   std::map<std::string, std::vector<std::string>> libraries;  ///< name -> prefixes of its headers
   std::set<std::string> hidden;                               ///< libraries of .cpp files only
+  std::set<std::string> everywhere;                           ///< libraries that anybody may include
   std::map<std::string, Folder> folders;                      ///< path -> what it may include
   std::set<std::string> pure;                                 ///< folders of algorithms
 

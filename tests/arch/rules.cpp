@@ -104,7 +104,8 @@ class FileCheck {
     const Folder& rule = layers_.folders.at(folder_);
     if (library.empty()) {
       report("includes <" + header + ">, a library that is not in tests/arch/layers.txt");
-    } else if (!rule.libraries.contains(library) && !rule.libraries.contains("*")) {
+    } else if (!rule.libraries.contains(library) && !rule.libraries.contains("*") &&
+               !layers_.everywhere.contains(library)) {
       report("includes <" + header + ">, but " + folder_ + " may not use " + library);
     } else if (layers_.hidden.contains(library) && ends_with(file_.path, ".hpp")) {
       report("includes <" + header + "> in a header; " + library + " belongs into .cpp files");
