@@ -1,0 +1,50 @@
+/// \file
+/// What is prepared of a target's picture before any scene is seen.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "server/vision/patch.hpp"
+#include "server/vision/recogniser_params.hpp"
+#include "server/vision/regions.hpp"
+
+namespace seeker::vision {
+
+/// A part of the target's picture that may show up as a region of the scene. The region's box tells where the whole
+/// target would be.
+struct Anchor {
+  cv::Rect2d part;            ///< relative to the whole: (0, 0, 1, 1) is the whole picture
+  double aspect = 1.0;        ///< width / height of the part in pixels
+  std::optional<bool> light;  ///< class of the region; unset: either
+
+  /// The whole target's box, given the box of a region that is this part.
+  [[nodiscard]] cv::Rect2d whole(const cv::Rect& region) const;
+  /// Whether a region's proportions fit within the tolerance and one pixel.
+  [[nodiscard]] bool fits(const cv::Rect& region, double tolerance) const;
+};
+
+/// One way to correlate a target.
+struct TemplateVariant {
+  std::vector<TemplatePatch> patches;  ///< from the smallest to the largest
+  std::vector<Anchor> anchors;
+
+  /// The largest patch that is not larger than the candidate; the smallest for yet smaller candidates.
+  [[nodiscard]] const TemplatePatch& patch_for(const cv::Rect2d& box) const;
+};
+
+/// All of one target. Always the whole picture; where the picture shows a textured object on ground of one colour,
+/// also the object alone, since in a scene it stands before something else.
+struct TargetTemplate {
+  int target = 0;
+  double height_m = 0.0;
+  std::vector<TemplateVariant> variants;
+};
+
+/// `grey` must not be empty or of one colour (check_target()).
+[[nodiscard]] TargetTemplate make_target_template(const cv::Mat& grey, int target, double height_m,
+                                                  const TemplateParams& params);
+
+}  // namespace seeker::vision
