@@ -29,6 +29,14 @@ Image draw_regions(const cv::Mat& grey, const std::vector<Region>& regions) {
   return to_image(canvas);
 }
 
+Image draw_points(const cv::Mat& grey, const std::vector<cv::Point2f>& points) {
+  cv::Mat canvas = colour_of(grey);
+  for (const cv::Point2f& p : points) {
+    cv::circle(canvas, cv::Point(cvRound(p.x), cvRound(p.y)), 2, kLightColour);
+  }
+  return to_image(canvas);
+}
+
 Image draw_sightings(const Image& picture, const std::vector<Sighting>& sightings) {
   cv::Mat canvas = colour_of(to_grey_mat(picture));
   for (const Sighting& s : sightings) {

@@ -1,0 +1,85 @@
+#include "server/vision/feature_recogniser.hpp"
+
+#include <string>
+
+#include "server/vision/homography.hpp"
+#include "server/vision/overlap.hpp"
+#include "server/vision/picture.hpp"
+#include "server/vision/stage_pictures.hpp"
+
+namespace seeker::vision {
+
+Result<std::unique_ptr<FeatureRecogniser>> FeatureRecogniser::make(const std::vector<TargetModel>& targets,
+                                                                   const RecogniserParams& params) {
+  std::unique_ptr<FeatureRecogniser> made(new FeatureRecogniser(params));
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (targets[i].kind != TargetKind::kFeature) {
+      continue;
+    }
+    const cv::Mat grey = to_grey_mat(targets[i].picture);
+    Known known{static_cast<int>(i), targets[i].height_m, grey.size(), detect_sift(grey, params.features)};
+    if (static_cast<int>(known.features.points.size()) < params.features.min_inliers) {
+      return fail(Errc::kInvalidArgument,
+                  "target '" + targets[i].name + "': its picture has only " +
+                      std::to_string(known.features.points.size()) + " key points, at least " +
+                      std::to_string(params.features.min_inliers) +
+                      " are needed: give a larger or more textured picture, or recognise it as a template");
+    }
+    made->targets_.push_back(std::move(known));
+  }
+  return made;
+}
+
+void FeatureRecogniser::match_target(const Known& known, const SiftFeatures& scene, const cv::Size& working,
+                                     RecognitionReport& report) const {
+  const std::vector<FeatureMatch> matches = match_mutually(known.features, scene, params_.features.ratio);
+  report.stages.matches += static_cast<int>(matches.size());
+  ++report.stages.candidates;
+  std::vector<cv::Point2f> from;
+  std::vector<cv::Point2f> to;
+  for (const FeatureMatch& match : matches) {
+    from.push_back(known.features.points[static_cast<std::size_t>(match.target)]);
+    to.push_back(scene.points[static_cast<std::size_t>(match.scene)]);
+  }
+  const auto fit = fit_planar(from, to, known.size, params_.features);
+  if (!fit) {
+    ++report.stages.rejected_geometry;
+    return;
+  }
+  Sighting sighting;
+  sighting.target = known.target;
+  sighting.score = static_cast<double>(fit->inliers.size()) / static_cast<double>(matches.size());
+  sighting.verify_score = static_cast<double>(fit->inliers.size());
+  view_.locate(fit->corners, working, known.height_m, sighting);
+  report.sightings.push_back(sighting);
+}
+
+Result<RecognitionReport> FeatureRecogniser::recognise(const Image& picture) const {
+  const Result<cv::Mat> grey = view_.working_picture(picture);
+  if (!grey) {
+    return tl::unexpected<Error>(grey.error());
+  }
+  RecognitionReport report;
+  const SiftFeatures scene = detect_sift(*grey, params_.features);
+  report.stages.features = static_cast<int>(scene.points.size());
+  for (const Known& known : targets_) {
+    match_target(known, scene, grey->size(), report);
+  }
+  report.stages.rejected_overlap = suppress_overlaps(report.sightings);
+  report.stages.accepted = static_cast<int>(report.sightings.size());
+  return report;
+}
+
+Result<std::vector<StageImage>> FeatureRecogniser::explain(const Image& picture) const {
+  const Result<RecognitionReport> report = recognise(picture);
+  if (!report) {
+    return tl::unexpected<Error>(report.error());
+  }
+  const cv::Mat grey = *view_.working_picture(picture);
+  std::vector<StageImage> out;
+  out.push_back({"feature_points", draw_points(grey, detect_sift(grey, params_.features).points)});
+  out.push_back({"feature_sightings", draw_sightings(picture, report->sightings)});
+  return out;
+}
+
+}  // namespace seeker::vision
