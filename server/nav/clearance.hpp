@@ -26,7 +26,8 @@ struct ClearanceParams {
                                 const ClearanceParams& params);
 
 /// The same arc, slowed so that the base can halt before contact: v <= what allows stopping within the free way,
-/// omega in proportion. Zero when there is no room. Never speeds up, never turns round.
+/// omega in proportion. With no room at all v is zero and omega stays, since turning in place meets nothing and is the
+/// way out. Never speeds up, never changes a sign.
 [[nodiscard]] Twist2 limit_for_clearance(const Twist2& twist, const std::vector<Point2>& points_base,
                                          const ClearanceParams& params = {});
 

@@ -29,8 +29,8 @@ struct CostMapLimits {
   std::optional<Polygon> bound;   ///< the robot's centre stays inside
   std::vector<Polygon> keep_out;  ///< the whole footprint stays outside
   std::vector<Point2> obstacles;  ///< extra obstacle points, e.g. sonar echoes below the lidar's plane
-  std::vector<Point2>
-      forbidden_disc;  ///< centres of discs of robot radius the centre may not enter (places that failed)
+  /// Centres of discs of robot radius that the robot's centre may not enter: places that failed before.
+  std::vector<Point2> forbidden_discs;
 };
 
 /// Immutable; build a new one when the occupancy has changed enough (about 10 ns per cell).
@@ -60,22 +60,19 @@ class CostMap {
 
   /// True when the straight way from a to b stays on traversable cells.
   [[nodiscard]] bool way_is_clear(const Point2& a_map, const Point2& b_map) const;
-  /// The nearest traversable cell within `radius_m`; nothing when there is none.
+  /// The nearest traversable cell within `radius_m`, one that can be reached without crossing an occupied cell first;
+  /// nothing when there is none.
   [[nodiscard]] std::optional<CellIndex> nearest_traversable(const Point2& p_map, double radius_m) const;
 
  private:
   CostMap() = default;
-  void mark_limits(const CostMapLimits& limits);
-  void compute_costs(const CostMapLimits& limits);
+  void compute_costs();
+  void forbid(const CostMapLimits& limits);
 
   CostMapParams params_;
   Grid<CellState> states_;
   Grid<float> clearance_;
   Grid<float> costs_;
 };
-
-/// Exact Euclidean distance from every cell to the nearest cell where `seed` is not zero, in cells (Felzenszwalb and
-/// Huttenlocher 2012); a very large number where there is no seed at all.
-[[nodiscard]] Grid<float> distance_transform(const Grid<std::uint8_t>& seed);
 
 }  // namespace seeker::nav

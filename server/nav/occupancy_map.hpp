@@ -88,7 +88,10 @@ class OccupancyMap {
   [[nodiscard]] Status end_sweep();
   void write(CellIndex cell, const Evidence& evidence, Cursor& cursor);
   void clear_ray(const Point2& from_map, const Point2& to_map, const Evidence& miss);
-  void write_cone(const SonarReading& reading, double half_angle_rad, const Pose2& map_T_base);
+  void write_hits(const LaserScan& scan, const Pose2& map_T_laser);
+  void clear_beams(const LaserScan& scan, const Pose2& map_T_laser);
+  void mark_echo(const SonarReading& reading, double half_angle_rad, const Pose2& map_T_base);
+  void clear_cone(const SonarReading& reading, double half_angle_rad, const Pose2& map_T_base);
 
   OccupancyParams params_;
   Evidence hit_;

@@ -36,11 +36,13 @@ struct FollowerParams {
   double heading_tolerance_rad = 0.05;  ///< for a final heading
   double min_v_m_s = 0.05;              ///< slowest useful speed: below it the base would creep
   double blocked_lookahead_m = 1.0;     ///< how far ahead on the path obstacles count
-  double blocked_radius_m = 0.26;       ///< a point nearer than this to the path blocks it
-  double blocked_for_s = 0.6;           ///< for so long, so that a person walking by does not cause a replan
-  double stuck_for_s = 6.0;             ///< no progress for so long
-  double progress_m = 0.05;             ///< what counts as progress along the path
-  double progress_rad = 0.1;            ///< what counts as progress while turning in place
+  double blocked_radius_m = 0.20;       ///< a point nearer than this to the path blocks it
+  double path_deviation_m = 0.06;       ///< corners may be cut by so much
+  double min_lookahead_m = 0.15;
+  double blocked_for_s = 0.6;  ///< for so long, so that a person walking by does not cause a replan
+  double stuck_for_s = 6.0;    ///< no progress for so long
+  double progress_m = 0.05;    ///< what counts as progress along the path
+  double progress_rad = 0.1;   ///< what counts as progress while turning in place
   ClearanceParams clearance;
 };
 
@@ -81,14 +83,16 @@ class PathFollower {
 
   [[nodiscard]] Target find_target(const Point2& p_map);
   [[nodiscard]] Twist2 desired(const Pose2& map_T_base, const Target& target);
+  [[nodiscard]] double corner_speed(double along_m) const;
   [[nodiscard]] Twist2 turn_towards(double error_rad) const;
   [[nodiscard]] Twist2 smooth(const Twist2& wanted, double dt_s) const;
   [[nodiscard]] bool path_blocked(const Pose2& map_T_base, const std::vector<Point2>& points_base,
                                   double along_m) const;
   [[nodiscard]] std::optional<FollowStep> watch(const Pose2& map_T_base, const std::vector<Point2>& points_base,
                                                 const Target& target, RobotTime now);
-  [[nodiscard]] FollowStep finish(const Pose2& map_T_base, double dt_s);
-  void note_progress(const Pose2& map_T_base, double remaining_m, RobotTime now);
+  [[nodiscard]] FollowStep finish(const Pose2& map_T_base, const Target& target, double dt_s, RobotTime now);
+  [[nodiscard]] Point2 point_at(double along_m) const;
+  [[nodiscard]] bool stuck(double remaining_m, double error_rad, RobotTime now);
 
   FollowerParams params_;
   Path path_;
@@ -102,7 +106,7 @@ class PathFollower {
   std::optional<RobotTime> blocked_since_;
   RobotTime progress_at_;
   double best_remaining_m_ = 0.0;
-  double progress_heading_rad_ = 0.0;
+  double best_error_rad_ = 0.0;
 };
 
 }  // namespace seeker::nav

@@ -1,0 +1,84 @@
+#include "server/nav/clearance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::nav {
+namespace {
+
+/// Arcs of a larger radius are straight lines within the horizon to better than a millimetre per metre.
+constexpr double kStraightRadius_m = 1000.0;
+constexpr double kStandingSpeed_m_s = 1e-4;
+
+/// Way along +x until a disc of `radius_m` meets p; nothing when it never does.
+std::optional<double> straight_contact(const Point2& p, double radius_m) {
+  if (p.x() <= 0.0 || std::abs(p.y()) >= radius_m) {
+    return std::nullopt;
+  }
+  return std::max(0.0, p.x() - std::sqrt(radius_m * radius_m - p.y() * p.y()));
+}
+
+/// The same along the circle of signed radius `turn_m` (positive: to the left) that starts along +x.
+std::optional<double> arc_contact(const Point2& p, double turn_m, double radius_m) {
+  const double turn_abs = std::abs(turn_m);
+  const Point2 from_centre = p - Point2(0.0, turn_m);
+  const double rho = from_centre.norm();
+  if (std::abs(rho - turn_abs) >= radius_m || rho <= 0.0) {
+    return std::nullopt;
+  }
+  const double side = turn_m > 0.0 ? 1.0 : -1.0;
+  // Angle from the robot to the point about the turning centre, in the direction of travel, 0..2 pi.
+  double ahead_rad = std::atan2(from_centre.x(), -side * from_centre.y());
+  if (ahead_rad < 0.0) {
+    ahead_rad += kTwoPi;
+  }
+  if (p.norm() < radius_m) {
+    return ahead_rad < kPi ? std::optional<double>(0.0) : std::nullopt;
+  }
+  const double cosine = (rho * rho + turn_abs * turn_abs - radius_m * radius_m) / (2.0 * rho * turn_abs);
+  return turn_abs * std::max(0.0, ahead_rad - std::acos(std::clamp(cosine, -1.0, 1.0)));
+}
+
+}  // namespace
+
+double free_arc_m(const Twist2& twist, const std::vector<Point2>& points_base, const ClearanceParams& params) {
+  if (std::abs(twist.v_m_s) < kStandingSpeed_m_s) {
+    return params.horizon_m;
+  }
+  // Driving backwards is driving forwards in the mirrored frame (x -> -x), where left and right turns change places.
+  const double mirror = twist.v_m_s > 0.0 ? 1.0 : -1.0;
+  const double turn_m =
+      twist.omega_rad_s != 0.0 ? std::abs(twist.v_m_s) / (mirror * twist.omega_rad_s) : 2.0 * kStraightRadius_m;
+  double free_m = params.horizon_m;
+  for (const Point2& point : points_base) {
+    if (point.norm() < params.self_radius_m) {
+      continue;
+    }
+    const Point2 p(mirror * point.x(), point.y());
+    const auto contact = std::abs(turn_m) > kStraightRadius_m ? straight_contact(p, params.radius_m)
+                                                              : arc_contact(p, turn_m, params.radius_m);
+    free_m = std::min(free_m, contact.value_or(params.horizon_m));
+  }
+  return free_m;
+}
+
+Twist2 limit_for_clearance(const Twist2& twist, const std::vector<Point2>& points_base, const ClearanceParams& params) {
+  const double free_m = free_arc_m(twist, points_base, params);
+  if (free_m >= params.horizon_m) {
+    return twist;
+  }
+  const double room_m = free_m - params.slow_margin_m;
+  if (room_m <= 0.0) {
+    return {0.0, twist.omega_rad_s};
+  }
+  // v * reaction + v^2 / (2 decel) = room
+  const double lag_v = params.decel_m_s2 * params.reaction_s;
+  const double allowed = std::sqrt(lag_v * lag_v + 2.0 * params.decel_m_s2 * room_m) - lag_v;
+  const double scale = std::min(1.0, allowed / std::abs(twist.v_m_s));
+  return {scale * twist.v_m_s, scale * twist.omega_rad_s};
+}
+
+}  // namespace seeker::nav

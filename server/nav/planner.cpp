@@ -1,0 +1,285 @@
+#include "server/nav/planner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <utility>
+
+#include "server/nav/ray.hpp"
+
+namespace seeker::nav {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr std::uint8_t kNoParent = 255;
+/// A straight way may cost this much more than the cell-by-cell way that it replaces.
+constexpr double kShortcutTolerance = 1.01;
+
+struct Direction {
+  int di;
+  int dj;
+  float length;  ///< in cells
+};
+constexpr float kDiagonal = std::numbers::sqrt2_v<float>;
+constexpr std::array<Direction, 8> kDirections{{{1, 0, 1.0F},
+                                                {0, 1, 1.0F},
+                                                {-1, 0, 1.0F},
+                                                {0, -1, 1.0F},
+                                                {1, 1, kDiagonal},
+                                                {-1, 1, kDiagonal},
+                                                {-1, -1, kDiagonal},
+                                                {1, -1, kDiagonal}}};
+
+float octile_m(CellIndex a, CellIndex b, double resolution_m) {
+  const auto di = static_cast<float>(std::abs(a.i - b.i));
+  const auto dj = static_cast<float>(std::abs(a.j - b.j));
+  return static_cast<float>(resolution_m) * (std::max(di, dj) + (kDiagonal - 1.0F) * std::min(di, dj));
+}
+
+/// Costs and predecessors of one search from `start`; stops at `goal` when given (A*), else floods (Dijkstra).
+struct Search {
+  Grid<float> costs;
+  Grid<std::uint8_t> parent;
+
+  Search(const CostMap& map, CellIndex start, std::optional<CellIndex> goal)
+      : costs(map.frame(), map.width(), map.height(), kFar),
+        parent(map.frame(), map.width(), map.height(), kNoParent),
+        map_(map),
+        goal_(goal) {
+    costs[start] = 0.0F;
+    push(start);
+    while (!open_.empty()) {
+      const auto [priority, index] = open_.top();
+      open_.pop();
+      const CellIndex cell = costs.cell(index);
+      if (priority > costs[cell] + heuristic(cell)) {
+        continue;  // a cheaper way was found after this entry was queued
+      }
+      if (goal_ && cell == *goal_) {
+        return;
+      }
+      expand(cell);
+    }
+  }
+
+ private:
+  using Entry = std::pair<float, std::size_t>;
+
+  [[nodiscard]] float heuristic(CellIndex cell) const {
+    return goal_ ? octile_m(cell, *goal_, map_.frame().resolution_m) : 0.0F;
+  }
+  void push(CellIndex cell) { open_.emplace(costs[cell] + heuristic(cell), costs.index(cell)); }
+
+  void expand(CellIndex cell) {
+    const float here = map_.cost(cell);
+    const auto half_cell_m = static_cast<float>(map_.frame().resolution_m / 2.0);
+    for (std::size_t d = 0; d < kDirections.size(); ++d) {
+      const auto& [di, dj, length] = kDirections[d];
+      const CellIndex next{cell.i + di, cell.j + dj};
+      const float there = map_.cost(next);
+      const bool cuts_corner =
+          di != 0 && dj != 0 &&
+          !(map_.traversable(CellIndex{cell.i + di, cell.j}) && map_.traversable(CellIndex{cell.i, cell.j + dj}));
+      if (there <= 0.0F || cuts_corner) {
+        continue;
+      }
+      const float cost = costs[cell] + half_cell_m * length * (here + there);
+      if (cost < costs[next]) {
+        costs[next] = cost;
+        parent[next] = static_cast<std::uint8_t>(d);
+        push(next);
+      }
+    }
+  }
+
+  const CostMap& map_;
+  std::optional<CellIndex> goal_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
+};
+
+/// Cost of the straight way; infinity when it is not clear. Each crossed cell counts with the length inside it only on
+/// average, which is exact enough to compare ways.
+double straight_cost(const CostMap& map, const Point2& a, const Point2& b) {
+  const GridFrame& f = map.frame();
+  RayWalk walk((a - f.origin) / f.resolution_m, (b - f.origin) / f.resolution_m);
+  double sum = 0.0;
+  int cells = 0;
+  do {
+    const float cost = map.cost(walk.cell());
+    if (cost <= 0.0F) {
+      return std::numeric_limits<double>::infinity();
+    }
+    sum += cost;
+    ++cells;
+  } while (walk.advance());
+  return sum / cells * (b - a).norm();
+}
+
+std::vector<CellIndex> trace(const Grid<std::uint8_t>& parent, CellIndex goal) {
+  std::vector<CellIndex> cells{goal};
+  while (parent[cells.back()] != kNoParent) {
+    const Direction& back = kDirections[parent[cells.back()]];
+    cells.push_back({cells.back().i - back.di, cells.back().j - back.dj});
+    SEEKER_ASSERT(cells.size() <= parent.cells().size());
+  }
+  std::reverse(cells.begin(), cells.end());
+  return cells;
+}
+
+/// Drops the cells between two that a straight way joins at no higher cost.
+std::vector<Point2> shorten(const CostMap& map, const Grid<float>& costs, const std::vector<CellIndex>& cells) {
+  const GridFrame& f = map.frame();
+  std::vector<Point2> kept{f.centre_of(cells.front())};
+  std::size_t anchor = 0;
+  for (std::size_t k = 2; k < cells.size(); ++k) {
+    const double way = static_cast<double>(costs[cells[k]]) - static_cast<double>(costs[cells[anchor]]);
+    const double direct = straight_cost(map, f.centre_of(cells[anchor]), f.centre_of(cells[k]));
+    if (!(direct <= kShortcutTolerance * way)) {
+      anchor = k - 1;
+      kept.push_back(f.centre_of(cells[anchor]));
+    }
+  }
+  if (cells.size() > 1) {
+    kept.push_back(f.centre_of(cells.back()));
+  }
+  return kept;
+}
+
+/// The ends of the way: where the robot really stands and where it really wants to be.
+void attach_ends(const CostMap& map, const Point2& start, const Point2& goal, std::vector<Point2>& waypoints) {
+  if (map.traversable(goal)) {
+    if (waypoints.size() > 1) {
+      waypoints.back() = goal;
+    } else {
+      waypoints.push_back(goal);
+    }
+  }
+  // The first cell's centre is kept only where the straight way to the second waypoint would leave the free floor.
+  if (waypoints.size() > 1 && map.traversable(start) && map.way_is_clear(start, waypoints[1])) {
+    waypoints.front() = start;
+  } else {
+    waypoints.insert(waypoints.begin(), start);
+  }
+}
+
+Path make_path(const CostMap& map, const Grid<float>& costs, const Grid<std::uint8_t>& parent, const Point2& start,
+               const Point2& goal, CellIndex goal_cell, bool shortened) {
+  const std::vector<CellIndex> cells = trace(parent, goal_cell);
+  Path path;
+  if (shortened) {
+    path.waypoints = shorten(map, costs, cells);
+  } else {
+    for (const CellIndex& cell : cells) {
+      path.waypoints.push_back(map.frame().centre_of(cell));
+    }
+  }
+  attach_ends(map, start, goal, path.waypoints);
+  for (std::size_t k = 1; k < path.waypoints.size(); ++k) {
+    path.length_m += (path.waypoints[k] - path.waypoints[k - 1]).norm();
+  }
+  path.cost = std::max(static_cast<double>(costs[goal_cell]), path.length_m);
+  return path;
+}
+
+Result<CellIndex> snap_start(const CostMap& map, const Point2& start, const PlannerParams& params) {
+  if (!start.allFinite()) {
+    return fail(Errc::kInvalidArgument, "the start of the way is not a finite point");
+  }
+  if (const auto cell = map.nearest_traversable(start, params.start_snap_m)) {
+    return *cell;
+  }
+  return fail(Errc::kUnreachable,
+              "the robot is walled in: no free floor near where it stands; move it away from the obstacles");
+}
+
+Result<CellIndex> snap_goal(const CostMap& map, const Point2& goal, const PlannerParams& params) {
+  if (!goal.allFinite()) {
+    return fail(Errc::kInvalidArgument, "the goal of the way is not a finite point");
+  }
+  if (const auto cell = map.nearest_traversable(goal, params.goal_snap_m)) {
+    return *cell;
+  }
+  return fail(Errc::kUnreachable,
+              "the goal lies in or too near an obstacle, outside the bound, or in unknown space; choose free floor");
+}
+
+tl::unexpected<Error> no_connection() {
+  return fail(Errc::kUnreachable,
+              "no way leads to the goal: obstacles, keep-out areas, the bound or unknown space cut it off");
+}
+
+}  // namespace
+
+Result<Path> plan(const CostMap& map, const Point2& start_map, const Point2& goal_map, const PlannerParams& params) {
+  const auto start = snap_start(map, start_map, params);
+  if (!start) {
+    return tl::unexpected(start.error());
+  }
+  const auto goal = snap_goal(map, goal_map, params);
+  if (!goal) {
+    return tl::unexpected(goal.error());
+  }
+  const Search search(map, *start, *goal);
+  if (search.costs[*goal] == kFar) {
+    return no_connection();
+  }
+  return make_path(map, search.costs, search.parent, start_map, goal_map, *goal, params.shorten);
+}
+
+Result<DistanceField> DistanceField::build(const CostMap& map, const Point2& start_map, const PlannerParams& params) {
+  const auto start = snap_start(map, start_map, params);
+  if (!start) {
+    return tl::unexpected(start.error());
+  }
+  Search search(map, *start, std::nullopt);
+  DistanceField field;
+  field.params_ = params;
+  field.start_ = start_map;
+  field.costs_ = std::move(search.costs);
+  field.parent_ = std::move(search.parent);
+  return field;
+}
+
+std::optional<double> DistanceField::cost_to(CellIndex cell) const {
+  if (!costs_.contains(cell) || costs_[cell] == kFar) {
+    return std::nullopt;
+  }
+  return costs_[cell];
+}
+
+std::optional<double> DistanceField::cost_to(const Point2& goal_map) const {
+  return cost_to(costs_.frame().cell_of(goal_map));
+}
+
+std::optional<CellIndex> DistanceField::cheapest_near(const Point2& goal_map, double radius_m) const {
+  const int reach = static_cast<int>(std::ceil(radius_m / costs_.frame().resolution_m));
+  const CellIndex centre = costs_.frame().cell_of(goal_map);
+  std::optional<CellIndex> best;
+  for (int j = centre.j - reach; j <= centre.j + reach; ++j) {
+    for (int i = centre.i - reach; i <= centre.i + reach; ++i) {
+      const CellIndex cell{i, j};
+      const bool near = (costs_.frame().centre_of(cell) - goal_map).norm() <= radius_m;
+      if (near && cost_to(cell) && (!best || costs_[cell] < costs_[*best])) {
+        best = cell;
+      }
+    }
+  }
+  return best;
+}
+
+Result<Path> DistanceField::path_to(const CostMap& map, const Point2& goal_map) const {
+  const auto goal = snap_goal(map, goal_map, params_);
+  if (!goal) {
+    return tl::unexpected(goal.error());
+  }
+  SEEKER_ASSERT(costs_.frame() == map.frame() && costs_.contains(*goal));
+  if (costs_[*goal] == kFar) {
+    return no_connection();
+  }
+  return make_path(map, costs_, parent_, start_, goal_map, *goal, params_.shorten);
+}
+
+}  // namespace seeker::nav
