@@ -37,7 +37,7 @@ struct Robot {
   Grid<std::uint8_t> world;
   Pose2 pose;
   RobotTime now = robot_time_s(1.0);
-  Twist2 last;
+  Twist2 last{};
   double nearest_m = 1e9;  ///< smallest distance from the centre to an occupied cell's border so far
 
   std::vector<Point2> see() const { return points_in_base(scan_in(world, pose)); }
