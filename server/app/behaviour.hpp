@@ -1,0 +1,73 @@
+/// \file
+/// What decides where the robot goes while a mission runs. One body per mission task.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/api/mission.hpp"
+#include "common/api/perception.hpp"
+#include "common/core/pose_estimate.hpp"
+#include "common/core/scan.hpp"
+#include "server/nav/occupancy_map.hpp"
+#include "server/vision/sighting.hpp"
+
+namespace seeker::app {
+
+/// What a behaviour may know at one tick. Pointers are valid during the call and null where nothing is fitted or new.
+struct Situation {
+  RobotTime now;
+  PoseEstimate pose;
+  Twist2 velocity;
+  const LaserScan* scan = nullptr;
+  const SonarScan* sonar = nullptr;
+  const nav::OccupancyMap* map = nullptr;
+};
+
+/// A line for the mission's log, without stamps: the executor adds them.
+struct BehaviourEvent {
+  std::string kind;
+  std::string text;
+  api::Severity severity = api::Severity::kInfo;
+};
+
+/// What a behaviour wants at one tick.
+struct Decision {
+  Twist2 command;
+  bool wants_image = false;       ///< recognise the targets in a picture taken now
+  bool step_done = false;         ///< a natural place to stop (link policy FINISH_STEP)
+  std::string phase;
+  std::string activity;
+  double progress = 0.0;
+  std::vector<Point2> planned_path;
+  std::vector<BehaviourEvent> events;
+  std::optional<api::MissionEnd> end;
+};
+
+/// The recognisers' answer to wants_image.
+struct Recognition {
+  RobotTime stamp;
+  Pose2 map_T_base;                          ///< where the picture was taken
+  std::vector<vision::Sighting> sightings;
+  std::optional<LaserScan> scan;             ///< newest at the exposure
+  std::optional<SonarScan> sonar;
+};
+
+class Behaviour {
+ public:
+  Behaviour() = default;
+  Behaviour(const Behaviour&) = delete;
+  Behaviour& operator=(const Behaviour&) = delete;
+  virtual ~Behaviour() = default;
+
+  [[nodiscard]] virtual Decision step(const Situation& situation) = 0;
+  virtual void on_recognition(const Recognition& /*recognition*/) {}
+  /// Time passes without steps while paused.
+  virtual void resumed(RobotTime /*now*/) {}
+  [[nodiscard]] virtual std::optional<api::GridReport> grid() const { return std::nullopt; }
+  [[nodiscard]] virtual std::vector<api::Detection> detections() const { return {}; }
+};
+
+}  // namespace seeker::app
