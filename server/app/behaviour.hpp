@@ -63,6 +63,8 @@ class Behaviour {
   virtual ~Behaviour() = default;
 
   [[nodiscard]] virtual Decision step(const Situation& situation) = 0;
+  /// What looks at the pictures this behaviour asks for; null when it asks for none.
+  [[nodiscard]] virtual std::shared_ptr<const vision::Recogniser> recogniser() const { return nullptr; }
   virtual void on_recognition(const Recognition& /*recognition*/) {}
   /// Time passes without steps while paused.
   virtual void resumed(RobotTime /*now*/) {}

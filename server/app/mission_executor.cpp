@@ -1,0 +1,280 @@
+#include "server/app/mission_executor.hpp"
+
+#include <algorithm>
+
+#include "common/core/assert.hpp"
+
+namespace seeker::app {
+
+MissionExecutor::MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs)
+    : params_(params), factory_(std::move(factory)), outputs_(std::move(outputs)) {}
+
+Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request, const std::string& owner,
+                                              const Situation& situation) {
+  if (const Status ok = api::validate(request); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  if (active_) {
+    if (active_->request.id == request.id) {
+      return request.id;
+    }
+    return fail(Errc::kBusy, "mission '" + active_->request.id + "' of '" + active_->owner +
+                                 "' is running; wait for it or stop it first");
+  }
+  if (last_ && last_->id == request.id) {
+    return fail(Errc::kInvalidArgument, "mission id '" + request.id + "' was used before; choose a new one");
+  }
+  Result<std::unique_ptr<Behaviour>> behaviour = factory_(request.task, situation);
+  if (!behaviour) {
+    return tl::unexpected<Error>(behaviour.error());
+  }
+  Active active;
+  active.request = request;
+  active.owner = owner;
+  active.behaviour = std::move(*behaviour);
+  active.status.id = request.id;
+  active.status.kind = api::task_name(request.task);
+  active.status.phase = "start";
+  active.status.started = situation.now;
+  active.status.link_policy = request.link_policy;
+  active.first_detection = detections_.size();
+  active_ = std::move(active);
+  event_sequence_ = 0;
+  log(situation.now, "mission-started", active_->status.kind + " started");
+  report(situation.now);
+  return request.id;
+}
+
+Status MissionExecutor::command(api::MissionCommand command, RobotTime now) {
+  if (!active_) {
+    return fail(Errc::kNotReady, "no mission is running");
+  }
+  switch (command) {
+    case api::MissionCommand::kStop:
+      end(api::Outcome::kOperator, "stopped by the operator", "", now);
+      return {};
+    case api::MissionCommand::kPause:
+      if (!running()) {
+        return fail(Errc::kNotReady, "the mission is paused already");
+      }
+      pause(now, "paused by the operator");
+      return {};
+    case api::MissionCommand::kResume:
+      if (running()) {
+        return fail(Errc::kNotReady, "the mission is not paused");
+      }
+      active_->status.state = api::MissionState::kRunning;
+      active_->behaviour->resumed(now);
+      log(now, "mission-resumed", "resumed by the operator");
+      report(now);
+      return {};
+  }
+  return fail(Errc::kInvalidArgument, "unknown mission command");
+}
+
+void MissionExecutor::pause(RobotTime now, const std::string& why) {
+  if (running()) {
+    active_->status.state = api::MissionState::kPaused;
+    active_->status.activity = why;
+    log(now, "mission-paused", why);
+    report(now);
+  }
+}
+
+void MissionExecutor::end(api::Outcome outcome, const std::string& cause, const std::string& remedy, RobotTime now) {
+  if (active_) {
+    finish({.outcome = outcome, .cause = cause, .remedy = remedy, .unreachable = {}}, now);
+  }
+}
+
+void MissionExecutor::finish(const api::MissionEnd& end, RobotTime now) {
+  SEEKER_ASSERT(active_.has_value());
+  collect();
+  active_->status.state = api::MissionState::kEnded;
+  active_->status.end = end;
+  active_->status.planned_path.clear();
+  active_->status.activity = end.cause;
+  if (end.outcome != api::Outcome::kOperator && end.outcome != api::Outcome::kFault) {
+    active_->status.progress = 1.0;
+  }
+  log(now, "mission-ended", std::string(to_string(end.outcome)) + ": " + end.cause);
+  report(now);
+  active_.reset();
+}
+
+Decision MissionExecutor::held(const Situation& situation, const std::string& activity) {
+  Decision decision;
+  decision.phase = active_->status.phase;
+  if (active_->status.activity != activity) {
+    active_->status.activity = activity;
+    report(situation.now);
+  }
+  return decision;
+}
+
+bool MissionExecutor::hold_for_trouble(const Situation& situation, const api::Fault* blocking) {
+  if (blocking != nullptr) {
+    if (!active_->blocked_since) {
+      active_->blocked_since = situation.now;
+      log(situation.now, "mission-held", blocking->message, blocking->severity);
+    }
+    if (situation.now - *active_->blocked_since > params_.fault_grace) {
+      end(api::Outcome::kFault, blocking->message, blocking->remedy, situation.now);
+    }
+    return true;
+  }
+  if (situation.pose.quality == LocalisationQuality::kLost) {
+    if (!active_->unlocalised_since) {
+      active_->unlocalised_since = situation.now;
+      log(situation.now, "mission-held", "lost: " + situation.pose.cause, api::Severity::kError);
+    }
+    if (situation.now - *active_->unlocalised_since > params_.lost_grace) {
+      end(api::Outcome::kLost, situation.pose.cause, "drive the robot to a known place and start the mission again",
+          situation.now);
+    }
+    return true;
+  }
+  if (active_->blocked_since || active_->unlocalised_since) {
+    active_->blocked_since.reset();
+    active_->unlocalised_since.reset();
+    active_->behaviour->resumed(situation.now);
+    log(situation.now, "mission-continues", "the trouble is gone");
+  }
+  return false;
+}
+
+void MissionExecutor::apply_link_policy(const Situation& situation, WallTime wall_now) {
+  if (!active_->lost_since || wall_now - *active_->lost_since < params_.link_grace) {
+    return;
+  }
+  active_->lost_since.reset();
+  const std::string cause = "the client '" + active_->owner + "' that started the mission is gone";
+  const std::string remedy = "check the network; choose --link-policy continue to go on without a client";
+  switch (active_->request.link_policy) {
+    case api::LinkPolicy::kContinue: return;
+    case api::LinkPolicy::kStop: end(api::Outcome::kLinkLost, cause, remedy, situation.now); return;
+    case api::LinkPolicy::kFinishStep: active_->finish_step = true; return;
+    case api::LinkPolicy::kReturn: break;
+  }
+  Result<std::unique_ptr<Behaviour>> way_back = factory_(api::ReturnMission{}, situation);
+  if (!way_back) {
+    end(api::Outcome::kLinkLost, cause + "; no way back: " + way_back.error().message, remedy, situation.now);
+    return;
+  }
+  collect();
+  active_->behaviour = std::move(*way_back);
+  active_->first_detection = detections_.size();
+  active_->end_after = api::MissionEnd{.outcome = api::Outcome::kLinkLost, .cause = cause, .remedy = remedy,
+                                       .unreachable = {}};
+  log(situation.now, "returning", cause, api::Severity::kWarning);
+}
+
+Decision MissionExecutor::step(const Situation& situation, const api::Fault* blocking, WallTime wall_now) {
+  if (!active_) {
+    return {};
+  }
+  apply_link_policy(situation, wall_now);
+  if (!active_ || !running()) {
+    return {};
+  }
+  if (active_->request.time_limit && situation.now - active_->status.started > *active_->request.time_limit) {
+    end(api::Outcome::kTimeLimit, "the time limit of the mission has passed", "give it more with --time-limit",
+        situation.now);
+    return {};
+  }
+  if (hold_for_trouble(situation, blocking)) {
+    return active_ ? held(situation, "waiting: " + (blocking != nullptr ? blocking->message : situation.pose.cause))
+                   : Decision{};
+  }
+  Decision decision = active_->behaviour->step(situation);
+  take(decision, situation);
+  return decision;
+}
+
+void MissionExecutor::take(const Decision& decision, const Situation& situation) {
+  api::MissionStatus& status = active_->status;
+  const Pose2& pose = situation.pose.map_T_base;
+  if (active_->last_pose) {
+    status.path_length_m += distance_m(*active_->last_pose, pose);
+  }
+  active_->last_pose = pose;
+  const bool new_phase = status.phase != decision.phase;
+  status.phase = decision.phase;
+  status.activity = decision.activity;
+  status.progress = decision.progress;
+  status.planned_path = decision.planned_path;
+  for (const BehaviourEvent& event : decision.events) {
+    log(situation.now, event.kind, event.text, event.severity);
+  }
+  if (!decision.events.empty()) {
+    collect();
+  }
+  if (decision.end) {
+    finish(active_->end_after ? *active_->end_after : *decision.end, situation.now);
+  } else if (active_->finish_step && decision.step_done) {
+    end(api::Outcome::kLinkLost, "the client that started the mission is gone; the step was finished",
+        "check the network", situation.now);
+  } else if (new_phase || situation.now - active_->last_report >= params_.report_period) {
+    collect();
+    report(situation.now);
+  }
+}
+
+void MissionExecutor::on_recognition(const Recognition& recognition) {
+  if (active_) {
+    active_->behaviour->on_recognition(recognition);
+    collect();
+  }
+}
+
+void MissionExecutor::collect() {
+  if (std::optional<api::GridReport> grid = active_->behaviour->grid()) {
+    active_->status.cells_searched = static_cast<int>(grid->lists.searched.size());
+    active_->status.cells_unsearched = static_cast<int>(grid->lists.unsearched.size());
+    active_->status.coverage = grid->evidence.summary;
+    grid_ = std::move(grid);
+  }
+  std::vector<api::Detection> now = active_->behaviour->detections();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const std::size_t index = active_->first_detection + i;
+    now[i].id = detection_base_ + index + 1;
+    if (index >= detections_.size()) {
+      detections_.push_back(now[i]);
+      outputs_.detection(now[i]);
+    } else if (!(detections_[index] == now[i])) {
+      detections_[index] = now[i];
+      outputs_.detection(now[i]);
+    }
+  }
+}
+
+void MissionExecutor::client_lost(const std::string& client, WallTime wall_now) {
+  if (active_ && active_->owner == client && !active_->lost_since) {
+    active_->lost_since = wall_now;
+  }
+}
+
+void MissionExecutor::client_back(const std::string& client) {
+  if (active_ && active_->owner == client) {
+    active_->lost_since.reset();
+  }
+}
+
+void MissionExecutor::report(RobotTime now) {
+  active_->last_report = now;
+  active_->status.updated = now;
+  last_ = active_->status;
+  outputs_.status(active_->status);
+}
+
+void MissionExecutor::log(RobotTime now, const std::string& kind, const std::string& text, api::Severity severity) {
+  outputs_.event({.sequence = ++event_sequence_,
+                  .stamp = now,
+                  .mission_time = now - active_->status.started,
+                  .mission = active_->request.id,
+                  .severity = severity,
+                  .kind = kind,
+                  .text = text});
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,105 @@
+/// \file
+/// Runs one mission at a time: its behaviour, pause and end, what happens when its client is lost, its log.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/api/robot_api.hpp"
+#include "server/app/behaviour.hpp"
+
+namespace seeker::app {
+
+/// Heartbeats and link policy live on the wall clock, missions on robot time (design section 3).
+using WallTime = std::chrono::steady_clock::time_point;
+
+struct MissionParams {
+  Duration link_grace = std::chrono::seconds(5);      ///< wall time a lost client has to come back
+  Duration fault_grace = std::chrono::seconds(10);    ///< robot time a blocking fault may last
+  Duration lost_grace = std::chrono::seconds(10);     ///< robot time without localisation
+  Duration report_period = std::chrono::seconds(1);   ///< robot time between reports of an unchanged phase
+};
+
+/// Makes the behaviour of a task. Refusals (an unusable target picture) become the answer to the client.
+using BehaviourFactory = std::function<Result<std::unique_ptr<Behaviour>>(const api::MissionTask&, const Situation&)>;
+
+/// Where the executor's results go. All are called on the loop's thread.
+struct MissionOutputs {
+  std::function<void(const api::Event&)> event;
+  std::function<void(const api::MissionStatus&)> status;
+  std::function<void(const api::Detection&)> detection;
+};
+
+class MissionExecutor {
+ public:
+  MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs);
+
+  /// kBusy while another mission runs; the id of the running one is accepted again.
+  [[nodiscard]] Result<api::MissionId> start(const api::MissionRequest& request, const std::string& owner,
+                                             const Situation& situation);
+  /// kNotReady when no mission runs or it is not in the state for the command.
+  [[nodiscard]] Status command(api::MissionCommand command, RobotTime now);
+  /// Ends a running mission; nothing otherwise.
+  void end(api::Outcome outcome, const std::string& cause, const std::string& remedy, RobotTime now);
+  /// Holds a running mission; `why` is shown as its activity.
+  void pause(RobotTime now, const std::string& why);
+
+  /// One tick; a decision without command when nothing runs. `blocking` is a fault that forbids motion.
+  [[nodiscard]] Decision step(const Situation& situation, const api::Fault* blocking, WallTime wall_now);
+  void on_recognition(const Recognition& recognition);
+
+  void client_lost(const std::string& client, WallTime wall_now);
+  void client_back(const std::string& client);
+
+  [[nodiscard]] bool running() const { return active_ && active_->status.state == api::MissionState::kRunning; }
+  [[nodiscard]] bool present() const { return active_.has_value(); }
+  /// The running mission or the last one.
+  [[nodiscard]] const std::optional<api::MissionStatus>& last() const { return last_; }
+  [[nodiscard]] const std::optional<api::GridReport>& grid() const { return grid_; }
+  [[nodiscard]] const std::vector<api::Detection>& detections() const { return detections_; }
+  [[nodiscard]] const Behaviour* behaviour() const { return active_ ? active_->behaviour.get() : nullptr; }
+  /// Ids continue above what an earlier run of the program gave out.
+  void continue_detection_ids(std::uint64_t highest) { detection_base_ = highest; }
+
+ private:
+  struct Active {
+    api::MissionRequest request;
+    std::string owner;
+    std::unique_ptr<Behaviour> behaviour;
+    api::MissionStatus status;
+    std::size_t first_detection = 0;         ///< index of this mission's first entry in detections_
+    std::optional<WallTime> lost_since;
+    bool finish_step = false;
+    std::optional<api::MissionEnd> end_after; ///< the outcome once the robot is back (link policy RETURN)
+    std::optional<RobotTime> blocked_since;
+    std::optional<RobotTime> unlocalised_since;
+    std::optional<Pose2> last_pose;
+    RobotTime last_report;
+  };
+
+  [[nodiscard]] Decision held(const Situation& situation, const std::string& activity);
+  [[nodiscard]] bool hold_for_trouble(const Situation& situation, const api::Fault* blocking);
+  void apply_link_policy(const Situation& situation, WallTime wall_now);
+  void take(const Decision& decision, const Situation& situation);
+  void finish(const api::MissionEnd& end, RobotTime now);
+  void collect();
+  void report(RobotTime now);
+  void log(RobotTime now, const std::string& kind, const std::string& text,
+           api::Severity severity = api::Severity::kInfo);
+
+  MissionParams params_;
+  BehaviourFactory factory_;
+  MissionOutputs outputs_;
+  std::optional<Active> active_;
+  std::optional<api::MissionStatus> last_;
+  std::optional<api::GridReport> grid_;
+  std::vector<api::Detection> detections_;
+  std::uint64_t detection_base_ = 0;
+  std::uint64_t event_sequence_ = 0;
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,120 @@
+#include "server/app/robot_loop.hpp"
+
+namespace seeker::app {
+
+Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& request, const std::string& client) {
+  if (authority_.estop()) {
+    return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
+  }
+  const api::LeaseState& lease = authority_.lease();
+  if (!lease.owner.empty() && lease.owner != client) {
+    return fail(Errc::kRefused, "'" + lease.owner + "' holds the lease; wait until it is released, or take it over");
+  }
+  Result<api::MissionId> id = missions_.start(request, client, situation());
+  if (id) {
+    authority_.arm();
+  }
+  return id;
+}
+
+Status RobotLoop::command_mission(api::MissionCommand command) {
+  const bool resume = command == api::MissionCommand::kResume;
+  if (resume && authority_.estop()) {
+    return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
+  }
+  const Status done = missions_.command(command, now());
+  if (done && resume) {
+    authority_.arm();
+  }
+  return done;
+}
+
+void RobotLoop::stop() {
+  missions_.end(api::Outcome::kOperator, "stopped by the operator", "", now());
+  authority_.cancel_drive();
+  act({});
+}
+
+void RobotLoop::set_estop(bool engaged) {
+  if (engaged == authority_.estop()) {
+    return;
+  }
+  authority_.set_estop(engaged);
+  log(engaged ? "estop" : "estop-released", engaged ? "emergency stop latched" : "emergency stop released",
+      engaged ? api::Severity::kCritical : api::Severity::kInfo);
+  if (engaged) {
+    missions_.pause(now(), "emergency stop; release it and resume the mission");
+    act({});
+  }
+}
+
+Result<api::LeaseState> RobotLoop::command_lease(const std::string& client, api::LeaseAction action) {
+  const std::string before = authority_.lease().owner;
+  Result<api::LeaseState> state = authority_.command_lease(client, action);
+  if (state && state->owner != before) {
+    log("lease", state->owner.empty() ? "the lease is free" : "'" + state->owner + "' holds the lease");
+  }
+  if (state && state->owner == client && action != api::LeaseAction::kRelease) {
+    authority_.arm();
+  }
+  return state;
+}
+
+Status RobotLoop::drive(const std::string& client, const api::DriveCommand& command) {
+  if (!realtime()) {
+    return fail(Errc::kRefused, "the robot's clock runs at another speed than 1, so it cannot be driven by hand; start "
+                                "it with --set sim.speed=1");
+  }
+  if (missions_.running()) {
+    return fail(Errc::kBusy, "a mission is running; pause or stop it before driving by hand");
+  }
+  const Status ok = authority_.drive(client, command, now());
+  if (ok) {
+    authority_.arm();
+  }
+  return ok;
+}
+
+Status RobotLoop::restart_component(const std::string& name) {
+  const Status ok = components_.restart(name);
+  if (ok) {
+    // What moves the robot may have changed: it stays disarmed until somebody arms it again on purpose.
+    authority_.disarm();
+    missions_.pause(now(), name + " was restarted; resume the mission when the way is clear");
+    for (const char* fault : {"-failed", "-invalid", "-silent", "-refused"}) {
+      clear(name + fault);
+    }
+    last_odometry_ = last_scan_ = last_sonar_ = now();
+    log("component-restarted", name);
+  }
+  return ok;
+}
+
+Result<api::ImageFrame> RobotLoop::grab_image(const std::string& camera) {
+  if (parts_.devices.camera == nullptr) {
+    return fail(Errc::kNotFound, "this robot has no camera");
+  }
+  if (!camera.empty() && camera != "omni") {
+    return fail(Errc::kNotFound, "no camera '" + camera + "'; there is: omni");
+  }
+  Result<CameraFrame> frame = parts_.devices.camera->grab();
+  if (!frame) {
+    return tl::unexpected<Error>(frame.error());
+  }
+  return api::ImageFrame{.camera = "omni", .frame = std::move(*frame), .map_T_base = pose_.map_T_base};
+}
+
+void RobotLoop::client_lost(const std::string& client, const std::string& why, WallTime wall_now) {
+  log("link-lost", "'" + client + "': " + why, api::Severity::kWarning);
+  authority_.forget(client);
+  missions_.client_lost(client, wall_now);
+}
+
+void RobotLoop::client_back(const std::string& client) { missions_.client_back(client); }
+
+void RobotLoop::client_closed(const std::string& client, WallTime wall_now) {
+  authority_.forget(client);
+  missions_.client_lost(client, wall_now);
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,392 @@
+#include "server/app/robot_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::app {
+namespace {
+
+/// Below this the base stands still.
+constexpr double kStill_m_s = 1e-3;
+constexpr double kStill_rad_s = 1e-3;
+
+Status check(const drivers::OdometrySample& sample) {
+  if (!is_finite(sample.odom_T_base) || !std::isfinite(sample.velocity.v_m_s) ||
+      !std::isfinite(sample.velocity.omega_rad_s)) {
+    return fail(Errc::kInvalidArgument, "the odometry is not a finite number; check the base's cable");
+  }
+  return {};
+}
+Status check(const LaserScan& scan) { return validate(scan); }
+Status check(const SonarScan& scan) { return validate(scan); }
+
+}  // namespace
+
+RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
+    : params_(params),
+      parts_(std::move(parts)),
+      hub_(hub),
+      missions_(params.mission, parts_.behaviours,
+                {.event = [this](const api::Event& event) { emit(event); },
+                 .status =
+                     [this](const api::MissionStatus& status) {
+                       if (on_mission) {
+                         on_mission(status);
+                       }
+                       hub_.publish(api::Topic::kMission, now(), status);
+                     },
+                 .detection =
+                     [this](const api::Detection& detection) {
+                       if (on_detection) {
+                         on_detection(detection);
+                       }
+                       hub_.publish(api::Topic::kDetection, now(), detection);
+                     }}),
+      recognition_(parts_.devices.clock->lockstep()),
+      map_(parts_.occupancy) {
+  register_components();
+}
+
+RobotLoop::~RobotLoop() { shut_down(); }
+
+void RobotLoop::register_components() {
+  const auto driver = [this](const std::string& name, drivers::Driver* device) {
+    if (device != nullptr) {
+      components_.add(name, "driver", parts_.devices.type,
+                      {[device] { return device->activate(); }, [device] { device->deactivate(); }});
+    }
+  };
+  driver("base", parts_.devices.base.get());
+  driver("lidar", parts_.devices.lidar.get());
+  driver("sonar", parts_.devices.sonar.get());
+  driver("camera", parts_.devices.camera.get());
+  components_.add("pose", "estimator", parts_.estimator_type, {});
+  components_.add("mission", "behaviour", "executor", {});
+  components_.add("recogniser", "recogniser", "template+features", {});
+  components_.add("safety", "supervisor", "clearance", {});
+}
+
+void RobotLoop::start() {
+  components_.activate_all();
+  last_odometry_ = last_scan_ = last_sonar_ = now();
+  for (const api::ComponentInfo& info : components_.list(now())) {
+    if (info.state == api::ComponentState::kError) {
+      raise(info.name + "-failed", info.name, info.name + " did not start: " + info.last_error,
+            "mend the cause, then 'seeker components --restart " + info.name + "'");
+    }
+  }
+  sense();
+  estimate();
+  remember_pose();
+}
+
+void RobotLoop::shut_down() {
+  if (components_.active("base")) {
+    // Nothing can be done here about a base that does not answer: its own time-out halts it.
+    static_cast<void>(parts_.devices.base->set_velocity({}, now()));
+    static_cast<void>(parts_.devices.base->set_motors(false));
+  }
+  components_.deactivate_all();
+}
+
+bool RobotLoop::realtime() const {
+  return !parts_.devices.clock->lockstep() || parts_.devices.clock->speed() == 1.0;
+}
+
+bool RobotLoop::idle() const {
+  if (ended_) {
+    return true;
+  }
+  const bool moving = odometry_ && (std::abs(odometry_->velocity.v_m_s) > kStill_m_s ||
+                                    std::abs(odometry_->velocity.omega_rad_s) > kStill_rad_s);
+  return !realtime() && !parts_.devices.runs_without_mission && !missions_.running() && !moving;
+}
+
+void RobotLoop::tick(WallTime wall_now) {
+  sense();
+  estimate();
+  act(decide(wall_now));
+  remember_pose();
+  publish();
+  const Status advanced = parts_.devices.clock->advance(params_.period);
+  if (!advanced && !ended_) {
+    ended_ = true;
+    const std::string summary = parts_.devices.summary ? parts_.devices.summary() : "";
+    log("source-ended", summary.empty() ? advanced.error().message : summary);
+    republish_ = true;
+    publish();
+  }
+}
+
+template <class Driver, class Sample>
+void RobotLoop::read(Driver* driver, const std::string& name, Duration timeout, std::optional<Sample>& latest,
+                     bool& fresh, RobotTime& last) {
+  fresh = false;
+  if (driver == nullptr || !components_.active(name)) {
+    return;
+  }
+  Result<std::optional<Sample>> sample = driver->read();
+  const Status ok = !sample ? Status(tl::unexpected<Error>(sample.error())) : *sample ? check(**sample) : Status();
+  if (!ok) {
+    raise(name + "-invalid", name, name + ": " + ok.error().message,
+          "mend the device, then 'seeker components --restart " + name + "'");
+  } else if (*sample) {
+    latest = std::move(**sample);
+    last = now();
+    fresh = true;
+    components_.count_output(name, last);
+    clear(name + "-invalid");
+    clear(name + "-silent");
+  }
+  if (now() - last > timeout && !ended_) {
+    raise(name + "-silent", name, "the " + name + " has been silent for more than " +
+                                      std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(timeout).count()) +
+                                      " ms",
+          "check its cable and power; 'seeker components --restart " + name + "' starts it again");
+  }
+}
+
+void RobotLoop::sense() {
+  read(parts_.devices.base.get(), "base", params_.base_timeout, odometry_, fresh_odometry_, last_odometry_);
+  read(parts_.devices.lidar.get(), "lidar", params_.lidar_timeout, scan_, fresh_scan_, last_scan_);
+  read(parts_.devices.sonar.get(), "sonar", params_.sonar_timeout, sonar_, fresh_sonar_, last_sonar_);
+}
+
+void RobotLoop::estimate() {
+  const auto note = [this](const Status& status, const char* id) {
+    if (!status) {
+      raise(id, "pose", status.error().message, "the estimate goes on without this reading", api::Severity::kWarning);
+    } else {
+      clear(id);
+    }
+  };
+  if (fresh_odometry_) {
+    note(parts_.estimator->on_odometry(*odometry_), "odometry-refused");
+  }
+  if (fresh_scan_) {
+    note(parts_.estimator->on_scan(*scan_), "scan-refused");
+  }
+  if (fresh_odometry_ || fresh_scan_) {
+    pose_ = parts_.estimator->estimate();
+    components_.count_output("pose", now());
+  }
+  const bool trusted = pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
+  if (!trusted) {
+    return;
+  }
+  if (fresh_scan_) {
+    note(map_.integrate(*scan_, pose_.map_T_base), "map-full");
+  } else if (fresh_sonar_ && parts_.devices.lidar == nullptr) {
+    note(map_.integrate(*sonar_, pose_.map_T_base), "map-full");
+  }
+}
+
+Situation RobotLoop::situation() const {
+  Situation s;
+  s.now = now();
+  s.pose = pose_;
+  s.velocity = odometry_ ? odometry_->velocity : Twist2{};
+  s.scan = scan_ ? &*scan_ : nullptr;
+  s.sonar = sonar_ ? &*sonar_ : nullptr;
+  s.map = &map_;
+  return s;
+}
+
+Twist2 RobotLoop::decide(WallTime wall_now) {
+  if (std::optional<Result<Recognition>> answer = recognition_.take()) {
+    if (*answer) {
+      missions_.on_recognition(**answer);
+    } else {
+      raise("recogniser-failed", "recogniser", answer->error().message, "check the camera's picture with 'seeker camera grab'",
+            api::Severity::kWarning);
+    }
+  }
+  const Situation here = situation();
+  const Decision decision = missions_.step(here, faults_.blocking(), wall_now);
+  if (decision.wants_image && missions_.running()) {
+    look(here);
+  }
+  if (missions_.running()) {
+    authority_.cancel_drive();
+    return decision.command;
+  }
+  return authority_.drive_velocity(now()).value_or(Twist2{});
+}
+
+void RobotLoop::look(const Situation& here) {
+  const Behaviour* behaviour = missions_.behaviour();
+  const auto recogniser = behaviour != nullptr ? behaviour->recogniser() : nullptr;
+  if (recogniser == nullptr || recognition_.busy() || parts_.devices.camera == nullptr) {
+    return;
+  }
+  Result<CameraFrame> frame = parts_.devices.camera->grab();
+  if (!frame) {
+    raise("camera-failed", "camera", "camera: " + frame.error().message,
+          "check the camera, then 'seeker components --restart camera'");
+    return;
+  }
+  clear("camera-failed");
+  components_.count_output("camera", now());
+  if (hub_.wanted(api::Topic::kImage)) {
+    hub_.publish(api::Topic::kImage, now(),
+                 api::ImageFrame{.camera = "omni", .frame = *frame, .map_T_base = pose_.map_T_base});
+  }
+  RecognitionJob job;
+  job.recogniser = recogniser;
+  job.context.stamp = frame->stamp;
+  job.context.map_T_base = pose_.map_T_base;
+  job.context.scan = scan_;
+  job.context.sonar = sonar_;
+  job.image = std::move(frame->image);
+  recognition_.start(std::move(job));
+  if (std::optional<Result<Recognition>> answer = recognition_.take()) {  // inline: it is there at once
+    if (*answer) {
+      components_.count_output("recogniser", here.now);
+      missions_.on_recognition(**answer);
+    } else {
+      raise("recogniser-failed", "recogniser", answer->error().message,
+            "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
+    }
+  }
+}
+
+void RobotLoop::act(const Twist2& wanted) {
+  const bool arm = authority_.armed() && faults_.blocking() == nullptr;
+  const SafetyVerdict verdict = supervise({.wanted = wanted,
+                                           .armed = authority_.armed(),
+                                           .estop = authority_.estop(),
+                                           .blocking = faults_.blocking(),
+                                           .scan = scan_ ? &*scan_ : nullptr,
+                                           .sonar = sonar_ ? &*sonar_ : nullptr},
+                                          params_.safety);
+  safety_reason_ = verdict.reason;
+  command_ = verdict.allowed;
+  if (!components_.active("base")) {
+    return;
+  }
+  if (arm != motors_on_) {
+    if (const Status ok = parts_.devices.base->set_motors(arm); ok) {
+      motors_on_ = arm;
+    }
+  }
+  if (!motors_on_ && command_ == Twist2{}) {
+    return;
+  }
+  if (const Status ok = parts_.devices.base->set_velocity(command_, now()); !ok && ok.error().code != Errc::kRefused) {
+    raise("base-refused", "base", "base: " + ok.error().message, "'seeker components --restart base'");
+  }
+}
+
+void RobotLoop::remember_pose() {
+  if (trajectory_.empty() || distance_m(trajectory_.back(), pose_.map_T_base) >= params_.trajectory_spacing_m) {
+    trajectory_.push_back(pose_.map_T_base);
+  }
+  if (trajectory_.size() > params_.max_trajectory) {
+    // Thin the older half: the shape stays, the memory is bounded.
+    std::vector<Pose2> thinned;
+    const std::size_t half = trajectory_.size() / 2;
+    for (std::size_t i = 0; i < trajectory_.size(); i += i < half ? 2 : 1) {
+      thinned.push_back(trajectory_[i]);
+    }
+    trajectory_ = std::move(thinned);
+  }
+}
+
+void RobotLoop::publish_tiles(RobotTime stamp) {
+  api::TileUpdate update;
+  update.tiles = map_.tiles_since(republish_ ? 0 : published_revision_);
+  update.revision = map_.revision();
+  update.map_epoch = pose_.map_epoch;
+  published_revision_ = update.revision;
+  tiles_at_ = stamp;
+  if (!update.tiles.empty()) {
+    hub_.publish(api::Topic::kTiles, stamp, std::move(update));
+  }
+}
+
+void RobotLoop::publish() {
+  const RobotTime stamp = now();
+  if (hub_.wanted(api::Topic::kStatus)) {
+    hub_.publish(api::Topic::kStatus, stamp, status());
+  }
+  if ((fresh_scan_ || republish_) && scan_ && hub_.wanted(api::Topic::kScan)) {
+    hub_.publish(api::Topic::kScan, stamp, *scan_);
+  }
+  if ((fresh_sonar_ || republish_) && sonar_ && hub_.wanted(api::Topic::kSonar)) {
+    hub_.publish(api::Topic::kSonar, stamp, *sonar_);
+  }
+  if (hub_.wanted(api::Topic::kTiles) && (republish_ || stamp - tiles_at_ >= params_.tile_period)) {
+    publish_tiles(stamp);
+  }
+  if (missions_.grid() && hub_.wanted(api::Topic::kGrid) && (republish_ || stamp - grid_at_ >= params_.grid_period)) {
+    grid_at_ = stamp;
+    hub_.publish(api::Topic::kGrid, stamp, *missions_.grid());
+  }
+  republish_ = false;
+}
+
+api::RobotStatus RobotLoop::status() const {
+  api::RobotStatus status;
+  status.stamp = now();
+  status.pose = pose_;
+  if (odometry_) {
+    status.odom_T_base = odometry_->odom_T_base;
+    status.velocity = odometry_->velocity;
+    status.battery_v = odometry_->battery_v;
+  }
+  status.estop = authority_.estop();
+  status.motors_armed = authority_.armed();
+  status.lease = authority_.lease();
+  status.mission = missions_.last();
+  status.faults = faults_.all();
+  status.safety = safety_reason_;
+  status.clock_speed = parts_.devices.clock->speed();
+  status.map_revision = map_.revision();
+  return status;
+}
+
+std::vector<std::string> RobotLoop::capabilities() const {
+  std::vector<std::string> words{"goto", "return", "drive"};
+  if (parts_.devices.camera) {
+    words.insert(words.end(), {"search", "camera:omni"});
+  }
+  if (parts_.devices.lidar) {
+    words.emplace_back("lidar");
+  }
+  if (parts_.devices.sonar) {
+    words.emplace_back("sonar");
+  }
+  return words;
+}
+
+void RobotLoop::raise(const std::string& id, const std::string& component, const std::string& message,
+                      const std::string& remedy, api::Severity severity) {
+  if (faults_.raise({.id = id, .component = component, .severity = severity, .onset = now(), .message = message,
+                     .remedy = remedy})) {
+    log("fault", id + ": " + message, severity);
+  }
+}
+
+void RobotLoop::clear(const std::string& id) {
+  if (faults_.clear(id)) {
+    log("fault-cleared", id);
+  }
+}
+
+void RobotLoop::log(const std::string& kind, const std::string& text, api::Severity severity) {
+  emit({.sequence = 0, .stamp = now(), .mission_time = std::nullopt, .mission = "", .severity = severity, .kind = kind,
+        .text = text});
+}
+
+void RobotLoop::emit(const api::Event& event) {
+  api::Event numbered = event;
+  numbered.sequence = ++event_sequence_;
+  if (on_event) {
+    on_event(event);
+  }
+  hub_.publish(api::Topic::kEvent, numbered.stamp, std::move(numbered));
+}
+
+}  // namespace seeker::app

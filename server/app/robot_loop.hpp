@@ -1,0 +1,149 @@
+/// \file
+/// The one loop that owns the robot's state: sense, estimate, decide, act, publish (design section 3). Everything here
+/// runs on one thread; others reach it through a Mailbox.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/api/robot_api.hpp"
+#include "server/app/components.hpp"
+#include "server/app/devices.hpp"
+#include "server/app/estimator.hpp"
+#include "server/app/faults.hpp"
+#include "server/app/mission_executor.hpp"
+#include "server/app/motion_authority.hpp"
+#include "server/app/recognition_runner.hpp"
+#include "server/app/safety_supervisor.hpp"
+#include "server/app/update_hub.hpp"
+#include "server/nav/occupancy_map.hpp"
+
+namespace seeker::app {
+
+struct LoopParams {
+  Duration period = std::chrono::milliseconds(100);
+  Duration base_timeout = std::chrono::milliseconds(500);    ///< silence that is a fault, robot time
+  Duration lidar_timeout = std::chrono::seconds(1);
+  Duration sonar_timeout = std::chrono::seconds(1);
+  Duration tile_period = std::chrono::milliseconds(500);     ///< between publications of changed tiles, robot time
+  Duration grid_period = std::chrono::seconds(2);            ///< between publications of lists and evidence
+  double trajectory_spacing_m = 0.1;
+  std::size_t max_trajectory = 100'000;                      ///< poses; the oldest half is thinned out beyond it
+  SafetyParams safety;
+  MissionParams mission;
+};
+
+/// How the loop is put together.
+struct LoopParts {
+  Devices devices;
+  std::unique_ptr<Estimator> estimator;
+  std::string estimator_type;
+  BehaviourFactory behaviours;
+  nav::OccupancyParams occupancy;
+};
+
+class RobotLoop {
+ public:
+  RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub);
+  ~RobotLoop();
+  RobotLoop(const RobotLoop&) = delete;
+  RobotLoop& operator=(const RobotLoop&) = delete;
+
+  /// Starts the components and takes the first readings. Faults are reported, not returned: the loop always runs.
+  void start();
+  /// One pass, at the end of which robot time has advanced by one period.
+  void tick(WallTime wall_now);
+  /// True when nothing would change by ticking: a simulated world stands still while no mission runs.
+  [[nodiscard]] bool idle() const;
+  /// The source of a replay has been read to its end.
+  [[nodiscard]] bool ended() const { return ended_; }
+  /// Halts the base and stops the components.
+  void shut_down();
+
+  [[nodiscard]] RobotTime now() const { return parts_.devices.clock->now(); }
+  [[nodiscard]] bool realtime() const;
+  [[nodiscard]] api::RobotStatus status() const;
+  [[nodiscard]] const nav::OccupancyMap& map() const { return map_; }
+  [[nodiscard]] const std::vector<Pose2>& trajectory() const { return trajectory_; }
+  [[nodiscard]] Components& components() { return components_; }
+  [[nodiscard]] const MissionExecutor& missions() const { return missions_; }
+  [[nodiscard]] MissionExecutor& missions() { return missions_; }
+  [[nodiscard]] std::vector<std::string> capabilities() const;
+
+  // Commands of clients.
+  [[nodiscard]] Result<api::MissionId> start_mission(const api::MissionRequest& request, const std::string& client);
+  [[nodiscard]] Status command_mission(api::MissionCommand command);
+  void stop();
+  void set_estop(bool engaged);
+  [[nodiscard]] Result<api::LeaseState> command_lease(const std::string& client, api::LeaseAction action);
+  [[nodiscard]] Status drive(const std::string& client, const api::DriveCommand& command);
+  [[nodiscard]] Status restart_component(const std::string& name);
+  [[nodiscard]] Result<api::ImageFrame> grab_image(const std::string& camera);
+  void client_lost(const std::string& client, const std::string& why, WallTime wall_now);
+  void client_back(const std::string& client);
+  void client_closed(const std::string& client, WallTime wall_now);
+  /// Everything a new subscriber needs is published in the next pass.
+  void republish() { republish_ = true; }
+
+  /// Called with every event, before it is published (journal, tests).
+  std::function<void(const api::Event&)> on_event;
+  std::function<void(const api::MissionStatus&)> on_mission;
+  std::function<void(const api::Detection&)> on_detection;
+
+ private:
+  void register_components();
+  void sense();
+  template <class Driver, class Sample>
+  void read(Driver* driver, const std::string& name, Duration timeout, std::optional<Sample>& latest, bool& fresh,
+            RobotTime& last);
+  void estimate();
+  [[nodiscard]] Twist2 decide(WallTime wall_now);
+  void look(const Situation& situation);
+  void act(const Twist2& wanted);
+  void publish();
+  void publish_tiles(RobotTime stamp);
+  void remember_pose();
+  [[nodiscard]] Situation situation() const;
+  void raise(const std::string& id, const std::string& component, const std::string& message,
+             const std::string& remedy, api::Severity severity = api::Severity::kError);
+  void clear(const std::string& id);
+  void log(const std::string& kind, const std::string& text, api::Severity severity = api::Severity::kInfo);
+  void emit(const api::Event& event);
+
+  LoopParams params_;
+  LoopParts parts_;
+  UpdateHub& hub_;
+  Components components_;
+  FaultList faults_;
+  MotionAuthority authority_;
+  MissionExecutor missions_;
+  RecognitionRunner recognition_;
+  nav::OccupancyMap map_;
+
+  std::optional<drivers::OdometrySample> odometry_;
+  std::optional<LaserScan> scan_;
+  std::optional<SonarScan> sonar_;
+  bool fresh_odometry_ = false;
+  bool fresh_scan_ = false;
+  bool fresh_sonar_ = false;
+  RobotTime last_odometry_;
+  RobotTime last_scan_;
+  RobotTime last_sonar_;
+
+  PoseEstimate pose_;
+  Twist2 command_;
+  std::string safety_reason_;
+  bool motors_on_ = false;
+  bool ended_ = false;
+  bool republish_ = false;
+  std::vector<Pose2> trajectory_;
+  std::uint64_t event_sequence_ = 0;
+  std::uint64_t published_revision_ = 0;
+  RobotTime tiles_at_;
+  RobotTime grid_at_;
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,42 @@
+/// \file
+/// The last word on motion (design section 7): clamps or refuses what mission and operator want. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/api/robot_state.hpp"
+#include "common/core/scan.hpp"
+#include "server/nav/clearance.hpp"
+
+namespace seeker::app {
+
+struct SafetyParams {
+  double max_v_m_s = 0.5;
+  double max_omega_rad_s = 1.2;
+  nav::ClearanceParams clearance;
+  double sonar_stop_range_m = 0.8;  ///< echoes beyond it never limit motion: the cones are too wide
+  double sonar_slack_m = 0.25;      ///< an echo this much nearer than the lidar sees is a low obstacle of its own
+};
+
+struct SafetyInput {
+  Twist2 wanted;
+  bool armed = false;
+  bool estop = false;
+  const api::Fault* blocking = nullptr;  ///< a fault that forbids motion
+  const LaserScan* scan = nullptr;
+  const SonarScan* sonar = nullptr;
+};
+
+struct SafetyVerdict {
+  Twist2 allowed;
+  std::string reason;  ///< why less than wanted is allowed; empty when all is
+};
+
+/// Obstacles around the base now: lidar returns, and echoes that the lidar cannot explain.
+[[nodiscard]] std::vector<Point2> obstacle_points(const LaserScan* scan, const SonarScan* sonar,
+                                                  const SafetyParams& params);
+
+[[nodiscard]] SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params);
+
+}  // namespace seeker::app
