@@ -9,6 +9,7 @@
 
 #include "common/api/mission.hpp"
 #include "common/api/perception.hpp"
+#include "common/api/robot_state.hpp"
 #include "common/core/pose_estimate.hpp"
 #include "common/core/scan.hpp"
 #include "server/nav/occupancy_map.hpp"
@@ -36,8 +37,8 @@ struct BehaviourEvent {
 /// What a behaviour wants at one tick.
 struct Decision {
   Twist2 command;
-  bool wants_image = false;       ///< recognise the targets in a picture taken now
-  bool step_done = false;         ///< a natural place to stop (link policy FINISH_STEP)
+  bool wants_image = false;  ///< recognise the targets in a picture taken now
+  bool step_done = false;    ///< a natural place to stop (link policy FINISH_STEP)
   std::string phase;
   std::string activity;
   double progress = 0.0;
@@ -49,9 +50,9 @@ struct Decision {
 /// The recognisers' answer to wants_image.
 struct Recognition {
   RobotTime stamp;
-  Pose2 map_T_base;                          ///< where the picture was taken
+  Pose2 map_T_base;  ///< where the picture was taken
   std::vector<vision::Sighting> sightings;
-  std::optional<LaserScan> scan;             ///< newest at the exposure
+  std::optional<LaserScan> scan;  ///< newest at the exposure
   std::optional<SonarScan> sonar;
 };
 
@@ -69,6 +70,7 @@ class Behaviour {
   /// Time passes without steps while paused.
   virtual void resumed(RobotTime /*now*/) {}
   [[nodiscard]] virtual std::optional<api::GridReport> grid() const { return std::nullopt; }
+  /// Everything found so far, with ids from 1 that stay.
   [[nodiscard]] virtual std::vector<api::Detection> detections() const { return {}; }
 };
 

@@ -37,7 +37,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.status.phase = "start";
   active.status.started = situation.now;
   active.status.link_policy = request.link_policy;
-  active.first_detection = detections_.size();
+  active.detection_base = highest_detection_id_;
   active_ = std::move(active);
   event_sequence_ = 0;
   log(situation.now, "mission-started", active_->status.kind + " started");
@@ -50,9 +50,7 @@ Status MissionExecutor::command(api::MissionCommand command, RobotTime now) {
     return fail(Errc::kNotReady, "no mission is running");
   }
   switch (command) {
-    case api::MissionCommand::kStop:
-      end(api::Outcome::kOperator, "stopped by the operator", "", now);
-      return {};
+    case api::MissionCommand::kStop: end(api::Outcome::kOperator, "stopped by the operator", "", now); return {};
     case api::MissionCommand::kPause:
       if (!running()) {
         return fail(Errc::kNotReady, "the mission is paused already");
@@ -163,9 +161,9 @@ void MissionExecutor::apply_link_policy(const Situation& situation, WallTime wal
   }
   collect();
   active_->behaviour = std::move(*way_back);
-  active_->first_detection = detections_.size();
-  active_->end_after = api::MissionEnd{.outcome = api::Outcome::kLinkLost, .cause = cause, .remedy = remedy,
-                                       .unreachable = {}};
+  active_->detection_base = highest_detection_id_;
+  active_->end_after =
+      api::MissionEnd{.outcome = api::Outcome::kLinkLost, .cause = cause, .remedy = remedy, .unreachable = {}};
   log(situation.now, "returning", cause, api::Severity::kWarning);
 }
 
@@ -234,17 +232,20 @@ void MissionExecutor::collect() {
     active_->status.coverage = grid->evidence.summary;
     grid_ = std::move(grid);
   }
-  std::vector<api::Detection> now = active_->behaviour->detections();
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const std::size_t index = active_->first_detection + i;
-    now[i].id = detection_base_ + index + 1;
-    if (index >= detections_.size()) {
-      detections_.push_back(now[i]);
-      outputs_.detection(now[i]);
-    } else if (!(detections_[index] == now[i])) {
-      detections_[index] = now[i];
-      outputs_.detection(now[i]);
+  for (api::Detection& detection : active_->behaviour->detections()) {
+    detection.id += active_->detection_base;
+    const auto known = std::find_if(detections_.begin(), detections_.end(),
+                                    [&](const api::Detection& d) { return d.id == detection.id; });
+    if (known != detections_.end() && *known == detection) {
+      continue;
     }
+    if (known == detections_.end()) {
+      detections_.push_back(detection);
+    } else {
+      *known = detection;
+    }
+    highest_detection_id_ = std::max(highest_detection_id_, detection.id);
+    outputs_.detection(detection);
   }
 }
 

@@ -18,10 +18,10 @@ namespace seeker::app {
 using WallTime = std::chrono::steady_clock::time_point;
 
 struct MissionParams {
-  Duration link_grace = std::chrono::seconds(5);      ///< wall time a lost client has to come back
-  Duration fault_grace = std::chrono::seconds(10);    ///< robot time a blocking fault may last
-  Duration lost_grace = std::chrono::seconds(10);     ///< robot time without localisation
-  Duration report_period = std::chrono::seconds(1);   ///< robot time between reports of an unchanged phase
+  Duration link_grace = std::chrono::seconds(5);     ///< wall time a lost client has to come back
+  Duration fault_grace = std::chrono::seconds(10);   ///< robot time a blocking fault may last
+  Duration lost_grace = std::chrono::seconds(10);    ///< robot time without localisation
+  Duration report_period = std::chrono::seconds(1);  ///< robot time between reports of an unchanged phase
 };
 
 /// Makes the behaviour of a task. Refusals (an unusable target picture) become the answer to the client.
@@ -63,7 +63,7 @@ class MissionExecutor {
   [[nodiscard]] const std::vector<api::Detection>& detections() const { return detections_; }
   [[nodiscard]] const Behaviour* behaviour() const { return active_ ? active_->behaviour.get() : nullptr; }
   /// Ids continue above what an earlier run of the program gave out.
-  void continue_detection_ids(std::uint64_t highest) { detection_base_ = highest; }
+  void continue_detection_ids(std::uint64_t highest) { highest_detection_id_ = highest; }
 
  private:
   struct Active {
@@ -71,10 +71,10 @@ class MissionExecutor {
     std::string owner;
     std::unique_ptr<Behaviour> behaviour;
     api::MissionStatus status;
-    std::size_t first_detection = 0;         ///< index of this mission's first entry in detections_
+    std::uint64_t detection_base = 0;  ///< added to the behaviour's own ids, which count from 1
     std::optional<WallTime> lost_since;
     bool finish_step = false;
-    std::optional<api::MissionEnd> end_after; ///< the outcome once the robot is back (link policy RETURN)
+    std::optional<api::MissionEnd> end_after;  ///< the outcome once the robot is back (link policy RETURN)
     std::optional<RobotTime> blocked_since;
     std::optional<RobotTime> unlocalised_since;
     std::optional<Pose2> last_pose;
@@ -98,7 +98,7 @@ class MissionExecutor {
   std::optional<api::MissionStatus> last_;
   std::optional<api::GridReport> grid_;
   std::vector<api::Detection> detections_;
-  std::uint64_t detection_base_ = 0;
+  std::uint64_t highest_detection_id_ = 0;
   std::uint64_t event_sequence_ = 0;
 };
 

@@ -66,8 +66,9 @@ Status MotionAuthority::drive(const std::string& client, const api::DriveCommand
     return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
   }
   if (lease_.owner != client) {
-    return fail(Errc::kRefused, lease_.owner.empty() ? "driving needs the lease; acquire it first"
-                                                     : "'" + lease_.owner + "' holds the lease; request it, or take it over");
+    return fail(Errc::kRefused, lease_.owner.empty()
+                                    ? "driving needs the lease; acquire it first"
+                                    : "'" + lease_.owner + "' holds the lease; request it, or take it over");
   }
   if (command.lease_epoch != lease_.epoch) {
     return fail(Errc::kRefused, "the command belongs to an earlier lease; acquire the lease again");

@@ -62,8 +62,9 @@ Result<api::LeaseState> RobotLoop::command_lease(const std::string& client, api:
 
 Status RobotLoop::drive(const std::string& client, const api::DriveCommand& command) {
   if (!realtime()) {
-    return fail(Errc::kRefused, "the robot's clock runs at another speed than 1, so it cannot be driven by hand; start "
-                                "it with --set sim.speed=1");
+    return fail(Errc::kRefused,
+                "the robot's clock runs at another speed than 1, so it cannot be driven by hand; start "
+                "it with --set sim.speed=1");
   }
   if (missions_.running()) {
     return fail(Errc::kBusy, "a mission is running; pause or stop it before driving by hand");
@@ -112,9 +113,6 @@ void RobotLoop::client_lost(const std::string& client, const std::string& why, W
 
 void RobotLoop::client_back(const std::string& client) { missions_.client_back(client); }
 
-void RobotLoop::client_closed(const std::string& client, WallTime wall_now) {
-  authority_.forget(client);
-  missions_.client_lost(client, wall_now);
-}
+void RobotLoop::client_closed(const std::string& client) { authority_.forget(client); }
 
 }  // namespace seeker::app

@@ -91,9 +91,7 @@ void RobotLoop::shut_down() {
   components_.deactivate_all();
 }
 
-bool RobotLoop::realtime() const {
-  return !parts_.devices.clock->lockstep() || parts_.devices.clock->speed() == 1.0;
-}
+bool RobotLoop::realtime() const { return !parts_.devices.clock->lockstep() || parts_.devices.clock->speed() == 1.0; }
 
 bool RobotLoop::idle() const {
   if (ended_) {
@@ -141,9 +139,9 @@ void RobotLoop::read(Driver* driver, const std::string& name, Duration timeout, 
     clear(name + "-silent");
   }
   if (now() - last > timeout && !ended_) {
-    raise(name + "-silent", name, "the " + name + " has been silent for more than " +
-                                      std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(timeout).count()) +
-                                      " ms",
+    raise(name + "-silent", name,
+          "the " + name + " has been silent for more than " +
+              std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(timeout).count()) + " ms",
           "check its cable and power; 'seeker components --restart " + name + "' starts it again");
   }
 }
@@ -172,7 +170,8 @@ void RobotLoop::estimate() {
     pose_ = parts_.estimator->estimate();
     components_.count_output("pose", now());
   }
-  const bool trusted = pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
+  const bool trusted =
+      pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
   if (!trusted) {
     return;
   }
@@ -199,8 +198,8 @@ Twist2 RobotLoop::decide(WallTime wall_now) {
     if (*answer) {
       missions_.on_recognition(**answer);
     } else {
-      raise("recogniser-failed", "recogniser", answer->error().message, "check the camera's picture with 'seeker camera grab'",
-            api::Severity::kWarning);
+      raise("recogniser-failed", "recogniser", answer->error().message,
+            "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
     }
   }
   const Situation here = situation();
@@ -294,6 +293,11 @@ void RobotLoop::remember_pose() {
   }
 }
 
+void RobotLoop::publish_idle() {
+  fresh_scan_ = fresh_sonar_ = false;
+  publish();
+}
+
 void RobotLoop::publish_tiles(RobotTime stamp) {
   api::TileUpdate update;
   update.tiles = map_.tiles_since(republish_ ? 0 : published_revision_);
@@ -363,7 +367,11 @@ std::vector<std::string> RobotLoop::capabilities() const {
 
 void RobotLoop::raise(const std::string& id, const std::string& component, const std::string& message,
                       const std::string& remedy, api::Severity severity) {
-  if (faults_.raise({.id = id, .component = component, .severity = severity, .onset = now(), .message = message,
+  if (faults_.raise({.id = id,
+                     .component = component,
+                     .severity = severity,
+                     .onset = now(),
+                     .message = message,
                      .remedy = remedy})) {
     log("fault", id + ": " + message, severity);
   }
@@ -376,7 +384,12 @@ void RobotLoop::clear(const std::string& id) {
 }
 
 void RobotLoop::log(const std::string& kind, const std::string& text, api::Severity severity) {
-  emit({.sequence = 0, .stamp = now(), .mission_time = std::nullopt, .mission = "", .severity = severity, .kind = kind,
+  emit({.sequence = 0,
+        .stamp = now(),
+        .mission_time = std::nullopt,
+        .mission = "",
+        .severity = severity,
+        .kind = kind,
         .text = text});
 }
 

@@ -25,13 +25,13 @@ namespace seeker::app {
 
 struct LoopParams {
   Duration period = std::chrono::milliseconds(100);
-  Duration base_timeout = std::chrono::milliseconds(500);    ///< silence that is a fault, robot time
+  Duration base_timeout = std::chrono::milliseconds(500);  ///< silence that is a fault, robot time
   Duration lidar_timeout = std::chrono::seconds(1);
   Duration sonar_timeout = std::chrono::seconds(1);
-  Duration tile_period = std::chrono::milliseconds(500);     ///< between publications of changed tiles, robot time
-  Duration grid_period = std::chrono::seconds(2);            ///< between publications of lists and evidence
+  Duration tile_period = std::chrono::milliseconds(500);  ///< between publications of changed tiles, robot time
+  Duration grid_period = std::chrono::seconds(2);         ///< between publications of lists and evidence
   double trajectory_spacing_m = 0.1;
-  std::size_t max_trajectory = 100'000;                      ///< poses; the oldest half is thinned out beyond it
+  std::size_t max_trajectory = 100'000;  ///< poses; the oldest half is thinned out beyond it
   SafetyParams safety;
   MissionParams mission;
 };
@@ -60,6 +60,8 @@ class RobotLoop {
   [[nodiscard]] bool idle() const;
   /// The source of a replay has been read to its end.
   [[nodiscard]] bool ended() const { return ended_; }
+  /// Publishes what subscribers need while the world stands still.
+  void publish_idle();
   /// Halts the base and stops the components.
   void shut_down();
 
@@ -84,7 +86,8 @@ class RobotLoop {
   [[nodiscard]] Result<api::ImageFrame> grab_image(const std::string& camera);
   void client_lost(const std::string& client, const std::string& why, WallTime wall_now);
   void client_back(const std::string& client);
-  void client_closed(const std::string& client, WallTime wall_now);
+  /// The client left on purpose: its lease is free, its mission goes on.
+  void client_closed(const std::string& client);
   /// Everything a new subscriber needs is published in the next pass.
   void republish() { republish_ = true; }
 
@@ -107,8 +110,8 @@ class RobotLoop {
   void publish_tiles(RobotTime stamp);
   void remember_pose();
   [[nodiscard]] Situation situation() const;
-  void raise(const std::string& id, const std::string& component, const std::string& message,
-             const std::string& remedy, api::Severity severity = api::Severity::kError);
+  void raise(const std::string& id, const std::string& component, const std::string& message, const std::string& remedy,
+             api::Severity severity = api::Severity::kError);
   void clear(const std::string& id);
   void log(const std::string& kind, const std::string& text, api::Severity severity = api::Severity::kInfo);
   void emit(const api::Event& event);

@@ -69,7 +69,8 @@ TEST(MotionAuthority, LostOwnerFreesTheLease) {
 TEST(MotionAuthority, NanAndLongLifeAreRefused) {
   MotionAuthority authority;
   ASSERT_TRUE(authority.command_lease("anna", LeaseAction::kAcquire));
-  EXPECT_EQ(authority.drive("anna", command(authority, std::nan("")), RobotTime{}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(authority.drive("anna", command(authority, std::nan("")), RobotTime{}).error().code,
+            Errc::kInvalidArgument);
   api::DriveCommand immortal = command(authority);
   immortal.ttl = std::chrono::hours(1);
   EXPECT_FALSE(authority.drive("anna", immortal, RobotTime{}));

@@ -1,0 +1,175 @@
+#include "server/app/robot.hpp"
+
+#include <utility>
+
+namespace seeker::app {
+namespace {
+
+/// Tasks waiting for the loop; more than any honest set of clients asks within one tick.
+constexpr std::size_t kMailboxCapacity = 4096;
+/// How long an idle loop sleeps before it looks at its sensors again.
+constexpr std::chrono::milliseconds kIdleWait{200};
+
+}  // namespace
+
+/// One client's view: every call becomes a task of the loop's thread.
+class Robot::Session final : public api::RobotApi, public std::enable_shared_from_this<Robot::Session> {
+ public:
+  Session(Robot& robot, std::string client) : robot_(robot), client_(std::move(client)) {}
+
+  void get_info(api::Reply<api::RobotInfo> reply) override {
+    ask(std::move(reply), [this] { return Result<api::RobotInfo>(robot_.info()); });
+  }
+  void get_status(api::Reply<api::RobotStatus> reply) override {
+    ask(std::move(reply), [this] { return Result<api::RobotStatus>(loop().status()); });
+  }
+  void list_components(api::Reply<std::vector<api::ComponentInfo>> reply) override {
+    ask(std::move(reply),
+        [this] { return Result<std::vector<api::ComponentInfo>>(loop().components().list(loop().now())); });
+  }
+  void restart_component(const std::string& name, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, name] { return loop().restart_component(name); });
+  }
+  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override {
+    ask(std::move(reply), [this, request] { return loop().start_mission(request, client_); });
+  }
+  void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, command] { return loop().command_mission(command); });
+  }
+  void get_mission(api::Reply<api::MissionStatus> reply) override {
+    ask(std::move(reply), [this]() -> Result<api::MissionStatus> {
+      if (!loop().missions().last()) {
+        return fail(Errc::kNotFound, "no mission has been started yet");
+      }
+      return *loop().missions().last();
+    });
+  }
+  void stop(api::Reply<void> reply) override {
+    ask(std::move(reply), [this] {
+      loop().stop();
+      return Status();
+    });
+  }
+  void set_estop(bool engaged, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, engaged] {
+      loop().set_estop(engaged);
+      return Status();
+    });
+  }
+  void command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) override {
+    ask(std::move(reply), [this, action] { return loop().command_lease(client_, action); });
+  }
+  void drive(const api::DriveCommand& command, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, command] { return loop().drive(client_, command); });
+  }
+  void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override {
+    ask(std::move(reply), [this, since_revision] {
+      api::TileUpdate update;
+      update.revision = loop().map().revision();
+      update.map_epoch = loop().status().pose.map_epoch;
+      update.tiles = loop().map().tiles_since(since_revision);
+      return Result<api::TileUpdate>(std::move(update));
+    });
+  }
+  void get_grid(api::Reply<api::GridReport> reply) override {
+    ask(std::move(reply), [this]() -> Result<api::GridReport> {
+      if (!loop().missions().grid()) {
+        return fail(Errc::kNotFound, "no search has been started yet, so there are no lists");
+      }
+      return *loop().missions().grid();
+    });
+  }
+  void get_detections(api::Reply<std::vector<api::Detection>> reply) override {
+    ask(std::move(reply), [this] { return Result<std::vector<api::Detection>>(loop().missions().detections()); });
+  }
+  void get_trajectory(api::Reply<std::vector<Pose2>> reply) override {
+    ask(std::move(reply), [this] { return Result<std::vector<Pose2>>(loop().trajectory()); });
+  }
+  void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override {
+    ask(std::move(reply), [this, camera] { return loop().grab_image(camera); });
+  }
+  Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
+                                                       api::UpdateSink sink) override {
+    std::unique_ptr<api::Subscription> subscription = robot_.hub_.subscribe(topics, std::move(sink));
+    // A full mailbox only delays the first picture of the map until the next change.
+    static_cast<void>(robot_.mailbox_.post([self = shared_from_this()] { self->loop().republish(); }));
+    return subscription;
+  }
+
+ private:
+  [[nodiscard]] RobotLoop& loop() { return robot_.loop_; }
+
+  template <class T, class Work>
+  void ask(api::Reply<T> reply, Work work) {
+    auto shared = std::make_shared<api::Reply<T>>(std::move(reply));
+    // The task keeps the session alive: its client may be gone before the loop comes to it.
+    if (!robot_.mailbox_.post(
+            [shared, self = shared_from_this(), work = std::move(work)]() mutable { (*shared)(work()); })) {
+      (*shared)(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
+    }
+  }
+
+  Robot& robot_;
+  std::string client_;
+};
+
+Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts)
+    : identity_(std::move(identity)), loop_(params, std::move(parts), hub_), mailbox_(kMailboxCapacity) {}
+
+Robot::~Robot() { stop(); }
+
+void Robot::start(bool wait_for_client) {
+  loop_.start();
+  now_ns_ = loop_.now().time_since_epoch().count();
+  thread_ = std::thread([this, wait_for_client] { run(wait_for_client); });
+}
+
+void Robot::stop() {
+  mailbox_.close();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void Robot::run(bool wait_for_client) {
+  while (!mailbox_.closed()) {
+    mailbox_.run_pending();
+    if (loop_.idle() || (wait_for_client && !client_seen_)) {
+      loop_.publish_idle();
+      mailbox_.wait(kIdleWait);
+      continue;
+    }
+    loop_.tick(std::chrono::steady_clock::now());
+    now_ns_ = loop_.now().time_since_epoch().count();
+    ended_ = loop_.ended();
+  }
+  loop_.shut_down();
+  mailbox_.run_pending();
+}
+
+api::RobotInfo Robot::info() const {
+  api::RobotInfo info;
+  info.robot_id = identity_.robot_id;
+  info.software_version = identity_.software_version;
+  info.capabilities = loop_.capabilities();
+  info.robot_radius_m = identity_.robot_radius_m;
+  info.realtime = loop_.realtime();
+  return info;
+}
+
+std::shared_ptr<api::RobotApi> Robot::open(const api::Caller& caller) {
+  client_seen_ = client_seen_ || !caller.client_name.empty();
+  static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.client_back(name); }));
+  return std::make_shared<Session>(*this, caller.client_name);
+}
+
+void Robot::closed(const api::Caller& caller) {
+  static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.client_closed(name); }));
+}
+
+void Robot::lost(const api::Caller& caller, const std::string& why) {
+  static_cast<void>(mailbox_.post(
+      [this, name = caller.client_name, why] { loop_.client_lost(name, why, std::chrono::steady_clock::now()); }));
+}
+
+}  // namespace seeker::app
