@@ -3,6 +3,9 @@ add_library(seeker_flags INTERFACE)
 target_include_directories(seeker_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(seeker_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
 
+# GCC 12 takes members of an empty std::optional for uninitialised (GCC bug 80635), most of all under sanitizers.
+target_compile_options(seeker_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+
 if(SEEKER_SANITIZE)
   target_compile_options(seeker_flags INTERFACE -fsanitize=${SEEKER_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(seeker_flags INTERFACE -fsanitize=${SEEKER_SANITIZE})

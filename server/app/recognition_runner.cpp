@@ -1,5 +1,7 @@
 #include "server/app/recognition_runner.hpp"
 
+#include <utility>
+
 #include "common/core/assert.hpp"
 
 namespace seeker::app {
@@ -58,9 +60,7 @@ void RecognitionRunner::start(RecognitionJob job) {
 
 std::optional<Result<Recognition>> RecognitionRunner::take() {
   const std::lock_guard lock(mutex_);
-  std::optional<Result<Recognition>> answer;
-  answer.swap(answer_);
-  return answer;
+  return std::exchange(answer_, std::nullopt);
 }
 
 void RecognitionRunner::work() {
