@@ -14,12 +14,12 @@ namespace seeker::sim {
 
 /// What the wheel encoders get wrong. Random parts grow with the square root of the way, as a random walk.
 struct OdometryModel {
-  double sigma_distance = 0.010;           ///< m per sqrt(m) driven, along the way
-  double sigma_turn = 0.015;               ///< rad per sqrt(rad) turned
-  double sigma_turn_per_distance = 0.010;  ///< rad per sqrt(m) driven
-  double left_wheel_scale = 1.002;         ///< measured / true distance of the left wheel
-  double right_wheel_scale = 0.999;        ///< the wheels are not equal
-  double wheel_base_scale = 1.006;         ///< assumed / true distance of the wheels
+  double sigma_distance = 0.008;           ///< m per sqrt(m) driven, along the way
+  double sigma_turn = 0.006;               ///< rad per sqrt(rad) turned
+  double sigma_turn_per_distance = 0.005;  ///< rad per sqrt(m) driven
+  double left_wheel_scale = 1.0006;        ///< measured / true distance of the left wheel
+  double right_wheel_scale = 0.9996;       ///< the wheels are not equal
+  double wheel_base_scale = 1.003;         ///< assumed / true distance of the wheels
 };
 
 /// A SICK LMS200 (180 deg, 0.5 deg, 8 m).

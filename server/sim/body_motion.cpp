@@ -1,0 +1,100 @@
+#include "server/sim/body_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seeker::sim {
+namespace {
+
+constexpr double kFloorDust_m = 0.02;
+constexpr double kRelease_m = 0.02;  ///< a touch ends when the body is this far away again
+
+double approach(double present, double wanted, double step) {
+  return present + std::clamp(wanted - present, -step, step);
+}
+
+}  // namespace
+
+HeightBand body_band(const RobotModel& model) { return {kFloorDust_m, model.body_height_m}; }
+
+Twist2 accelerate(const Twist2& present, const Twist2& wanted, const RobotModel& model, double dt_s) {
+  const double v = std::clamp(wanted.v_m_s, -model.v_max_m_s, model.v_max_m_s);
+  const double omega = std::clamp(wanted.omega_rad_s, -model.omega_max_rad_s, model.omega_max_rad_s);
+  return {approach(present.v_m_s, v, model.acceleration_m_s2 * dt_s),
+          approach(present.omega_rad_s, omega, model.angular_acceleration_rad_s2 * dt_s)};
+}
+
+Twist2 BodyMotion::step(const Twist2& wanted, const RobotModel& model, const Scene& scene, double dt_s) {
+  const HeightBand band = body_band(model);
+  const double limit_m = model.radius_m + kClearanceLimit_m;
+  const Twist2 before = velocity_;
+  velocity_ = accelerate(velocity_, wanted, model, dt_s);
+  Twist2 mean{0.5 * (before.v_m_s + velocity_.v_m_s), 0.5 * (before.omega_rad_s + velocity_.omega_rad_s)};
+
+  const double clearance_before_m = scene.clearance_m(world_T_base_.translation(), limit_m, band);
+  Pose2 next = world_T_base_ * integrate(mean, dt_s);
+  double clearance_m = scene.clearance_m(next.translation(), limit_m, band);
+  // Moving away from what is touched stays possible. The middle of a body never comes near a surface, so the
+  // distance cannot rise on the far side of a thin wall: nothing is tunnelled through.
+  blocked_ = mean.v_m_s != 0.0 && clearance_m < model.radius_m && clearance_m <= clearance_before_m;
+  if (blocked_) {
+    mean.v_m_s = 0.0;
+    velocity_.v_m_s = 0.0;
+    next = world_T_base_ * integrate(mean, dt_s);
+    clearance_m = clearance_before_m;
+    contacts_ += touching_ ? 0 : 1;
+    touching_ = true;
+  } else if (clearance_m > model.radius_m + kRelease_m) {
+    touching_ = false;
+  }
+  path_length_m_ += std::abs(mean.v_m_s) * dt_s;
+  world_T_base_ = next;
+  min_clearance_m_ = touching_ ? 0.0 : std::min(min_clearance_m_, std::max(0.0, clearance_m - model.radius_m));
+  return mean;
+}
+
+void Encoders::step(const Twist2& twist, double dt_s, const RobotModel& model, Rng& rng) {
+  velocity_ = {};
+  if (twist == Twist2{}) {
+    return;
+  }
+  const OdometryModel& m = model.odometry;
+  const double way_m = twist.v_m_s * dt_s;
+  const double turn_rad = twist.omega_rad_s * dt_s;
+  const double left_m = (way_m - turn_rad * model.wheel_base_m / 2.0) * m.left_wheel_scale;
+  const double right_m = (way_m + turn_rad * model.wheel_base_m / 2.0) * m.right_wheel_scale;
+  const double measured_way_m = 0.5 * (left_m + right_m) + rng.normal(m.sigma_distance) * std::sqrt(std::abs(way_m));
+  const double measured_turn_rad = (right_m - left_m) / (model.wheel_base_m * m.wheel_base_scale) +
+                                   rng.normal(m.sigma_turn) * std::sqrt(std::abs(turn_rad)) +
+                                   rng.normal(m.sigma_turn_per_distance) * std::sqrt(std::abs(way_m));
+  odom_T_base_ = odom_T_base_ * integrate({measured_way_m / dt_s, measured_turn_rad / dt_s}, dt_s);
+  // The board reports the filtered speed of the wheels, without the random part of one step.
+  velocity_ = {0.5 * (left_m + right_m) / dt_s, (right_m - left_m) / (model.wheel_base_m * m.wheel_base_scale) / dt_s};
+}
+
+Walker::Walker(const PersonPath& path, std::uint64_t serial)
+    : path_(path), paint_(make_paint(path.surface, serial)), position_(path.waypoints.front()) {}
+
+void Walker::step(const Point2& robot, double robot_radius_m, double dt_s) {
+  const Point2 to_goal = path_.waypoints[next_] - position_;
+  const double way_m = path_.speed_m_s * dt_s;
+  const double left_m = to_goal.norm();
+  if (left_m <= way_m) {
+    position_ = path_.waypoints[next_];
+    if (next_ + 1 == path_.waypoints.size()) {
+      forward_ = false;
+    } else if (next_ == 0) {
+      forward_ = true;
+    }
+    next_ = forward_ ? next_ + 1 : next_ - 1;
+    return;
+  }
+  const Point2 next = position_ + to_goal * (way_m / left_m);
+  const double gap_m = (next - robot).norm() - robot_radius_m - path_.radius_m;
+  if (gap_m < path_.wait_m && (next - robot).norm() < (position_ - robot).norm()) {
+    return;
+  }
+  position_ = next;
+}
+
+}  // namespace seeker::sim

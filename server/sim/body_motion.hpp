@@ -1,0 +1,77 @@
+/// \file
+/// How the base moves: limits of acceleration and speed, and what it does when it meets something.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "common/core/rng.hpp"
+#include "server/sim/robot_model.hpp"
+#include "server/sim/scene.hpp"
+
+namespace seeker::sim {
+
+/// Heights at which the body can touch something: all but the dust on the floor.
+[[nodiscard]] HeightBand body_band(const RobotModel& model);
+
+/// Velocity after `dt_s` on the way from `present` to `wanted`, within the limits of the model.
+[[nodiscard]] Twist2 accelerate(const Twist2& present, const Twist2& wanted, const RobotModel& model, double dt_s);
+
+/// The disc-shaped body. A touch ends translation at once; turning on the spot stays possible.
+class BodyMotion {
+ public:
+  explicit BodyMotion(const Pose2& world_T_base) : world_T_base_(world_T_base) {}
+
+  /// One step of at most 10 ms (spec S1.3, exact on the arc). Returns the motion that really happened.
+  Twist2 step(const Twist2& wanted, const RobotModel& model, const Scene& scene, double dt_s);
+
+  [[nodiscard]] const Pose2& world_T_base() const { return world_T_base_; }
+  [[nodiscard]] const Twist2& velocity() const { return velocity_; }
+  [[nodiscard]] bool touching() const { return touching_; }
+  [[nodiscard]] bool blocked() const { return blocked_; }
+  [[nodiscard]] int contacts() const { return contacts_; }
+  [[nodiscard]] double path_length_m() const { return path_length_m_; }
+  [[nodiscard]] double min_clearance_m() const { return min_clearance_m_; }
+
+ private:
+  Pose2 world_T_base_;
+  Twist2 velocity_;
+  bool touching_ = false;
+  bool blocked_ = false;
+  int contacts_ = 0;
+  double path_length_m_ = 0.0;
+  double min_clearance_m_ = kClearanceLimit_m;
+  static constexpr double kClearanceLimit_m = 1.0;  ///< farther things are not looked for
+};
+
+/// Wheel encoders: dead reckoning with the errors of OdometryModel.
+class Encoders {
+ public:
+  /// Adds one step of true motion (`twist` over dt_s).
+  void step(const Twist2& twist, double dt_s, const RobotModel& model, Rng& rng);
+  [[nodiscard]] const Pose2& odom_T_base() const { return odom_T_base_; }
+  [[nodiscard]] const Twist2& velocity() const { return velocity_; }
+
+ private:
+  Pose2 odom_T_base_;
+  Twist2 velocity_;
+};
+
+/// A person's way along a PersonPath.
+class Walker {
+ public:
+  Walker(const PersonPath& path, std::uint64_t serial);
+  /// Walks on unless the robot (a disc) is within the waiting distance ahead of the next step.
+  void step(const Point2& robot, double robot_radius_m, double dt_s);
+  [[nodiscard]] Disc disc() const { return {position_, path_.radius_m, path_.height_m, paint_}; }
+
+ private:
+  PersonPath path_;
+  Paint paint_;
+  Point2 position_;
+  std::size_t next_ = 1;
+  bool forward_ = true;
+};
+
+}  // namespace seeker::sim

@@ -1,0 +1,107 @@
+/// \file
+/// The world as rays see it: vertical faces, the convex solids they bound, and a grid that finds them quickly.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "server/sim/face_grid.hpp"
+#include "server/sim/texture.hpp"
+#include "server/sim/world.hpp"
+
+namespace seeker::sim {
+
+inline constexpr int kNoPicture = -1;
+
+/// How a face or a solid's top is painted, ready for the renderer.
+struct Paint {
+  double albedo = 0.7;  ///< side light included
+  double contrast = 0.0;
+  double texels_per_m = 100.0;
+  double u0_texel = 0.0;  ///< where its cut of the noise picture begins; large enough that no coordinate is negative
+  double v0_texel = 0.0;
+};
+
+/// A vertical rectangle over the segment `segment` between two heights.
+struct Face {
+  Segment segment;
+  Point2 normal = Point2::UnitX();  ///< outwards (a single wall: to the left of a -> b)
+  double z_min_m = 0.0;
+  double z_max_m = 0.0;
+  int solid = 0;
+  int picture = kNoPicture;  ///< painted instead of the texture, left edge at segment.a
+  Paint paint;
+};
+
+/// A convex prism, or a single face without inside.
+struct Solid {
+  double z_min_m = 0.0;
+  double z_max_m = 0.0;
+  std::size_t first_face = 0;
+  std::size_t face_count = 0;
+  Paint cover;  ///< of its top and bottom
+};
+
+/// A walking person at one moment.
+struct Disc {
+  Point2 centre = Point2::Zero();
+  double radius_m = 0.0;
+  double height_m = 0.0;
+  Paint paint;
+};
+
+/// Nearest thing on a ray.
+struct RayHit {
+  double distance_m = 0.0;
+  double cos_incidence = 1.0;  ///< between ray and normal, 0: grazing
+  double to_edge_m = 1e9;      ///< from the hit to the nearer vertical edge of its face
+};
+
+/// Interval of heights.
+struct HeightBand {
+  double low_m = 0.0;
+  double high_m = 0.0;
+  [[nodiscard]] bool meets(double z_min, double z_max) const { return z_min <= high_m && z_max >= low_m; }
+};
+
+class Scene {
+ public:
+  /// From a valid world.
+  explicit Scene(const World& world);
+
+  [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
+  [[nodiscard]] const std::vector<Solid>& solids() const { return solids_; }
+  [[nodiscard]] const std::vector<PictureTexture>& pictures() const { return pictures_; }
+  [[nodiscard]] const FaceGrid& grid() const { return grid_; }
+  [[nodiscard]] const Paint& floor() const { return floor_; }
+  [[nodiscard]] const std::vector<Disc>& people() const { return people_; }
+  void set_people(std::vector<Disc> people) { people_ = std::move(people); }
+
+  /// Nearest face or person that has something at height z, within range_max_m. `direction` has length 1.
+  [[nodiscard]] std::optional<RayHit> nearest(const Point2& origin, const Point2& direction, double range_max_m,
+                                              double z_m) const;
+
+  /// Distance from p to the nearest thing in the band of heights, at most `limit_m`; 0 inside a solid.
+  [[nodiscard]] double clearance_m(const Point2& p, double limit_m, const HeightBand& band) const;
+
+ private:
+  void add_prism(const std::vector<Point2>& corners, double z_min, double z_max, const Surface& surface);
+  void add_wall(const Wall& wall);
+  void add_target(const Target& target);
+  [[nodiscard]] bool inside(const Solid& solid, const Point2& p) const;
+
+  Lighting lighting_;
+  std::vector<Face> faces_;
+  std::vector<Solid> solids_;
+  std::vector<PictureTexture> pictures_;
+  std::vector<Disc> people_;
+  Paint floor_;
+  FaceGrid grid_;
+};
+
+/// Texture numbers of a surface; `serial` makes the cut of each face its own.
+[[nodiscard]] Paint make_paint(const Surface& surface, std::uint64_t serial);
+
+}  // namespace seeker::sim
