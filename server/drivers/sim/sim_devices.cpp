@@ -1,0 +1,223 @@
+#include "server/drivers/sim/sim_devices.hpp"
+
+#include <cmath>
+#include <limits>
+#include <thread>
+#include <utility>
+
+namespace seeker::drivers {
+namespace {
+
+/// True, and remembers the moment, when a device's period has passed since its last sample.
+bool due(std::optional<RobotTime>& last_sample, RobotTime now, Duration period) {
+  if (last_sample && now - *last_sample < period) {
+    return false;
+  }
+  last_sample = now;
+  return true;
+}
+
+tl::unexpected<Error> not_active(const char* device) {
+  return fail(Errc::kNotReady, std::string("the simulated ") + device + " is not active; activate it first");
+}
+
+}  // namespace
+
+SimBase::SimBase(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults,
+                 const SimDeviceParams& params)
+    : simulation_(std::move(simulation)), faults_(std::move(faults)), params_(params) {}
+
+Status SimBase::activate() {
+  active_ = true;
+  motors_ = false;
+  moving_ = false;
+  last_sample_.reset();
+  simulation_->command({});
+  odom_T_activation_ = simulation_->odometry().odom_T_base;
+  return {};
+}
+
+void SimBase::deactivate() {
+  simulation_->command({});
+  active_ = false;
+  motors_ = false;
+  moving_ = false;
+}
+
+Result<std::optional<OdometrySample>> SimBase::read() {
+  if (!active_) {
+    return not_active("base");
+  }
+  const RobotTime now = simulation_->now();
+  if (faults_->base_silent || !due(last_sample_, now, params_.base_period)) {
+    return std::nullopt;
+  }
+  const sim::BaseReading reading = simulation_->odometry();
+  OdometrySample sample;
+  sample.stamp = now;
+  sample.odom_T_base = inverse(odom_T_activation_) * reading.odom_T_base;
+  sample.velocity = reading.velocity;
+  sample.battery_v = reading.battery_v;
+  sample.motors_enabled = motors_;
+  sample.stalled = reading.stalled;
+  sample.bumped = reading.bumped;
+  return sample;
+}
+
+Status SimBase::set_velocity(const Twist2& velocity, RobotTime now) {
+  if (!active_) {
+    return not_active("base");
+  }
+  if (!std::isfinite(velocity.v_m_s) || !std::isfinite(velocity.omega_rad_s)) {
+    return fail(Errc::kInvalidArgument, "the velocity command is not a number");
+  }
+  if (!motors_) {
+    if (velocity == Twist2{}) {
+      return {};
+    }
+    return fail(Errc::kRefused, "the motors of the base are off; enable them first");
+  }
+  simulation_->command(velocity);
+  last_command_ = now;
+  moving_ = true;
+  return {};
+}
+
+Status SimBase::set_motors(bool enabled) {
+  if (!active_) {
+    return not_active("base");
+  }
+  motors_ = enabled;
+  if (!enabled) {
+    simulation_->command({});
+    moving_ = false;
+  }
+  return {};
+}
+
+void SimBase::before_advance(Duration period) {
+  if (moving_ && simulation_->now() + period - last_command_ > params_.command_timeout) {
+    simulation_->command({});
+    moving_ = false;
+  }
+}
+
+SimLidar::SimLidar(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults,
+                   const SimDeviceParams& params)
+    : simulation_(std::move(simulation)), faults_(std::move(faults)), period_(params.lidar_period) {}
+
+Status SimLidar::activate() {
+  active_ = true;
+  last_sample_.reset();
+  return {};
+}
+
+void SimLidar::deactivate() { active_ = false; }
+
+Result<std::optional<LaserScan>> SimLidar::read() {
+  if (!active_) {
+    return not_active("lidar");
+  }
+  if (faults_->lidar_silent || !due(last_sample_, simulation_->now(), period_)) {
+    return std::nullopt;
+  }
+  return simulation_->scan();
+}
+
+SimSonar::SimSonar(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults,
+                   const SimDeviceParams& params)
+    : simulation_(std::move(simulation)), faults_(std::move(faults)), period_(params.sonar_period) {}
+
+Status SimSonar::activate() {
+  active_ = true;
+  last_sample_.reset();
+  return {};
+}
+
+void SimSonar::deactivate() { active_ = false; }
+
+Result<std::optional<SonarScan>> SimSonar::read() {
+  if (!active_) {
+    return not_active("sonar");
+  }
+  if (faults_->sonar_silent || !due(last_sample_, simulation_->now(), period_)) {
+    return std::nullopt;
+  }
+  SonarScan scan = simulation_->sonar();
+  if (faults_->sonar_nan >= 0 && static_cast<std::size_t>(faults_->sonar_nan) < scan.readings.size()) {
+    scan.readings[static_cast<std::size_t>(faults_->sonar_nan)].range_m = std::numeric_limits<float>::quiet_NaN();
+  }
+  return scan;
+}
+
+SimCamera::SimCamera(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults)
+    : simulation_(std::move(simulation)), faults_(std::move(faults)) {}
+
+Status SimCamera::activate() {
+  if (faults_->camera_dead) {
+    return fail(Errc::kIo, "the simulated camera does not answer; check its cable");
+  }
+  active_ = true;
+  return {};
+}
+
+void SimCamera::deactivate() { active_ = false; }
+
+Result<CameraFrame> SimCamera::grab() {
+  if (!active_) {
+    return not_active("camera");
+  }
+  if (faults_->camera_dead) {
+    return fail(Errc::kIo, "the simulated camera does not answer; check its cable");
+  }
+  return CameraFrame{simulation_->now(), simulation_->omni_image()};
+}
+
+LockstepClock::LockstepClock(std::shared_ptr<sim::Simulation> simulation, SimBase* base, double speed)
+    : simulation_(std::move(simulation)), base_(base), speed_(speed) {}
+
+RobotTime LockstepClock::now() const { return simulation_->now(); }
+
+Status LockstepClock::advance(Duration period) {
+  if (period <= Duration::zero()) {
+    return fail(Errc::kInvalidArgument, "the lockstep clock advances by a period above 0");
+  }
+  if (base_ != nullptr) {
+    base_->before_advance(period);
+  }
+  simulation_->advance(period);
+  if (speed_ > 0.0) {
+    const auto wall = std::chrono::steady_clock::now();
+    const auto pace = seconds(to_seconds(period) / speed_);
+    // After a pause the clock starts afresh and does not hurry to catch up.
+    constexpr Duration kMaxLag = std::chrono::milliseconds(250);
+    if (!next_wake_ || wall - *next_wake_ > kMaxLag) {
+      next_wake_ = wall;
+    }
+    *next_wake_ += pace;
+    std::this_thread::sleep_until(*next_wake_);
+  }
+  return {};
+}
+
+Result<SimDevices> make_sim_devices(sim::World world, sim::RobotModel model, std::uint64_t seed, double speed,
+                                    const SimDeviceParams& params, std::size_t start) {
+  if (!std::isfinite(speed) || speed < 0.0) {
+    return fail(Errc::kInvalidArgument, "the speed of the simulated clock must be 0 (as fast as possible) or more");
+  }
+  auto simulation = sim::Simulation::create(std::move(world), std::move(model), seed, start);
+  if (!simulation) {
+    return tl::unexpected<Error>(simulation.error());
+  }
+  SimDevices devices;
+  devices.simulation = std::make_shared<sim::Simulation>(std::move(*simulation));
+  devices.faults = std::make_shared<SimFaults>();
+  devices.base = std::make_unique<SimBase>(devices.simulation, devices.faults, params);
+  devices.lidar = std::make_unique<SimLidar>(devices.simulation, devices.faults, params);
+  devices.sonar = std::make_unique<SimSonar>(devices.simulation, devices.faults, params);
+  devices.camera = std::make_unique<SimCamera>(devices.simulation, devices.faults);
+  devices.clock = std::make_unique<LockstepClock>(devices.simulation, devices.base.get(), speed);
+  return devices;
+}
+
+}  // namespace seeker::drivers

@@ -1,0 +1,36 @@
+/// \file
+/// A target file (config/targets/*.yaml): how a thing that is searched for looks and how large it is.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "common/config/fields.hpp"
+#include "common/core/image.hpp"
+#include "common/core/result.hpp"
+
+namespace seeker::options {
+
+/// The file as it stands.
+struct TargetFile {
+  std::string name;
+  std::string picture;  ///< PNG, relative to the file
+  double width_m = 0.30;
+  double height_m = 0.70;
+  double depth_m = 0.30;  ///< 0: a flat poster
+  double z_min_m = 0.05;  ///< lower edge over the floor
+  std::string recogniser = "template";
+};
+void describe(config::Fields& f, TargetFile& target);
+
+/// A target with its picture.
+struct TargetDescription {
+  TargetFile file;
+  Image picture;
+};
+
+/// Errors: those of the strict reader, kInvalidArgument for sizes, those of image::read_png.
+[[nodiscard]] Result<TargetDescription> load_target(const std::filesystem::path& path);
+
+}  // namespace seeker::options

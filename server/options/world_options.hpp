@@ -1,0 +1,122 @@
+/// \file
+/// World files (config/worlds/*.yaml) to sim::World.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/config/fields.hpp"
+#include "common/core/result.hpp"
+#include "server/options/target_options.hpp"
+#include "server/sim/world.hpp"
+
+namespace seeker::sim {
+
+// Found beside the structs they describe (see config::Fields).
+void describe(config::Fields& f, Lighting& lighting);
+void describe(config::Fields& f, Surface& surface);
+void describe(config::Fields& f, TableShape& shape);
+
+}  // namespace seeker::sim
+
+namespace seeker::options {
+
+/// An opening in a wall of a single leg: `at_m` from its first corner to the middle of the opening. Above
+/// `height_m` the wall goes on.
+struct DoorFile {
+  double at_m = 0.0;
+  double width_m = 0.95;
+  double height_m = 2.05;
+};
+void describe(config::Fields& f, DoorFile& door);
+
+/// Walls along a line of corners.
+struct WallFile {
+  Polygon path;
+  bool closed = false;  ///< the last corner joins the first
+  double thickness_m = 0.0;
+  double z_min_m = 0.0;
+  double z_max_m = 2.6;
+  sim::Surface surface;
+  std::vector<DoorFile> doors;
+};
+void describe(config::Fields& f, WallFile& wall);
+
+struct BoxFile {
+  Pose2 pose;
+  Point2 size_m = Point2(1.0, 1.0);
+  Point2 z_m = Point2(0.0, 1.0);  ///< lower and upper height
+  sim::Surface surface;
+};
+void describe(config::Fields& f, BoxFile& box);
+
+struct TableFile {
+  Pose2 pose;
+  sim::TableShape shape;
+  sim::Surface surface;
+};
+void describe(config::Fields& f, TableFile& table);
+
+struct CylinderFile {
+  Point2 centre = Point2::Zero();
+  double radius_m = 0.2;
+  Point2 z_m = Point2(0.0, 1.0);
+  sim::Surface surface;
+};
+void describe(config::Fields& f, CylinderFile& cylinder);
+
+struct PlacedTargetFile {
+  std::string file;  ///< a target file, relative to the world file
+  Pose2 pose;
+};
+void describe(config::Fields& f, PlacedTargetFile& target);
+
+struct PersonFile {
+  Polygon waypoints;
+  double speed_m_s = 0.7;
+  double radius_m = 0.22;
+  double wait_m = 0.6;
+};
+void describe(config::Fields& f, PersonFile& person);
+
+struct StartFile {
+  Pose2 pose;
+};
+void describe(config::Fields& f, StartFile& start);
+
+/// The file as it stands.
+struct WorldFile {
+  std::string base;  ///< another world file in the same folder; this one changes it
+  std::string name;
+  Point2 min_corner = Point2::Zero();
+  Point2 max_corner = Point2(5.0, 5.0);
+  sim::Lighting lighting;
+  sim::Surface floor{0.55, 0.10, 0.25, 1};
+  std::vector<StartFile> starts;
+  std::vector<WallFile> walls;
+  std::vector<BoxFile> boxes;
+  std::vector<TableFile> tables;
+  std::vector<CylinderFile> cylinders;
+  std::vector<PlacedTargetFile> targets;
+  std::vector<PersonFile> people;
+  bool people_walk = false;
+};
+void describe(config::Fields& f, WorldFile& world);
+
+/// Gets the target of a file named in a world.
+using TargetLoader = std::function<Result<TargetDescription>(const std::string& file)>;
+
+/// The text of one world file, `defaults` where it is silent. No file is opened.
+[[nodiscard]] Result<WorldFile> parse_world(std::string_view text, const std::string& name, WorldFile defaults = {},
+                                            const std::vector<std::string>& overrides = {});
+/// Walls cut, tables built, pictures loaded, all of it validated.
+[[nodiscard]] Result<sim::World> build_world(const WorldFile& file, const TargetLoader& load_target);
+
+/// A whole world file with its base, targets and pictures. `overrides` are "key.path=value".
+[[nodiscard]] Result<sim::World> load_world(const std::filesystem::path& path,
+                                            const std::vector<std::string>& overrides = {});
+
+}  // namespace seeker::options
