@@ -1,3 +1,5 @@
+#include <gtest/gtest.h>
+// gtest first: rapidcheck relies on it.
 #include <rapidcheck/gtest.h>
 
 #include "tests/support/matchers.hpp"

@@ -1,3 +1,6 @@
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+// gtest first: rapidcheck relies on it.
 #include <rapidcheck/gtest.h>
 
 #include "common/core/rng.hpp"
