@@ -1,0 +1,55 @@
+# shellcheck shell=bash
+# Starts and stops the release build of seekerd on a free port. Sourced by demo.sh and soak.sh.
+#
+# start_server LOG [OPTIONS...] sets server_pid and server_port; stop_server ends it. Nothing is left running: the trap
+# stops it however the script ends.
+
+server_pid=
+server_port=
+server_folder=$(mktemp -d)
+
+stop_server() {
+  [[ -n $server_pid ]] || return 0
+  local pid=$server_pid tries
+  server_pid=
+  kill -TERM "$pid" 2>/dev/null || true
+  for ((tries = 0; tries < 100; ++tries)); do
+    kill -0 "$pid" 2>/dev/null || break
+    sleep 0.1
+  done
+  # Ten seconds are enough for an orderly end.
+  kill -KILL "$pid" 2>/dev/null || true
+  wait "$pid" 2>/dev/null || true
+}
+trap 'stop_server; rm -rf "$server_folder"' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+start_server() {
+  local log=$1 tries
+  shift
+  rm -f "$server_folder/port"
+  build/release/bin/seekerd --port 0 --port-file "$server_folder/port" --state "$server_folder/state" "$@" >"$log" 2>&1 &
+  server_pid=$!
+  for ((tries = 0; tries < 300; ++tries)); do
+    if [[ -s $server_folder/port ]]; then
+      # shellcheck disable=SC2034  # read by the scripts that source this
+      server_port=$(<"$server_folder/port")
+      return 0
+    fi
+    kill -0 "$server_pid" 2>/dev/null || break
+    sleep 0.1
+  done
+  echo "seekerd did not start; the end of $log:" >&2
+  tail -n 20 "$log" >&2
+  return 1
+}
+
+robot_file() {
+  local file
+  for file in config/robots/demo.yaml config/robots/sim.yaml; do
+    [[ -e $file ]] && { echo "$file"; return; }
+  done
+  echo "no robot file in config/robots" >&2
+  return 1
+}
