@@ -10,7 +10,7 @@ readonly cache=build/lint-cache
 mkdir -p "$cache"
 [[ -e $database ]] || { echo "no $database: configure first (cmake --preset dev)" >&2; exit 2; }
 
-salt=$( (clang-tidy --version; cat .clang-tidy) | sha256sum)
+salt=$( (clang-tidy --version; cat .clang-tidy tests/.clang-tidy) | sha256sum)
 mapfile -t protos < <(sources proto)
 
 mapfile -t code < <(sources cpp hpp)
