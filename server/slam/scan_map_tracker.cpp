@@ -1,0 +1,195 @@
+#include "server/slam/scan_map_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::slam {
+namespace {
+
+/// How far two views differ: metres, with a radian of heading counting as much as this.
+constexpr double kTurnAsMetres = 0.7;
+
+double turn_between(const Pose2& a, const Pose2& b) { return std::abs(wrap_angle(a.theta_rad - b.theta_rad)); }
+
+bool moved(const Pose2& from, const Pose2& to, double distance_limit_m, double turn_limit_rad) {
+  return distance_m(from, to) > distance_limit_m || turn_between(from, to) > turn_limit_rad;
+}
+
+}  // namespace
+
+ScanMapTracker::ScanMapTracker(const ScanMapParams& params, const Pose2& map_T_base)
+    : params_(params), matcher_(params.match), odometry_(params.odometry, map_T_base) {
+  reset(map_T_base);
+}
+
+void ScanMapTracker::reset(const Pose2& map_T_base) {
+  odometry_.reset(map_T_base);
+  keyframes_.clear();
+  reference_.reset();
+  reference_pose_ = map_T_base;
+  matched_pose_ = map_T_base;
+  last_scan_.reset();
+  last_match_.reset();
+  failures_ = 0;
+}
+
+Status ScanMapTracker::predict(const Pose2& odom_T_base, RobotTime stamp) {
+  return odometry_.predict(odom_T_base, stamp);
+}
+
+void ScanMapTracker::choose_reference(const Pose2& pose) {
+  std::vector<std::pair<double, const Keyframe*>> near;
+  for (const Keyframe& keyframe : keyframes_) {
+    const double d = distance_m(keyframe.map_T_base, pose);
+    if (d <= params_.local_range_m) {
+      near.emplace_back(d + kTurnAsMetres * turn_between(keyframe.map_T_base, pose), &keyframe);
+    }
+  }
+  const std::size_t count = std::min(near.size(), params_.local_keyframes);
+  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
+  std::vector<OrientedPoint> points;
+  for (std::size_t k = 0; k < count; ++k) {
+    points.insert(points.end(), near[k].second->points_map.begin(), near[k].second->points_map.end());
+  }
+  reference_ = std::make_unique<ReferenceCloud>(std::move(points));
+  reference_pose_ = pose;
+}
+
+bool ScanMapTracker::needs_keyframe(const Pose2& pose) const {
+  return std::none_of(keyframes_.begin(), keyframes_.end(), [&](const Keyframe& keyframe) {
+    return !moved(keyframe.map_T_base, pose, params_.keyframe_distance_m, params_.keyframe_turn_rad);
+  });
+}
+
+void ScanMapTracker::add_keyframe(const Pose2& pose, const std::vector<OrientedPoint>& points_base) {
+  Keyframe keyframe{pose, thin_out(points_base, params_.keyframe_points)};
+  for (OrientedPoint& point : keyframe.points_map) {
+    point = transform(pose, point);
+  }
+  if (keyframes_.size() >= params_.max_keyframes) {
+    keyframes_.erase(keyframes_.begin());
+  }
+  keyframes_.push_back(std::move(keyframe));
+  choose_reference(pose);
+}
+
+bool ScanMapTracker::believable(const MatchResult& match, const Pose2& predicted) const {
+  return match.pairs >= params_.match.min_pairs && match.inlier_ratio >= params_.accept_ratio &&
+         !moved(predicted, match.map_T_base, params_.max_correction_m, params_.max_correction_rad);
+}
+
+MatchResult ScanMapTracker::best_match(const std::vector<OrientedPoint>& points_base, const Pose2& predicted) const {
+  MatchResult match = matcher_.match(*reference_, points_base, predicted);
+  const bool gap = failures_ > 0 || moved(matched_pose_, predicted, params_.gap_m, params_.gap_rad) ||
+                   odometry_.estimate().quality != LocalisationQuality::kLocalised;
+  if (match.inlier_ratio >= params_.good_ratio || !gap) {
+    return match;
+  }
+  if (const auto start = matcher_.search(*reference_, points_base, predicted)) {
+    MatchResult other = matcher_.match(*reference_, points_base, *start);
+    if (other.inliers > match.inliers) {
+      match = std::move(other);
+    }
+  }
+  return match;
+}
+
+bool ScanMapTracker::is_new_space(const std::vector<OrientedPoint>& points_base, const Pose2& pose) const {
+  const auto known = std::count_if(points_base.begin(), points_base.end(), [&](const OrientedPoint& point) {
+    return reference_->nearest(pose * point.p, params_.match.first_gate_m) != nullptr;
+  });
+  return static_cast<double>(known) < params_.new_space_ratio * static_cast<double>(points_base.size());
+}
+
+void ScanMapTracker::apply(const MatchResult& match) {
+  const PoseEstimate prior = odometry_.estimate();
+  const Matrix3 measured =
+      match.covariance + Eigen::Vector3d(params_.map_sigma_m, params_.map_sigma_m, params_.map_sigma_rad)
+                             .cwiseAbs2()
+                             .asDiagonal()
+                             .toDenseMatrix();
+  const Eigen::Vector3d innovation(match.map_T_base.x_m - prior.map_T_base.x_m,
+                                   match.map_T_base.y_m - prior.map_T_base.y_m,
+                                   wrap_angle(match.map_T_base.theta_rad - prior.map_T_base.theta_rad));
+  const Matrix3 gain = prior.covariance * (prior.covariance + measured).inverse();
+  const Eigen::Vector3d correction = gain * innovation;
+  // Joseph form: stays symmetric and positive.
+  const Matrix3 keep = Matrix3::Identity() - gain;
+  const Matrix3 covariance = keep * prior.covariance * keep.transpose() + gain * measured * gain.transpose();
+  const Pose2 pose{prior.map_T_base.x_m + correction[0], prior.map_T_base.y_m + correction[1],
+                   wrap_angle(prior.map_T_base.theta_rad + correction[2])};
+  odometry_.correct(pose, 0.5 * (covariance + covariance.transpose()));
+  matched_pose_ = pose;
+  failures_ = 0;
+  if (match.degenerate_direction) {
+    odometry_.set_quality(LocalisationQuality::kDegraded,
+                          "the scan says nothing along the corridor: odometry only in that direction");
+  } else {
+    odometry_.set_quality(LocalisationQuality::kLocalised, "");
+  }
+}
+
+void ScanMapTracker::note_failure(const std::vector<OrientedPoint>& points_base,
+                                  const std::vector<OrientedPoint>& all_points) {
+  const Pose2 pose = odometry_.estimate().map_T_base;
+  if (is_new_space(points_base, pose)) {
+    failures_ = 0;
+    odometry_.set_quality(LocalisationQuality::kDegraded, "unseen space: the pose goes on by odometry");
+    if (needs_keyframe(pose)) {
+      add_keyframe(pose, all_points);
+    }
+    return;
+  }
+  ++failures_;
+  if (failures_ >= params_.lost_after) {
+    odometry_.set_quality(LocalisationQuality::kLost, std::to_string(failures_) + " scans in a row do not fit the map");
+  } else {
+    odometry_.set_quality(LocalisationQuality::kDegraded, "the scan does not fit the map");
+  }
+}
+
+Status ScanMapTracker::update(const LaserScan& scan) {
+  if (auto valid = validate(scan); !valid) {
+    return valid;
+  }
+  if (last_scan_ && scan.stamp <= *last_scan_) {
+    return fail(Errc::kInvalidArgument, "the scan is not newer than the last one; the laser's driver repeats itself");
+  }
+  last_scan_ = scan.stamp;
+  const std::vector<OrientedPoint> all_points = oriented_points(scan, params_.normals);
+  if (all_points.size() < static_cast<std::size_t>(params_.match.min_pairs)) {
+    odometry_.set_quality(LocalisationQuality::kDegraded, "too few returns: the pose goes on by odometry");
+    return fail(Errc::kNotReady, "the scan has too few returns on surfaces to say where the robot is");
+  }
+  const Pose2 predicted = odometry_.estimate().map_T_base;
+  if (keyframes_.empty()) {
+    add_keyframe(predicted, all_points);
+    matched_pose_ = predicted;
+    return {};
+  }
+  const bool healthy = failures_ == 0 && odometry_.estimate().quality == LocalisationQuality::kLocalised;
+  if (healthy && last_match_ && !moved(matched_pose_, predicted, params_.min_move_m, params_.min_turn_rad)) {
+    return {};
+  }
+  if (moved(reference_pose_, predicted, params_.rebuild_m, params_.rebuild_rad)) {
+    choose_reference(predicted);
+  }
+  const std::vector<OrientedPoint> points = thin_out(all_points, params_.match_points);
+  last_match_ = best_match(points, predicted);
+  if (!believable(*last_match_, predicted)) {
+    note_failure(points, all_points);
+    return {};
+  }
+  apply(*last_match_);
+  if (needs_keyframe(matched_pose_)) {
+    add_keyframe(matched_pose_, all_points);
+  }
+  return {};
+}
+
+}  // namespace seeker::slam

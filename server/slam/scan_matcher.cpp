@@ -1,0 +1,158 @@
+#include "server/slam/scan_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::slam {
+namespace {
+
+constexpr double kHoldWeight = 1.0e6;         ///< keeps the guess along a degenerate direction
+constexpr double kUnseenVariance_m2 = 1.0e4;  ///< what a match says about a direction it does not see
+constexpr double kMinSearchScore = 0.5;
+
+/// Normal equations of one iteration; rotation about the robot, translation in the frame `map`.
+struct NormalEquations {
+  Matrix3 hessian = Matrix3::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Matrix2 scatter = Matrix2::Zero();  ///< of the normals: which translations are seen
+  double weight = 0.0;
+  double squared_residuals = 0.0;  ///< weighted
+  double inlier_squares = 0.0;
+  int pairs = 0;
+  int inliers = 0;
+};
+
+NormalEquations linearise(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                          const Pose2& pose, double gate_m, const MatchParams& params) {
+  NormalEquations sum;
+  const double c = std::cos(pose.theta_rad);
+  const double s = std::sin(pose.theta_rad);
+  for (const OrientedPoint& point : points_base) {
+    const Point2 arm(c * point.p.x() - s * point.p.y(), s * point.p.x() + c * point.p.y());
+    const Point2 p_map = arm + pose.translation();
+    const OrientedPoint* partner = reference.nearest(p_map, gate_m);
+    if (partner == nullptr) {
+      continue;
+    }
+    const Point2 normal(c * point.normal.x() - s * point.normal.y(), s * point.normal.x() + c * point.normal.y());
+    if (normal.dot(partner->normal) < params.min_normal_cosine) {
+      continue;
+    }
+    const Point2& n = partner->normal;
+    const double residual = n.dot(p_map - partner->p);
+    const double size = std::abs(residual);
+    const double weight = size <= params.huber_m ? 1.0 : params.huber_m / size;
+    const Eigen::Vector3d row(n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y());
+    sum.hessian += weight * row * row.transpose();
+    sum.gradient += weight * residual * row;
+    sum.scatter += weight * n * n.transpose();
+    sum.weight += weight;
+    sum.squared_residuals += weight * residual * residual;
+    ++sum.pairs;
+    if (size <= params.inlier_m) {
+      ++sum.inliers;
+      sum.inlier_squares += residual * residual;
+    }
+  }
+  return sum;
+}
+
+std::optional<Point2> unseen_direction(const NormalEquations& sum, double ratio) {
+  const Eigen::SelfAdjointEigenSolver<Matrix2> eigen(sum.scatter);
+  if (eigen.eigenvalues()[0] >= ratio * sum.weight) {
+    return std::nullopt;
+  }
+  return eigen.eigenvectors().col(0);
+}
+
+Matrix3 hold(const Point2& direction) {
+  const Eigen::Vector3d d(direction.x(), direction.y(), 0.0);
+  return kHoldWeight * d * d.transpose();
+}
+
+/// Residual variance times the inverse Hessian, inflated; the unseen direction gets what it deserves.
+Matrix3 covariance_of(const NormalEquations& sum, const std::optional<Point2>& unseen, const MatchParams& params) {
+  const double freedom = std::max(1.0, sum.weight - 3.0);
+  const double variance = std::max(sum.squared_residuals / freedom, params.sigma_floor_m * params.sigma_floor_m);
+  const Matrix3 hessian = sum.hessian + (unseen ? hold(*unseen) : Matrix3::Zero()) + 1e-9 * Matrix3::Identity();
+  Matrix3 covariance = params.covariance_inflation * variance * hessian.inverse();
+  if (unseen) {
+    const Eigen::Vector3d d(unseen->x(), unseen->y(), 0.0);
+    covariance += kUnseenVariance_m2 * d * d.transpose();
+  }
+  return 0.5 * (covariance + covariance.transpose());
+}
+
+}  // namespace
+
+MatchResult ScanMatcher::match(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                               const Pose2& guess) const {
+  MatchResult result;
+  result.map_T_base = guess;
+  double gate_m = params_.first_gate_m;
+  for (int k = 0; k < params_.max_iterations && !result.converged; ++k) {
+    const NormalEquations sum = linearise(reference, points_base, result.map_T_base, gate_m, params_);
+    if (sum.pairs < params_.min_pairs) {
+      break;
+    }
+    const auto unseen = unseen_direction(sum, params_.degenerate_ratio);
+    const Matrix3 hessian = sum.hessian + (unseen ? hold(*unseen) : Matrix3::Zero()) + 1e-9 * Matrix3::Identity();
+    const Eigen::Vector3d step = -hessian.ldlt().solve(sum.gradient);
+    Pose2& pose = result.map_T_base;
+    pose = {pose.x_m + step[0], pose.y_m + step[1], wrap_angle(pose.theta_rad + step[2])};
+    const bool small = step.head<2>().norm() < params_.stop_m && std::abs(step[2]) < params_.stop_rad;
+    result.converged = small && gate_m <= params_.last_gate_m;
+    gate_m = small ? params_.last_gate_m : std::max(params_.last_gate_m, params_.gate_shrink * gate_m);
+  }
+  const NormalEquations sum = linearise(reference, points_base, result.map_T_base, params_.last_gate_m, params_);
+  result.pairs = sum.pairs;
+  result.inliers = sum.inliers;
+  result.inlier_ratio =
+      points_base.empty() ? 0.0 : static_cast<double>(sum.inliers) / static_cast<double>(points_base.size());
+  result.rms_m = sum.inliers > 0 ? std::sqrt(sum.inlier_squares / sum.inliers) : 0.0;
+  if (sum.pairs < params_.min_pairs) {
+    result.converged = false;
+    return result;
+  }
+  result.degenerate_direction = unseen_direction(sum, params_.degenerate_ratio);
+  result.covariance = covariance_of(sum, result.degenerate_direction, params_);
+  return result;
+}
+
+std::optional<Pose2> ScanMatcher::search(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                         const Pose2& guess) const {
+  const std::vector<OrientedPoint> sparse = thin_out(points_base, params_.search_points);
+  const int turns = static_cast<int>(std::lround(params_.search_rad / params_.search_step_rad));
+  const int moves = static_cast<int>(std::lround(params_.search_m / params_.search_step_m));
+  std::vector<Point2> turned(sparse.size());
+  std::optional<Pose2> best;
+  double best_score = kMinSearchScore * static_cast<double>(sparse.size());
+  for (int t = -turns; t <= turns; ++t) {
+    const Pose2 rotation{0.0, 0.0, wrap_angle(guess.theta_rad + t * params_.search_step_rad)};
+    std::transform(sparse.begin(), sparse.end(), turned.begin(),
+                   [&](const OrientedPoint& q) { return rotation * q.p; });
+    for (int j = -moves; j <= moves; ++j) {
+      for (int i = -moves; i <= moves; ++i) {
+        const Point2 at = guess.translation() + params_.search_step_m * Point2(i, j);
+        const auto hits =
+            std::count_if(turned.begin(), turned.end(), [&](const Point2& p) { return reference.has_near(p + at); });
+        // Of equals the nearest to the guess: a corridor fits anywhere along itself.
+        const double far = std::hypot(i, j) / moves + std::abs(t) / static_cast<double>(turns);
+        const double score = static_cast<double>(hits) - far;
+        if (score > best_score) {
+          best_score = score;
+          best = Pose2{at.x(), at.y(), rotation.theta_rad};
+        }
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace seeker::slam

@@ -1,0 +1,64 @@
+/// \file
+/// Matches a scan against reference points: point-to-line ICP with its covariance.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "server/slam/reference_cloud.hpp"
+
+namespace seeker::slam {
+
+struct MatchParams {
+  int max_iterations = 15;
+  double first_gate_m = 0.5;       ///< correspondences may be so far apart at first,
+  double last_gate_m = 0.12;       ///< and so far at the end
+  double gate_shrink = 0.6;        ///< per iteration
+  double min_normal_cosine = 0.7;  ///< surfaces must face the same way
+  double huber_m = 0.03;           ///< residuals beyond it weigh less
+  double inlier_m = 0.10;          ///< residual of an inlier
+  double stop_m = 0.0005;          ///< converged below this step
+  double stop_rad = 0.0002;
+  int min_pairs = 15;
+  double degenerate_ratio = 0.03;      ///< share of the normals' scatter below which a direction is not seen
+  double sigma_floor_m = 0.01;         ///< residual deviation is never believed to be smaller
+  double covariance_inflation = 10.0;  ///< neighbouring points share their errors: far fewer than n are independent
+  double search_m = 1.0;               ///< correlative search: window to either side
+  double search_rad = 0.5;
+  double search_step_m = 0.1;
+  double search_step_rad = 0.035;
+  std::size_t search_points = 60;
+};
+
+/// A match that explains itself.
+struct MatchResult {
+  Pose2 map_T_base;
+  Matrix3 covariance =
+      Matrix3::Zero();        ///< of (x, y, theta) in the frame `map`; very large along a degenerate direction
+  int pairs = 0;              ///< points with a partner
+  int inliers = 0;            ///< pairs with a small residual
+  double inlier_ratio = 0.0;  ///< inliers / points given
+  double rms_m = 0.0;         ///< of the inliers
+  bool converged = false;
+  std::optional<Point2> degenerate_direction;  ///< unit vector along which the scan says nothing (a corridor)
+};
+
+class ScanMatcher {
+ public:
+  explicit ScanMatcher(const MatchParams& params = {}) : params_(params) {}
+
+  /// Point-to-line ICP (Censi 2008) from `guess`, Huber weights, shrinking gate. Along a degenerate direction the
+  /// guess is kept.
+  [[nodiscard]] MatchResult match(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                  const Pose2& guess) const;
+  /// Exhaustive search of a window about `guess` on the coarse grid: a start for match() after a gap of up to
+  /// search_m / search_rad. Nothing when no place explains at least half of the points.
+  [[nodiscard]] std::optional<Pose2> search(const ReferenceCloud& reference,
+                                            const std::vector<OrientedPoint>& points_base, const Pose2& guess) const;
+  [[nodiscard]] const MatchParams& params() const { return params_; }
+
+ private:
+  MatchParams params_;
+};
+
+}  // namespace seeker::slam
