@@ -80,7 +80,7 @@ const OrientedPoint* ReferenceCloud::nearest(const Point2& p_map, double radius_
   if (!tree_) {
     return nullptr;
   }
-  std::size_t index = 0;
+  std::uint32_t index = 0;
   double distance2 = std::numeric_limits<double>::infinity();
   if (tree_->index.knnSearch(p_map.data(), 1, &index, &distance2) == 0 || distance2 > radius_m * radius_m) {
     return nullptr;

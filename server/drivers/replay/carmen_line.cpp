@@ -1,0 +1,160 @@
+#include "server/drivers/replay/carmen_line.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "common/core/angle.hpp"
+#include "common/core/scan.hpp"
+
+namespace seeker::drivers {
+namespace {
+
+/// Reads blank-separated words; the first failure sticks, so that a parser checks once at its end.
+class Words {
+ public:
+  explicit Words(std::string_view text) : rest_(text) {}
+
+  std::string_view word() {
+    const std::size_t first = rest_.find_first_not_of(kBlank);
+    if (first == std::string_view::npos) {
+      rest_ = {};
+      return {};
+    }
+    const std::size_t last = std::min(rest_.find_first_of(kBlank, first), rest_.size());
+    const std::string_view found = rest_.substr(first, last - first);
+    rest_.remove_prefix(last);
+    return found;
+  }
+  double number() {
+    const std::string_view text = word();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+      good_ = false;
+      return 0.0;
+    }
+    return value;
+  }
+  Pose2 pose() {
+    const double x = number();
+    const double y = number();
+    const double theta = number();
+    return {x, y, wrap_angle(theta)};
+  }
+  void skip(int count) {
+    for (int k = 0; k < count; ++k) {
+      number();
+    }
+  }
+  /// The three words that end each record; the stamp is the first.
+  double stamp() {
+    const double stamp_s = number();
+    good_ = !word().empty() && good_;
+    number();
+    return stamp_s;
+  }
+  [[nodiscard]] bool good() const { return good_; }
+
+ private:
+  static constexpr std::string_view kBlank = " \t\r";
+  std::string_view rest_;
+  bool good_ = true;
+};
+
+tl::unexpected<Error> malformed(std::string_view type) {
+  return fail(Errc::kParse, "a " + std::string(type) + " line is malformed or cut off");
+}
+
+/// A count and as many readings; false when the count is impossible.
+bool read_ranges(Words& words, std::vector<float>& ranges_m) {
+  const double count = words.number();
+  if (!words.good() || count < 0.0 || count > static_cast<double>(kMaxScanBeams) || count != std::floor(count)) {
+    return false;
+  }
+  for (int k = 0; k < static_cast<int>(count) && words.good(); ++k) {
+    ranges_m.push_back(static_cast<float>(words.number()));
+  }
+  return true;
+}
+
+Result<std::optional<CarmenRecord>> parse_odometry(Words& words) {
+  CarmenOdometry odometry;
+  odometry.odom_T_base = words.pose();
+  odometry.velocity.v_m_s = words.number();
+  odometry.velocity.omega_rad_s = words.number();
+  words.skip(1);
+  odometry.stamp_s = words.stamp();
+  if (!words.good()) {
+    return malformed("ODOM");
+  }
+  return CarmenRecord(odometry);
+}
+
+Result<std::optional<CarmenRecord>> parse_front_laser(Words& words) {
+  CarmenScan scan;
+  if (!read_ranges(words, scan.ranges_m)) {
+    return fail(Errc::kTooLarge, "a FLASER line states an impossible number of beams");
+  }
+  scan.corrected_T_laser = words.pose();
+  scan.odom_T_base = words.pose();
+  scan.stamp_s = words.stamp();
+  if (!words.good()) {
+    return malformed("FLASER");
+  }
+  return CarmenRecord(std::move(scan));
+}
+
+Result<std::optional<CarmenRecord>> parse_stated_laser(Words& words, bool with_robot) {
+  constexpr int kAfterAngles = 4;  // field of view was read; maximum range, accuracy, remission mode follow
+  constexpr int kRobotTail = 5;    // tv, rv, forward and side safety distance, turn axis
+  CarmenScan scan;
+  words.skip(1);  // laser type
+  scan.angle_min_rad = words.number();
+  words.skip(1);  // field of view
+  scan.angle_step_rad = words.number();
+  words.skip(kAfterAngles - 1);
+  std::vector<float> remissions;
+  if (!read_ranges(words, scan.ranges_m) || !read_ranges(words, remissions)) {
+    return fail(Errc::kTooLarge, "a laser line states an impossible number of beams");
+  }
+  if (with_robot) {
+    words.pose();  // of the laser: the robot's pose and the configured mount say the same
+    scan.odom_T_base = words.pose();
+    words.skip(kRobotTail);
+  }
+  scan.stamp_s = words.stamp();
+  if (!words.good() || *scan.angle_step_rad == 0.0) {
+    return malformed(with_robot ? "ROBOTLASER1" : "RAWLASER1");
+  }
+  return CarmenRecord(std::move(scan));
+}
+
+}  // namespace
+
+Result<std::optional<CarmenRecord>> parse_carmen_line(std::string_view line) {
+  Words words(line);
+  const std::string_view type = words.word();
+  if (type == "FLASER") {
+    return parse_front_laser(words);
+  }
+  if (type == "ODOM") {
+    return parse_odometry(words);
+  }
+  if (type == "ROBOTLASER1" || type == "RAWLASER1") {
+    return parse_stated_laser(words, type == "ROBOTLASER1");
+  }
+  // Types are upper-case words; anything else is the rest of a broken line.
+  if (type.empty() || type.front() == '#' ||
+      type.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string_view::npos) {
+    const bool number_only = !type.empty() && type.find_first_not_of("0123456789") == std::string_view::npos;
+    if (!number_only) {
+      return std::nullopt;
+    }
+  }
+  return fail(Errc::kParse, "the line starts with no known record type");
+}
+
+}  // namespace seeker::drivers

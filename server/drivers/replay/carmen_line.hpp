@@ -1,0 +1,39 @@
+/// \file
+/// One line of a CARMEN log as a value. Pure text in, value out.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "common/core/result.hpp"
+
+namespace seeker::drivers {
+
+/// `ODOM x y theta tv rv accel ipc_stamp host logger_stamp`
+struct CarmenOdometry {
+  double stamp_s = 0.0;  ///< on the log's own clock
+  Pose2 odom_T_base;
+  Twist2 velocity;
+};
+
+/// `FLASER n r.. x y theta ox oy otheta ipc_stamp host logger_stamp`, or the newer `RAWLASER1` / `ROBOTLASER1`.
+struct CarmenScan {
+  double stamp_s = 0.0;
+  std::vector<float> ranges_m;          ///< as logged, codes for "none" included
+  std::optional<double> angle_min_rad;  ///< stated by RAWLASER1 and ROBOTLASER1 only
+  std::optional<double> angle_step_rad;
+  std::optional<Pose2> odom_T_base;  ///< raw odometry at the scan (second triplet); not in RAWLASER1
+  std::optional<Pose2>
+      corrected_T_laser;  ///< first triplet: a mapper's result; for scoring only, no driver passes it on
+};
+
+using CarmenRecord = std::variant<CarmenOdometry, CarmenScan>;
+
+/// Parses one line without its line end. Nothing for an empty line, a comment, PARAM and message types not used here.
+/// kParse: malformed or cut off; kTooLarge: more beams than kMaxScanBeams.
+[[nodiscard]] Result<std::optional<CarmenRecord>> parse_carmen_line(std::string_view line);
+
+}  // namespace seeker::drivers

@@ -1,0 +1,166 @@
+#include "server/drivers/replay/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+namespace seeker::drivers {
+namespace {
+
+/// A stamp farther ahead of the last one than this is damage, not a pause.
+constexpr double kLongestPause_s = 6.0 * 3600.0;
+
+double stamp_of(const CarmenRecord& record) {
+  return std::visit([](const auto& r) { return r.stamp_s; }, record);
+}
+
+tl::unexpected<Error> refused() {
+  return fail(Errc::kRefused, "a replayed robot cannot be driven; use the simulator or hardware to move");
+}
+
+}  // namespace
+
+LaserScan to_laser_scan(const CarmenScan& scan, const ReplayParams& params, RobotTime stamp) {
+  LaserScan result;
+  result.stamp = stamp;
+  const std::size_t beams = scan.ranges_m.size();
+  const std::size_t steps = beams % 2 == 1 && beams > 1 ? beams - 1 : std::max<std::size_t>(beams, 1);
+  const bool configured = params.angle_step_rad != 0.0;
+  result.angle_min_rad = configured ? params.angle_min_rad : scan.angle_min_rad.value_or(params.angle_min_rad);
+  result.angle_step_rad =
+      configured ? params.angle_step_rad : scan.angle_step_rad.value_or(kPi / static_cast<double>(steps));
+  result.range_min_m = params.range_min_m;
+  result.range_max_m = params.range_max_m;
+  result.base_T_laser = params.base_T_laser;
+  result.ranges_m.reserve(beams);
+  result.quality.reserve(beams);
+  for (const float range_m : scan.ranges_m) {
+    const bool usable = range_m >= params.range_min_m;
+    result.ranges_m.push_back(usable && range_m < params.range_max_m ? range_m : kNoReturn);
+    result.quality.push_back(usable ? 1 : 0);
+  }
+  return result;
+}
+
+Result<std::shared_ptr<ReplaySource>> ReplaySource::open(const std::filesystem::path& path,
+                                                         const ReplayParams& params) {
+  auto reader = CarmenReader::open(path);
+  if (!reader) {
+    return tl::unexpected(reader.error());
+  }
+  std::shared_ptr<ReplaySource> source(new ReplaySource(std::move(*reader), params));
+  if (source->finished()) {
+    return fail(Errc::kParse, path.string() + " is no CARMEN log: " + describe(source->summary()));
+  }
+  return source;
+}
+
+ReplaySource::ReplaySource(CarmenReader reader, const ReplayParams& params)
+    : reader_(std::move(reader)), params_(params) {
+  fetch();
+  if (pending_) {
+    first_stamp_s_ = stamp_of(*pending_);
+  }
+}
+
+bool ReplaySource::in_order(double stamp_s, bool scan) {
+  std::optional<double>& last = scan ? last_scan_s_ : last_odometry_s_;
+  const double reference = last.value_or(first_stamp_s_.value_or(stamp_s));
+  const bool repeated = last && stamp_s <= *last;
+  if (repeated || stamp_s < reference || stamp_s > reference + kLongestPause_s) {
+    return false;
+  }
+  last = stamp_s;
+  return true;
+}
+
+void ReplaySource::fetch() {
+  while ((pending_ = reader_.next())) {
+    const double stamp_s = stamp_of(*pending_);
+    if (in_order(stamp_s, std::holds_alternative<CarmenScan>(*pending_))) {
+      reader_.note_duration(std::max(reader_.summary().duration_s, stamp_s - first_stamp_s_.value_or(stamp_s)));
+      return;
+    }
+    reader_.reject_last("its stamp is out of order");
+  }
+}
+
+RobotTime ReplaySource::robot_time_of(const CarmenRecord& record) const {
+  return robot_time_s(stamp_of(record) - *first_stamp_s_);
+}
+
+void ReplaySource::advance_to(RobotTime now) {
+  now_ = std::max(now_, now);
+  while (pending_ && robot_time_of(*pending_) <= now_) {
+    std::visit([this](const auto& record) { deliver(record); }, *pending_);
+    fetch();
+  }
+}
+
+void ReplaySource::deliver(const CarmenOdometry& odometry) {
+  if (!scans_have_odometry_) {
+    deliver_pose(odometry.odom_T_base, robot_time_of(odometry));
+  }
+}
+
+void ReplaySource::deliver(const CarmenScan& scan) {
+  const RobotTime stamp = robot_time_of(scan);
+  if (scan_) {
+    reader_.note_overtaken();
+  }
+  scan_ = to_laser_scan(scan, params_, stamp);
+  if (scan.odom_T_base) {
+    scans_have_odometry_ = true;
+    deliver_pose(*scan.odom_T_base, stamp);
+  }
+}
+
+void ReplaySource::deliver_pose(const Pose2& odom_T_base, RobotTime stamp) {
+  if (last_odometry_ && stamp <= last_odometry_->stamp) {
+    return;
+  }
+  OdometrySample sample;
+  sample.stamp = stamp;
+  sample.odom_T_base = odom_T_base;
+  if (last_odometry_) {
+    const double dt_s = to_seconds(stamp - last_odometry_->stamp);
+    const Pose2 step = inverse(last_odometry_->odom_T_base) * odom_T_base;
+    sample.velocity = {std::copysign(std::hypot(step.x_m, step.y_m), step.x_m) / dt_s, step.theta_rad / dt_s};
+  }
+  odometry_ = sample;
+  last_odometry_ = sample;
+}
+
+std::optional<OdometrySample> ReplaySource::take_odometry() { return std::exchange(odometry_, std::nullopt); }
+
+std::optional<LaserScan> ReplaySource::take_scan() { return std::exchange(scan_, std::nullopt); }
+
+ReplayClock::ReplayClock(std::shared_ptr<ReplaySource> source, double speed)
+    : source_(std::move(source)), speed_(speed) {
+  SEEKER_ASSERT(speed >= 0.0);
+}
+
+Status ReplayClock::advance(Duration period) {
+  if (source_->finished()) {
+    return fail(Errc::kCancelled, "the replay has ended: " + describe(source_->summary()));
+  }
+  source_->advance_to(source_->now() + period);
+  if (speed_ > 0.0) {
+    const auto tick = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(to_seconds(period) / speed_));
+    const auto wall = std::chrono::steady_clock::now();
+    // A loop that is late starts anew from now instead of racing to catch up.
+    next_tick_ = std::max(next_tick_.value_or(wall) + tick, wall);
+    std::this_thread::sleep_until(*next_tick_);
+  }
+  return {};
+}
+
+Status ReplayBase::set_velocity(const Twist2& velocity, RobotTime /*now*/) {
+  return velocity == Twist2{} ? Status{} : Status(refused());
+}
+
+Status ReplayBase::set_motors(bool enabled) { return enabled ? Status(refused()) : Status{}; }
+
+}  // namespace seeker::drivers

@@ -1,0 +1,112 @@
+/// \file
+/// A recorded log in place of hardware: clock, base and lidar over one source.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "common/core/angle.hpp"
+#include "common/core/assert.hpp"
+#include "server/drivers/interfaces/drivers.hpp"
+#include "server/drivers/replay/carmen_reader.hpp"
+
+namespace seeker::drivers {
+
+/// How the laser of the log was mounted; CARMEN does not say.
+struct ReplayParams {
+  double angle_min_rad = -kPi / 2.0;
+  double angle_step_rad = 0.0;  ///< 0: as stated in the line, else 180 degrees over the number of beams
+  double range_min_m = 0.02;    ///< below it a beam is unusable (quality 0)
+  double range_max_m = 80.0;    ///< at or above it nothing came back (81 m and more is CARMEN's code)
+  Pose2 base_T_laser;
+};
+
+/// Plays records in the order of their stamps: robot time 0 is the log's first stamp. Shared by the drivers below, all
+/// in the loop's thread. The log's corrected poses never leave it.
+class ReplaySource {
+ public:
+  /// Errors of CarmenReader::open; kParse when the file holds no record at all.
+  [[nodiscard]] static Result<std::shared_ptr<ReplaySource>> open(const std::filesystem::path& path,
+                                                                  const ReplayParams& params = {});
+
+  /// Takes every record stamped up to `now`; the newest of each kind waits for its reader.
+  void advance_to(RobotTime now);
+  [[nodiscard]] RobotTime now() const { return now_; }
+  /// True when the last record has been taken.
+  [[nodiscard]] bool finished() const { return !pending_; }
+  [[nodiscard]] const ReplaySummary& summary() const { return reader_.summary(); }
+
+  [[nodiscard]] std::optional<OdometrySample> take_odometry();
+  [[nodiscard]] std::optional<LaserScan> take_scan();
+
+ private:
+  ReplaySource(CarmenReader reader, const ReplayParams& params);
+  void fetch();
+  [[nodiscard]] bool in_order(double stamp_s, bool scan);
+  void deliver(const CarmenOdometry& odometry);
+  void deliver(const CarmenScan& scan);
+  void deliver_pose(const Pose2& odom_T_base, RobotTime stamp);
+  [[nodiscard]] RobotTime robot_time_of(const CarmenRecord& record) const;
+
+  CarmenReader reader_;
+  ReplayParams params_;
+  std::optional<CarmenRecord> pending_;
+  std::optional<double> first_stamp_s_;
+  std::optional<double> last_scan_s_;
+  std::optional<double> last_odometry_s_;
+  RobotTime now_;
+  std::optional<OdometrySample> odometry_;
+  std::optional<OdometrySample> last_odometry_;
+  std::optional<LaserScan> scan_;
+  bool scans_have_odometry_ = false;  ///< then ODOM lines are not used: pose and scan belong together
+};
+
+/// Robot time follows the log. Lockstep at speed 0 (as fast as possible), else paced by the wall clock.
+class ReplayClock final : public Clock {
+ public:
+  ReplayClock(std::shared_ptr<ReplaySource> source, double speed);
+
+  [[nodiscard]] RobotTime now() const override { return source_->now(); }
+  /// kCancelled once the last record has been taken before this call.
+  [[nodiscard]] Status advance(Duration period) override;
+  [[nodiscard]] bool lockstep() const override { return true; }
+  [[nodiscard]] double speed() const override { return speed_; }
+
+ private:
+  std::shared_ptr<ReplaySource> source_;
+  double speed_;
+  std::optional<std::chrono::steady_clock::time_point> next_tick_;
+};
+
+/// The recorded odometry. It cannot be driven: kRefused for any motion; standing still is fine.
+class ReplayBase final : public BaseDriver {
+ public:
+  explicit ReplayBase(std::shared_ptr<ReplaySource> source) : source_(std::move(source)) {}
+
+  [[nodiscard]] Status activate() override { return {}; }
+  void deactivate() override {}
+  [[nodiscard]] Result<std::optional<OdometrySample>> read() override { return source_->take_odometry(); }
+  [[nodiscard]] Status set_velocity(const Twist2& velocity, RobotTime now) override;
+  [[nodiscard]] Status set_motors(bool enabled) override;
+
+ private:
+  std::shared_ptr<ReplaySource> source_;
+};
+
+class ReplayLidar final : public LidarDriver {
+ public:
+  explicit ReplayLidar(std::shared_ptr<ReplaySource> source) : source_(std::move(source)) {}
+
+  [[nodiscard]] Status activate() override { return {}; }
+  void deactivate() override {}
+  [[nodiscard]] Result<std::optional<LaserScan>> read() override { return source_->take_scan(); }
+
+ private:
+  std::shared_ptr<ReplaySource> source_;
+};
+
+/// A logged scan as the rest of the program knows scans: codes for "none" and the mount filled in.
+[[nodiscard]] LaserScan to_laser_scan(const CarmenScan& scan, const ReplayParams& params, RobotTime stamp);
+
+}  // namespace seeker::drivers
