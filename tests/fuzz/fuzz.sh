@@ -24,7 +24,7 @@ while (($# > 0)); do
   esac
   shift
 done
-[[ $minutes =~ ^[0-9]+$ && $jobs =~ ^[1-9][0-9]*$ ]] || { usage >&2; exit 2; }
+[[ $minutes =~ ^[1-9][0-9]*$ && $jobs =~ ^[1-9][0-9]*$ ]] || { usage >&2; exit 2; }
 
 if ((${#targets[@]} == 0)); then
   for source in tests/fuzz/fuzz_*.cpp; do

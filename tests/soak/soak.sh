@@ -6,9 +6,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 usage() {
   cat <<'TEXT'
 ./run soak [--hours N] [--rounds N] [--limit-mb N] [--first-seed N]: N hours (default 1, parts allowed) in rounds (default 4).
-A round is one server with one seed that is asked for one search after the other. Every search must end with exit code
-0 (found) or 6 (not found), and the server's memory may grow by the limit (default 64 MB) at most after the second search of
-its round. Samples: build/soak/memory.csv.
+A round is one server with one seed that is asked for one search of the whole area after the other, and to come home after
+each. Every search must end with exit code 0 (found) or 6 (not found), every way home with 0, and the server's memory may grow
+by the limit (default 64 MB) at most after the second search of its round. Samples: build/soak/memory.csv.
 TEXT
 }
 
@@ -39,13 +39,15 @@ searches=0
 
 # One search, its exit code checked, its memory noted.
 search_once() {
-  local round=$1 number=$2 code=0 begin=$SECONDS
-  build/release/bin/seeker search --target cross --robot "127.0.0.1:$server_port" >"build/soak/client-$round.log" 2>&1 || code=$?
+  local round=$1 number=$2 code=0 home=0 begin=$SECONDS log=build/soak/client-$1.log
+  local client=(build/release/bin/seeker --robot "127.0.0.1:$server_port")
+  "${client[@]}" search --target cross --on-found continue >"$log" 2>&1 || code=$?
+  "${client[@]}" goto --home >>"$log" 2>&1 || home=$?
   kill -0 "$server_pid" 2>/dev/null || { echo "round $round: the server died; see build/soak/server-$round.log"; return 1; }
   echo "$round,$seed,$number,$code,$((SECONDS - begin)),$(resident_kb)" >>"$samples"
-  if ((code != 0 && code != 6)); then
-    echo "round $round, seed $seed, search $number: the client ended with $code:"
-    tail -n 20 "build/soak/client-$round.log"
+  if ((code != 0 && code != 6 || home != 0)); then
+    echo "round $round, seed $seed, search $number: the client ended with $code, on the way home with $home:"
+    tail -n 20 "$log"
     return 1
   fi
 }
