@@ -21,9 +21,10 @@ class Correlator {
     scene_.sample(box, patch.columns(), patch.rows(), values_);
     return patch.ncc(values_, min_contrast_);
   }
-  double gradient_ncc(const TemplatePatch& patch, const cv::Rect2d& box) {
+  /// The patch under the box.
+  const std::vector<float>& values(const TemplatePatch& patch, const cv::Rect2d& box) {
     scene_.sample(box, patch.columns(), patch.rows(), values_);
-    return patch.gradient_ncc(values_);
+    return values_;
   }
 
  private:
@@ -82,6 +83,15 @@ void refine(Correlator& correlator, const TemplatePatch& patch, cv::Rect2d& box,
   }
 }
 
+/// Between the two parameters, by the size of the patch.
+double gradient_threshold(const TemplateVariant& variant, const TemplatePatch& patch, const TemplateParams& params) {
+  const auto side = [](const TemplatePatch& p) { return static_cast<double>(std::max(p.columns(), p.rows())); };
+  const double smallest = side(variant.patches.front());
+  const double largest = side(variant.patches.back());
+  const double share = largest > smallest ? (side(patch) - smallest) / (largest - smallest) : 1.0;
+  return params.accept_gradient_ncc + share * (params.accept_gradient_ncc_large - params.accept_gradient_ncc);
+}
+
 }  // namespace
 
 CandidateMatch match_candidate(const GreyPyramid& scene, const TemplateVariant& variant, const cv::Rect2d& supposed,
@@ -103,9 +113,11 @@ CandidateMatch match_candidate(const GreyPyramid& scene, const TemplateVariant& 
   if (match.ncc < params.accept_ncc) {
     return match;
   }
-  match.gradient_ncc = correlator.gradient_ncc(fine, match.box);
-  match.outcome =
-      match.gradient_ncc < params.accept_gradient_ncc ? MatchOutcome::kRejectedVerify : MatchOutcome::kAccepted;
+  const std::vector<float>& values = correlator.values(fine, match.box);
+  match.gradient_ncc = fine.gradient_ncc(values);
+  const bool verified = match.gradient_ncc >= gradient_threshold(variant, fine, params) &&
+                        match.ncc >= fine.plain_ncc(values) + params.plain_shape_margin;
+  match.outcome = verified ? MatchOutcome::kAccepted : MatchOutcome::kRejectedVerify;
   return match;
 }
 

@@ -17,20 +17,20 @@ struct OmniCameraParams {
   int height_px = 480;
   double u0_px = 315.0;  ///< image of the mirror's axis, spec S3.5 [P]
   double v0_px = 240.0;
-  double inner_radius_px = 60.0;   ///< inside it the robot sees itself
-  double outer_radius_px = 236.0;  ///< rim of the mirror
+  double inner_radius_px = 63.0;   ///< inside it the robot sees itself
+  double outer_radius_px = 232.0;  ///< rim of the mirror
   /// OCamCalib's affine part, rows first: [v - v0; u - u0] = [c d; e 1] [v_ideal; u_ideal].
   double affine_c = 1.0;
   double affine_d = 0.0;
   double affine_e = 0.0;
   double alignment_rad = 0.0;          ///< known turn of the camera about the vertical: added to every bearing
   double alignment_sigma_rad = 0.026;  ///< what is left of it: 1 to 2 deg, spec S3.5 [P]
-  double camera_height_m = 0.40;       ///< of the mirror's focus above the floor
+  double camera_height_m = 0.60;       ///< of the mirror's focus above the floor
   /// elevation_rad(radius) = sum over k of coefficient[k] * ((radius - reference_radius_px) / 100 px)^k; must rise
-  /// with the radius between the inner and the outer one. The default is a hyperbolic mirror like OCamCalib's
-  /// catadioptric example, scaled to 640x480.
-  double reference_radius_px = 190.0;
-  std::array<double, 4> elevation_coefficients = {0.0, 0.51, -0.13, 0.02};
+  /// with the radius between the inner and the outer one. The default was fitted to a hyperbolic mirror whose horizon
+  /// is at 172.7 px; largest error 0.0012 rad.
+  double reference_radius_px = 172.7;
+  std::array<double, 4> elevation_coefficients = {0.0, 0.6391, -0.1458, 0.0163};
 
   friend bool operator==(const OmniCameraParams&, const OmniCameraParams&) = default;
 };

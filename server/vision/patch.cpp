@@ -1,7 +1,9 @@
 #include "server/vision/patch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include <opencv2/imgproc.hpp>
 
@@ -10,6 +12,11 @@ namespace {
 
 constexpr int kMaxLevels = 6;
 constexpr int kMinLevelSide_px = 8;
+/// Half sizes of plain discs and boxes, and places of plain edges, relative to half the patch.
+constexpr std::array<double, 5> kPlainRadii = {0.4, 0.55, 0.7, 0.85, 1.0};
+constexpr std::array<double, 5> kPlainEdges = {-0.6, -0.3, 0.0, 0.3, 0.6};
+/// A target that correlates this well with a plain shape is that shape.
+constexpr float kSameShape = 0.97F;
 
 /// Where one sample lies along an axis: between pixel `low` and `high`.
 struct Tap {
@@ -72,20 +79,62 @@ TemplatePatch::TemplatePatch(const cv::Mat& grey, const cv::Mat& mask, int colum
     cv::threshold(small_mask, small_mask, 127.0, 1.0, cv::THRESH_BINARY);
   }
   mask_count_ = cv::countNonZero(small_mask);
-  const double mean = mask_count_ > 0.0 ? cv::mean(scaled, small_mask)[0] : 0.0;
-  double squares = 0.0;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      const bool counts = small_mask.at<std::uint8_t>(row, column) != 0;
-      const double value = counts ? scaled.at<float>(row, column) - mean : 0.0;
-      mask_.push_back(counts ? 1.0F : 0.0F);
-      centred_.push_back(static_cast<float>(value));
-      squares += value * value;
+      mask_.push_back(static_cast<float>(small_mask.at<std::uint8_t>(row, column)));
+      centred_.push_back(scaled.at<float>(row, column));
     }
   }
-  const float norm = squares > 0.0 ? static_cast<float>(1.0 / std::sqrt(squares)) : 0.0F;
-  std::transform(centred_.begin(), centred_.end(), centred_.begin(), [norm](float v) { return v * norm; });
+  if (!centre_and_scale(centred_)) {
+    std::fill(centred_.begin(), centred_.end(), 0.0F);
+  }
   prepare_gradients(scaled, small_mask);
+  prepare_plain_shapes();
+}
+
+bool TemplatePatch::centre_and_scale(std::vector<float>& values) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += static_cast<double>(values[i] * mask_[i]);
+  }
+  const double mean = mask_count_ > 0.0 ? sum / mask_count_ : 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = (values[i] - static_cast<float>(mean)) * mask_[i];
+    squares += static_cast<double>(values[i] * values[i]);
+  }
+  if (squares <= 0.0) {
+    return false;
+  }
+  const auto norm = static_cast<float>(1.0 / std::sqrt(squares));
+  std::transform(values.begin(), values.end(), values.begin(), [norm](float v) { return v * norm; });
+  return true;
+}
+
+void TemplatePatch::prepare_plain_shapes() {
+  const auto add = [this](const auto& inside) {
+    std::vector<float> shape;
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        shape.push_back(inside((2.0 * column + 1.0) / columns_ - 1.0, (2.0 * row + 1.0) / rows_ - 1.0) ? 1.0F : 0.0F);
+      }
+    }
+    if (!centre_and_scale(shape)) {
+      return;
+    }
+    const float alike = std::inner_product(shape.begin(), shape.end(), centred_.begin(), 0.0F);
+    if (std::abs(alike) < kSameShape) {
+      plain_shapes_.push_back(std::move(shape));
+    }
+  };
+  for (const double r : kPlainRadii) {
+    add([r](double x, double y) { return x * x + y * y < r * r; });
+    add([r](double x, double y) { return std::abs(x) < r && std::abs(y) < r; });
+  }
+  for (const double at : kPlainEdges) {
+    add([at](double x, double) { return x < at; });
+    add([at](double, double y) { return y < at; });
+  }
 }
 
 void TemplatePatch::prepare_gradients(const cv::Mat& scaled, const cv::Mat& mask) {
@@ -110,24 +159,33 @@ void TemplatePatch::prepare_gradients(const cv::Mat& scaled, const cv::Mat& mask
   }
 }
 
-double TemplatePatch::ncc(const std::vector<float>& values, double min_contrast) const {
+double TemplatePatch::spread(const std::vector<float>& values) const {
   float sum = 0.0F;
   float squares = 0.0F;
-  float product = 0.0F;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float masked = values[i] * mask_[i];
     sum += masked;
     squares += masked * values[i];
-    product += centred_[i] * values[i];
   }
-  if (mask_count_ < 1.0) {
+  return mask_count_ > 0.0 ? squares - static_cast<double>(sum) * sum / mask_count_ : 0.0;
+}
+
+double TemplatePatch::ncc(const std::vector<float>& values, double min_contrast) const {
+  const double spread_now = spread(values);
+  if (spread_now < min_contrast * min_contrast * mask_count_ || spread_now <= 0.0) {
     return 0.0;
   }
-  const double spread = squares - static_cast<double>(sum) * sum / mask_count_;
-  if (spread < min_contrast * min_contrast * mask_count_ || spread <= 0.0) {
-    return 0.0;
+  const float product = std::inner_product(values.begin(), values.end(), centred_.begin(), 0.0F);
+  return std::clamp(product / std::sqrt(spread_now), -1.0, 1.0);
+}
+
+double TemplatePatch::plain_ncc(const std::vector<float>& values) const {
+  const double spread_now = spread(values);
+  float best = 0.0F;
+  for (const std::vector<float>& shape : plain_shapes_) {
+    best = std::max(best, std::abs(std::inner_product(values.begin(), values.end(), shape.begin(), 0.0F)));
   }
-  return std::clamp(product / std::sqrt(spread), -1.0, 1.0);
+  return spread_now > 0.0 ? std::min(1.0, best / std::sqrt(spread_now)) : 0.0;
 }
 
 double TemplatePatch::gradient_ncc(const std::vector<float>& values) const {

@@ -33,6 +33,9 @@ class TemplatePatch {
   [[nodiscard]] int rows() const { return rows_; }
   /// Zero-mean NCC with sampled values, -1..1; 0 where their standard deviation is below min_contrast.
   [[nodiscard]] double ncc(const std::vector<float>& values, double min_contrast) const;
+  /// The best correlation, by its amount, with a plain shape: disc, box, half-plane. A candidate that looks more
+  /// like one of these than like the target is not the target. Shapes that the target itself equals are left out.
+  [[nodiscard]] double plain_ncc(const std::vector<float>& values) const;
   /// Correlation of the gradient fields, -1..1: sensitive to edges that are elsewhere or missing, blind to slow
   /// changes of brightness.
   [[nodiscard]] double gradient_ncc(const std::vector<float>& values) const;
@@ -44,13 +47,17 @@ class TemplatePatch {
     float y = 0.0F;
   };
   void prepare_gradients(const cv::Mat& scaled, const cv::Mat& mask);
+  void prepare_plain_shapes();
+  [[nodiscard]] bool centre_and_scale(std::vector<float>& values) const;
+  [[nodiscard]] double spread(const std::vector<float>& values) const;
 
   int columns_;
   int rows_;
   std::vector<float> centred_;  ///< zero mean and unit norm over the mask, 0 outside
   std::vector<float> mask_;     ///< 0 or 1
   double mask_count_ = 0.0;
-  std::vector<Gradient> gradients_;  ///< unit norm, inner samples with their four neighbours in the mask
+  std::vector<std::vector<float>> plain_shapes_;  ///< like centred_
+  std::vector<Gradient> gradients_;               ///< unit norm, inner samples with their four neighbours in the mask
 };
 
 }  // namespace seeker::vision

@@ -46,13 +46,15 @@ Status validate_templates(const TemplateParams& p) {
     return fail(Errc::kInvalidArgument, "templates.adaptive_block_px must be odd");
   }
   return check(
-      std::array<Bound, 12>{{{"templates.stretch_low", p.stretch_low, 0.0, 1.0},
+      std::array<Bound, 14>{{{"templates.stretch_low", p.stretch_low, 0.0, 1.0},
                              {"templates.stretch_high", p.stretch_high, 0.0, 1.0},
                              {"templates.min_area", p.min_area, 0.0, 1.0},
                              {"templates.max_area", p.max_area, 0.0, 1.0},
                              {"templates.aspect_tolerance", p.aspect_tolerance, 0.0, 1.0},
                              {"templates.accept_ncc", p.accept_ncc, 0.1, 1.0},
                              {"templates.accept_gradient_ncc", p.accept_gradient_ncc, 0.0, 1.0},
+                             {"templates.accept_gradient_ncc_large", p.accept_gradient_ncc_large, 0.0, 1.0},
+                             {"templates.plain_shape_margin", p.plain_shape_margin, -1.0, 1.0},
                              {"templates.position_jitter_px", p.position_jitter_px, 0.0, 20.0},
                              {"templates.scale_jitter", p.scale_jitter, 0.0, 0.5},
                              {"templates.min_contrast", p.min_contrast, 0.0, 127.0},

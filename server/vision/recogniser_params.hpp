@@ -28,7 +28,9 @@ struct TemplateParams {
   double max_area = 0.20;
   double aspect_tolerance = 0.25;  ///< relative
   double accept_ncc = 0.70;
-  double accept_gradient_ncc = 0.45;  ///< gradient check; 0 switches it off
+  double accept_gradient_ncc = 0.60;        ///< gradient check of candidates of 12 px; 0 switches it off
+  double accept_gradient_ncc_large = 0.72;  ///< of 32 px and more, where more of the target is seen
+  double plain_shape_margin = 0.03;         ///< NCC with the target above that with any plain shape; -1 switches it off
   double position_jitter_px = 2.0;
   double scale_jitter = 0.10;
   double min_contrast = 6.0;        ///< standard deviation of a candidate, grey levels

@@ -34,6 +34,18 @@ std::vector<TemplatePatch> make_patches(const cv::Mat& grey, const cv::Mat& mask
   return patches;
 }
 
+cv::Rect2d relative(const cv::Rect& box, const cv::Size& whole) {
+  return {static_cast<double>(box.x) / whole.width, static_cast<double>(box.y) / whole.height,
+          static_cast<double>(box.width) / whole.width, static_cast<double>(box.height) / whole.height};
+}
+
+/// Where the whole is, given the box of a part of it.
+cv::Rect2d whole_from_part(const cv::Rect2d& box, const cv::Rect2d& part) {
+  const double width = box.width / part.width;
+  const double height = box.height / part.height;
+  return {box.x - part.x * width, box.y - part.y * height, width, height};
+}
+
 Anchor whole_anchor(const cv::Mat& grey) {
   return {cv::Rect2d(0.0, 0.0, 1.0, 1.0), static_cast<double>(grey.cols) / grey.rows, std::nullopt};
 }
@@ -51,9 +63,7 @@ std::vector<Anchor> inner_anchors(const cv::Mat& grey, const TemplateParams& par
                    [](const Region& a, const Region& b) { return a.box.area() > b.box.area(); });
   std::vector<Anchor> anchors;
   for (const Region& region : regions) {
-    const cv::Rect2d part(static_cast<double>(region.box.x) / grey.cols, static_cast<double>(region.box.y) / grey.rows,
-                          static_cast<double>(region.box.width) / grey.cols,
-                          static_cast<double>(region.box.height) / grey.rows);
+    const cv::Rect2d part = relative(region.box, grey.size());
     const bool whole = part.width > kWholeSide && part.height > kWholeSide;
     if (!whole && part.area() >= kMinAnchorShare && anchors.size() < kMaxInnerAnchors) {
       anchors.push_back({part, static_cast<double>(region.box.width) / region.box.height, region.light});
@@ -105,7 +115,7 @@ std::optional<TemplateVariant> object_variant(const cv::Mat& grey, const Templat
   }
   const cv::Rect box = cv::boundingRect(mask);
   const cv::Mat object = grey(box);
-  TemplateVariant variant{make_patches(object, mask(box)), {whole_anchor(object)}};
+  TemplateVariant variant{make_patches(object, mask(box)), {whole_anchor(object)}, relative(box, grey.size())};
   if (params.inner_anchors) {
     const std::vector<Anchor> inner = inner_anchors(object, params);
     variant.anchors.insert(variant.anchors.end(), inner.begin(), inner.end());
@@ -115,11 +125,9 @@ std::optional<TemplateVariant> object_variant(const cv::Mat& grey, const Templat
 
 }  // namespace
 
-cv::Rect2d Anchor::whole(const cv::Rect& region) const {
-  const double width = region.width / part.width;
-  const double height = region.height / part.height;
-  return {region.x - part.x * width, region.y - part.y * height, width, height};
-}
+cv::Rect2d Anchor::whole(const cv::Rect& region) const { return whole_from_part(region, part); }
+
+cv::Rect2d TemplateVariant::whole(const cv::Rect2d& box) const { return whole_from_part(box, part); }
 
 bool Anchor::fits(const cv::Rect& region, double tolerance) const {
   const double expected_px = aspect * region.height;
@@ -139,7 +147,7 @@ const TemplatePatch& TemplateVariant::patch_for(const cv::Rect2d& box) const {
 
 TargetTemplate make_target_template(const cv::Mat& grey, int target, double height_m, const TemplateParams& params) {
   TargetTemplate out{target, height_m, {}};
-  TemplateVariant whole{make_patches(grey, cv::Mat()), {whole_anchor(grey)}};
+  TemplateVariant whole{make_patches(grey, cv::Mat()), {whole_anchor(grey)}, cv::Rect2d(0.0, 0.0, 1.0, 1.0)};
   if (params.inner_anchors) {
     const std::vector<Anchor> inner = inner_anchors(grey, params);
     whole.anchors.insert(whole.anchors.end(), inner.begin(), inner.end());

@@ -30,7 +30,10 @@ struct Anchor {
 struct TemplateVariant {
   std::vector<TemplatePatch> patches;  ///< from the smallest to the largest
   std::vector<Anchor> anchors;
+  cv::Rect2d part{0.0, 0.0, 1.0, 1.0};  ///< of the picture that the patches show
 
+  /// The whole picture's box, given that of the part that the patches show.
+  [[nodiscard]] cv::Rect2d whole(const cv::Rect2d& box) const;
   /// The largest patch that is not larger than the candidate; the smallest for yet smaller candidates.
   [[nodiscard]] const TemplatePatch& patch_for(const cv::Rect2d& box) const;
 };

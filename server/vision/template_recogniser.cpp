@@ -119,7 +119,7 @@ void TemplateRecogniser::match_variant(const TargetTemplate& target, const Templ
       sighting.target = target.target;
       sighting.score = match.ncc;
       sighting.verify_score = match.gradient_ncc;
-      view_.locate(corners_of(match.box), working, target.height_m, sighting);
+      view_.locate(corners_of(variant.whole(match.box)), working, target.height_m, sighting);
       report.sightings.push_back(sighting);
     }
   }
