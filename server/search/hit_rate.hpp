@@ -10,11 +10,11 @@ namespace seeker::search {
 /// replaced by measured values from the configuration.
 struct HitRate {
   double best = 0.85;             ///< probability for a large, near, well seen target
-  double half_size_px = 14.0;     ///< apparent size at which the rate has fallen to half of `best`
+  double half_size_px = 16.0;     ///< apparent size at which the rate has fallen to half of `best`
   double size_slope_px = 2.5;     ///< width of that fall (logistic)
   double min_range_m = 0.30;      ///< nearer, the robot's own body or the mirror's rim hides the target
   double max_range_m = 4.0;       ///< farther, nothing is credited
-  double pixels_per_rad = 120.0;  ///< of the camera across the view; of the horizon circle where it is omnidirectional
+  double pixels_per_rad = 190.0;  ///< of the camera across the view; of the horizon circle where it is omnidirectional
   double mean_view_foreshortening = 0.8;  ///< flat pictures are seen obliquely: mean factor on the apparent size
 
   /// Probability of detection of a target `size_m` across at `range_m`, 0..1. Falls with range, rises with size.

@@ -1,0 +1,63 @@
+/// \file
+/// The map as planning sees it: occupancy, where the robot may go, what of it is connected.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/core/grid.hpp"
+#include "common/core/pose2.hpp"
+#include "common/core/result.hpp"
+#include "common/core/time.hpp"
+#include "server/nav/cost_map.hpp"
+#include "server/nav/occupancy_map.hpp"
+#include "server/search/sectors.hpp"
+
+namespace seeker::search {
+
+/// One snapshot, immutable.
+struct FloorView {
+  Grid<std::uint8_t> occupancy;  ///< cells as in OccupancyTile
+  nav::CostMap cost;
+  Grid<std::uint8_t> reachable;  ///< floor of the evidence's cell size: 1 = allowed and connected to the robot
+  std::uint64_t revision = 0;    ///< of the map it was made from
+  RobotTime built;
+};
+
+/// Makes snapshots only when the map has changed and the last one is old enough.
+class FloorSource {
+ public:
+  FloorSource(const nav::CostMapParams& cost, ForbiddenAreas areas, double floor_cell_m, double period_s);
+
+  /// Called once per step with the present map; cheap.
+  void attend(const nav::OccupancyMap& map, const Pose2& map_T_base, RobotTime now);
+  /// The newest view, at most `period_s` old; `fresh` asks for one of the present map. kNotReady: no map yet;
+  /// kUnreachable: the robot stands walled in.
+  [[nodiscard]] Result<std::shared_ptr<const FloorView>> view(bool fresh = false);
+  /// The last view that could be made, if any.
+  [[nodiscard]] const std::shared_ptr<const FloorView>& last() const { return last_; }
+  /// Obstacles that the map does not show (sonar echoes below the lidar's plane), frame `map`.
+  void add_obstacle(const Point2& p_map);
+  /// Floor connected to the last view's position when nothing is forbidden: what the forbidden areas cost.
+  [[nodiscard]] std::optional<Grid<std::uint8_t>> unrestricted_floor() const;
+  [[nodiscard]] const ForbiddenAreas& areas() const { return areas_; }
+  void transform(const Pose2& new_T_old);
+
+ private:
+  [[nodiscard]] Result<FloorView> build() const;
+
+  nav::CostMapParams cost_;
+  ForbiddenAreas areas_;
+  double floor_cell_m_;
+  double period_s_;
+  std::vector<Point2> obstacles_;
+  const nav::OccupancyMap* map_ = nullptr;  ///< of the present step only
+  Pose2 map_T_base_;
+  RobotTime now_;
+  bool stale_ = true;
+  std::shared_ptr<const FloorView> last_;
+};
+
+}  // namespace seeker::search

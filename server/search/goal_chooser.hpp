@@ -1,0 +1,132 @@
+/// \file
+/// Where to go next: what tells the planned coverage from its baselines.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "server/nav/planner.hpp"
+#include "server/search/search_params.hpp"
+#include "server/search/strategy.hpp"
+
+namespace seeker::search {
+
+/// A place to drive to.
+struct Goal {
+  Point2 p_map = Point2::Zero();
+  std::string why;             ///< "unsearched cell", "frontier", "spiral", ...
+  bool is_frontier = false;    ///< it is there for the map rather than for the pictures
+  double expected_gain = 0.0;  ///< cells x probability
+
+  friend bool operator==(const Goal&, const Goal&) = default;
+};
+
+struct ChooseInput {
+  const FloorView& floor;
+  const nav::DistanceField& costs;
+  const EvidenceGrid& evidence;
+  Pose2 map_T_base;
+  double target_size_m = 0.4;
+  const std::vector<Point2>& unreachable;
+};
+
+class GoalChooser {
+ public:
+  GoalChooser() = default;
+  GoalChooser(const GoalChooser&) = delete;
+  GoalChooser& operator=(const GoalChooser&) = delete;
+  virtual ~GoalChooser() = default;
+
+  /// Nothing: no goal is left anywhere.
+  [[nodiscard]] virtual std::optional<Goal> choose(const ChooseInput& input) = 0;
+  /// The robot reached the goal (or came as near as it can) and looked.
+  virtual void visited(const Goal& goal, const Pose2& map_T_base) = 0;
+  /// Asked after every look on the way: false drops the goal for a better one.
+  [[nodiscard]] virtual bool still_worth(const Goal& goal, const FloorView& floor, const EvidenceGrid& evidence,
+                                         double target_size_m) const = 0;
+  virtual void transform(const Pose2& new_T_old) = 0;
+};
+
+/// Gain over cost among 0.8 m cells of the reachable floor and frontiers (the default mode).
+class PlanChooser final : public GoalChooser {
+ public:
+  explicit PlanChooser(const PlanParams& params) : params_(params) {}
+  [[nodiscard]] std::optional<Goal> choose(const ChooseInput& input) override;
+  void visited(const Goal& goal, const Pose2& map_T_base) override;
+  [[nodiscard]] bool still_worth(const Goal& goal, const FloorView& floor, const EvidenceGrid& evidence,
+                                 double target_size_m) const override;
+  void transform(const Pose2& new_T_old) override;
+
+ private:
+  struct Candidate {
+    Goal goal;
+    double cost = 0.0;
+    double bound = 0.0;  ///< no better score is possible
+  };
+  [[nodiscard]] std::vector<Candidate> cells(const ChooseInput& input, const Grid<std::uint8_t>& wanted) const;
+  void add_frontiers(const ChooseInput& input, std::vector<Candidate>& candidates) const;
+
+  PlanParams params_;
+  std::map<CellIndex, int> visits_;     ///< of 0.8 m cells as goals: none is tried for ever
+  std::vector<Point2> seen_frontiers_;  ///< frontiers that stayed after a visit
+};
+
+/// Backtracking spiral algorithm on 0.8 m cells: keep the visited and the blocked on the reference side, go round in a
+/// shrinking spiral; when it ends go to the nearest cell that was left aside (Gonzalez et al. 2005, BSA).
+class SpiralChooser final : public GoalChooser {
+ public:
+  explicit SpiralChooser(const PlanParams& params) : params_(params) {}
+  [[nodiscard]] std::optional<Goal> choose(const ChooseInput& input) override;
+  void visited(const Goal& goal, const Pose2& map_T_base) override;
+  [[nodiscard]] bool still_worth(const Goal&, const FloorView&, const EvidenceGrid&, double) const override {
+    return true;
+  }
+  void transform(const Pose2& new_T_old) override;
+
+ private:
+  [[nodiscard]] bool open(const ChooseInput& input, CellIndex cell) const;
+  [[nodiscard]] std::optional<CellIndex> spiral_step(const ChooseInput& input, CellIndex here);
+  [[nodiscard]] std::optional<CellIndex> backtrack(const ChooseInput& input);
+  [[nodiscard]] GridFrame frame() const { return {Point2::Zero(), params_.cell_m}; }
+
+  PlanParams params_;
+  std::set<CellIndex> visited_;
+  std::optional<CellIndex> last_;
+  int direction_ = 0;  ///< 0..3: +x, +y, -x, -y
+};
+
+/// Nearest frontier by travel cost (Yamauchi 1997).
+class FrontierChooser final : public GoalChooser {
+ public:
+  explicit FrontierChooser(const PlanParams& params) : params_(params) {}
+  [[nodiscard]] std::optional<Goal> choose(const ChooseInput& input) override;
+  void visited(const Goal& goal, const Pose2& map_T_base) override;
+  [[nodiscard]] bool still_worth(const Goal&, const FloorView&, const EvidenceGrid&, double) const override {
+    return true;
+  }
+  void transform(const Pose2& new_T_old) override;
+
+ private:
+  PlanParams params_;
+  std::vector<Point2> seen_frontiers_;
+};
+
+/// A border between reachable free floor and the unknown.
+struct Frontier {
+  Point2 p_map = Point2::Zero();  ///< its cheapest cell
+  double cost = 0.0;              ///< to get there
+  double length_m = 0.0;
+};
+
+/// Every frontier of at least `min_length_m`, cheapest first. Only cells that the robot's centre can reach.
+[[nodiscard]] std::vector<Frontier> find_frontiers(const nav::CostMap& map, const nav::DistanceField& costs,
+                                                   double min_length_m);
+
+/// True when p lies within `radius_m` of one of the places.
+[[nodiscard]] bool near_any(const Point2& p_map, const std::vector<Point2>& places, double radius_m);
+
+}  // namespace seeker::search

@@ -1,0 +1,208 @@
+#include "server/search/map_coverage.hpp"
+
+#include <utility>
+
+#include "server/search/text.hpp"
+
+namespace seeker::search {
+namespace {
+
+constexpr double kTurnOmega_rad_s = 0.5;
+constexpr double kTurnTime_s = 3.0;
+/// Together a bit more than a full turn.
+constexpr int kMaxTurns = 5;
+/// Share of a cell's reachable floor that must be covered before it counts as searched.
+constexpr double kSearchedShare = 0.8;
+
+}  // namespace
+
+MapCoverage::MapCoverage(const PlanParams& params, std::unique_ptr<GoalChooser> chooser)
+    : params_(params), chooser_(std::move(chooser)), driver_(params) {
+  lists_.cell_size_m = params.cell_m;
+}
+
+StrategyStep MapCoverage::step(const StrategyInput& input) {
+  StrategyStep out;
+  for (const Point2& cell : std::exchange(new_cells_, {})) {
+    out.events.push_back({"cell_searched", "searched cell " + text(cell)});
+  }
+  switch (state_) {
+    case State::kChoose: choose(input, out); break;
+    case State::kDrive: drive(input, out); break;
+    case State::kLook:
+      out.phase = "look";
+      out.activity = "taking a picture at " + text(input.map_T_base.translation());
+      out.wants_image = true;
+      break;
+    case State::kTurn: turn(input, out); break;
+    case State::kDone: break;
+  }
+  if (state_ == State::kDone) {
+    out.done = true;
+    out.trapped = trapped_;
+    out.activity = cause_;
+  }
+  return out;
+}
+
+void MapCoverage::choose(const StrategyInput& input, StrategyStep& out) {
+  const auto floor = input.floors.view(true);
+  if (!floor) {
+    begin_turn(input, floor.error().message, out);
+    return;
+  }
+  const auto costs = nav::DistanceField::build((*floor)->cost, input.map_T_base.translation());
+  if (!costs) {
+    begin_turn(input, costs.error().message, out);
+    return;
+  }
+  goal_ =
+      chooser_->choose({**floor, *costs, input.evidence, input.map_T_base, input.target_size_m, lists_.unreachable});
+  if (!goal_) {
+    state_ = State::kDone;
+    cause_ = "no reachable gap and no frontier is left";
+    update_lists(input);
+    return;
+  }
+  turns_ = 0;
+  if (!driver_.start(input, goal_->p_map)) {
+    fail_goal(driver_.reason(), out);
+    return;
+  }
+  out.events.push_back({"goal", goal_->why + " " + text(goal_->p_map)});
+  out.activity = "going to " + goal_->why + " " + text(goal_->p_map);
+  state_ = State::kDrive;
+}
+
+void MapCoverage::begin_turn(const StrategyInput& input, const std::string& why, StrategyStep& out) {
+  if (++turns_ > kMaxTurns) {
+    state_ = State::kDone;
+    trapped_ = true;
+    cause_ = why;
+    return;
+  }
+  state_ = State::kTurn;
+  turn_since_ = input.now;
+  out.events.push_back({"recovery", "turning to see more: " + why});
+  out.activity = "turning to see more";
+}
+
+void MapCoverage::turn(const StrategyInput& input, StrategyStep& out) {
+  out.phase = "recover";
+  out.activity = "turning to see more";
+  if (to_seconds(input.now - turn_since_) > kTurnTime_s) {
+    state_ = State::kChoose;
+    return;
+  }
+  out.command.omega_rad_s = kTurnOmega_rad_s;
+}
+
+bool MapCoverage::look_due(const StrategyInput& input) const {
+  return !last_look_ || (input.map_T_base.translation() - *last_look_).norm() >= params_.look_spacing_m;
+}
+
+void MapCoverage::drive(const StrategyInput& input, StrategyStep& out) {
+  const DriveStep drive = driver_.step(input);
+  out.command = drive.command;
+  out.planned_path = driver_.path();
+  out.activity = "going to " + goal_->why + " " + text(goal_->p_map);
+  switch (drive.state) {
+    case DriveState::kDriving:
+      if (look_due(input)) {
+        out.wants_image = true;
+        out.while_moving = params_.look_while_moving;
+      }
+      break;
+    case DriveState::kArrived:
+      chooser_->visited(*goal_, input.map_T_base);
+      state_ = State::kLook;
+      break;
+    case DriveState::kFailed:
+    case DriveState::kIdle: fail_goal(drive.reason, out); break;
+  }
+}
+
+void MapCoverage::fail_goal(const std::string& why, StrategyStep& out) {
+  lists_.unreachable.push_back(goal_->p_map);
+  out.events.push_back({"unreachable", goal_->why + " " + text(goal_->p_map) + ": " + why});
+  out.activity = "giving up an unreachable goal";
+  goal_.reset();
+  driver_.stop();
+  state_ = State::kChoose;
+}
+
+void MapCoverage::image_taken(const StrategyInput& input) {
+  last_look_ = input.map_T_base.translation();
+  update_lists(input);
+  if (state_ == State::kLook) {
+    state_ = State::kChoose;
+    return;
+  }
+  const auto floor = input.floors.view();
+  if (state_ == State::kDrive && floor &&
+      !chooser_->still_worth(*goal_, **floor, input.evidence, input.target_size_m)) {
+    state_ = State::kChoose;
+  }
+}
+
+void MapCoverage::update_lists(const StrategyInput& input) {
+  const auto floor = input.floors.view();
+  if (!floor) {
+    return;
+  }
+  const Grid<std::uint8_t>& reachable = (*floor)->reachable;
+  const GridFrame frame{Point2::Zero(), params_.cell_m};
+  std::map<CellIndex, std::pair<int, int>> cells;  // of each cell: floor, covered
+  for (std::size_t k = 0; k < reachable.cells().size(); ++k) {
+    if (reachable.cells()[k] != 0) {
+      const Point2 p = reachable.frame().centre_of(reachable.cell(k));
+      auto& [total, covered] = cells[frame.cell_of(p)];
+      ++total;
+      covered += input.evidence.probability_at(p) >= input.evidence.params().threshold ? 1 : 0;
+    }
+  }
+  lists_.unsearched.clear();
+  for (const auto& [cell, counts] : cells) {
+    const auto& [total, covered] = counts;
+    if (searched_cells_.contains(cell)) {
+      continue;
+    }
+    if (covered >= kSearchedShare * total) {
+      searched_cells_.insert(cell);
+      lists_.searched.push_back(frame.centre_of(cell));
+      new_cells_.push_back(frame.centre_of(cell));
+    } else {
+      lists_.unsearched.push_back(frame.centre_of(cell));
+    }
+  }
+}
+
+void MapCoverage::interrupted(RobotTime /*now*/) {
+  driver_.stop();
+  if (state_ == State::kDrive || state_ == State::kTurn) {
+    state_ = State::kChoose;
+  }
+}
+
+void MapCoverage::transform(const Pose2& new_T_old) {
+  chooser_->transform(new_T_old);
+  const GridFrame frame{Point2::Zero(), params_.cell_m};
+  searched_cells_.clear();
+  for (auto* list : {&lists_.searched, &lists_.unsearched, &lists_.unreachable}) {
+    for (Point2& p : *list) {
+      p = new_T_old * p;
+    }
+  }
+  for (const Point2& p : lists_.searched) {
+    searched_cells_.insert(frame.cell_of(p));
+  }
+  if (last_look_) {
+    last_look_ = new_T_old * *last_look_;
+  }
+  driver_.stop();
+  if (state_ == State::kDrive) {
+    state_ = State::kChoose;
+  }
+}
+
+}  // namespace seeker::search

@@ -1,0 +1,117 @@
+#include "server/search/planned_driver.hpp"
+
+#include <cmath>
+
+#include "common/core/angle.hpp"
+#include "server/search/text.hpp"
+
+namespace seeker::search {
+namespace {
+
+/// With a laser only near echoes of the front count, against noise of the sonars; without, everything in use.
+constexpr double kNearEcho_m = 0.5;
+constexpr double kFrontEcho_rad = deg_to_rad(35.0);
+constexpr double kFarEcho_m = 2.0;
+/// A path blocked from so near is blocked by something the map may not show.
+constexpr double kUnmappedObstacle_m = 0.8;
+/// A robot so near to its goal when blocked has as good as arrived.
+constexpr double kCloseEnough_m = 0.4;
+
+bool echo_counts(const SonarReading& reading, bool laser_fitted) {
+  if (!std::isfinite(reading.range_m)) {
+    return false;
+  }
+  if (!laser_fitted) {
+    return reading.range_m < kFarEcho_m;
+  }
+  return reading.range_m < kNearEcho_m && std::abs(reading.base_T_sonar.theta_rad) < kFrontEcho_rad;
+}
+
+}  // namespace
+
+std::vector<Point2> obstacles_in_base(const StrategyInput& input) {
+  std::vector<Point2> points;
+  if (input.laser != nullptr) {
+    points = points_in_base(*input.laser);
+  }
+  if (input.sonar != nullptr) {
+    for (const SonarReading& reading : input.sonar->readings) {
+      if (echo_counts(reading, input.laser != nullptr)) {
+        points.push_back(reading.base_T_sonar * Point2(reading.range_m, 0.0));
+      }
+    }
+  }
+  return points;
+}
+
+PlannedDriver::PlannedDriver(const PlanParams& params) : params_(params), follower_(params.follower) {}
+
+bool PlannedDriver::start(const StrategyInput& input, const Point2& goal_map, std::optional<double> final_heading_rad) {
+  goal_ = goal_map;
+  final_heading_rad_ = final_heading_rad;
+  started_ = input.now;
+  failures_ = 0;
+  driving_ = plan(input);
+  return driving_;
+}
+
+void PlannedDriver::stop() {
+  driving_ = false;
+  follower_.clear();
+}
+
+bool PlannedDriver::plan(const StrategyInput& input) {
+  const auto floor = input.floors.view(true);
+  if (!floor) {
+    reason_ = floor.error().message;
+    return false;
+  }
+  auto path = nav::plan((*floor)->cost, input.map_T_base.translation(), goal_);
+  if (!path) {
+    reason_ = path.error().message;
+    return false;
+  }
+  follower_.set_path(std::move(*path), input.now, final_heading_rad_);
+  return true;
+}
+
+DriveStep PlannedDriver::plan_again(const StrategyInput& input, const std::string& why) {
+  for (const Point2& p : obstacles_in_base(input)) {
+    if (p.norm() < kUnmappedObstacle_m && p.x() > 0.0) {
+      input.floors.add_obstacle(input.map_T_base * p);
+    }
+  }
+  if (++failures_ > params_.max_failures || !plan(input)) {
+    driving_ = false;
+    follower_.clear();
+    return {{}, DriveState::kFailed, failures_ > params_.max_failures ? why : reason_};
+  }
+  return {{}, DriveState::kDriving, {}};
+}
+
+DriveStep PlannedDriver::step(const StrategyInput& input) {
+  if (!driving_) {
+    return {};
+  }
+  if (to_seconds(input.now - started_) > params_.goal_time_s) {
+    stop();
+    return {{}, DriveState::kFailed, "not reached in time"};
+  }
+  const nav::FollowStep follow = follower_.step(input.map_T_base, obstacles_in_base(input), input.now);
+  switch (follow.state) {
+    case nav::FollowState::kFollowing: return {follow.command, DriveState::kDriving, {}};
+    case nav::FollowState::kArrived: stop(); return {{}, DriveState::kArrived, {}};
+    case nav::FollowState::kBlocked:
+    case nav::FollowState::kStuck:
+      if (follow.remaining_m < kCloseEnough_m) {
+        stop();
+        return {{}, DriveState::kArrived, {}};
+      }
+      return plan_again(input, follow.reason);
+    case nav::FollowState::kIdle: break;
+  }
+  driving_ = false;
+  return {{}, DriveState::kFailed, "no path"};
+}
+
+}  // namespace seeker::search

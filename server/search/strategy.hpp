@@ -1,0 +1,57 @@
+/// \file
+/// What leads the robot over the floor: one interface for the paper's algorithm, the planned one and the baselines.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "common/core/scan.hpp"
+#include "common/core/time.hpp"
+#include "server/search/evidence.hpp"
+#include "server/search/floor_view.hpp"
+#include "server/search/search_types.hpp"
+
+namespace seeker::search {
+
+/// `now` is mission time: it stands still while the mission is paused or does something else.
+struct StrategyInput {
+  RobotTime now;
+  Pose2 map_T_base;
+  const SonarScan* sonar = nullptr;
+  const LaserScan* laser = nullptr;
+  const EvidenceGrid& evidence;
+  FloorSource& floors;
+  double target_size_m = 0.4;  ///< the smallest target looked for
+};
+
+struct StrategyStep {
+  Twist2 command;
+  bool wants_image = false;  ///< repeated until image_taken()
+  bool while_moving = false;
+  std::string phase = "cover";
+  std::string activity;
+  std::vector<SearchEvent> events;
+  std::vector<Point2> planned_path;
+  bool done = false;     ///< nothing is left to do
+  bool trapped = false;  ///< done because the robot cannot move on; `activity` says why
+};
+
+class CoverageStrategy {
+ public:
+  CoverageStrategy() = default;
+  CoverageStrategy(const CoverageStrategy&) = delete;
+  CoverageStrategy& operator=(const CoverageStrategy&) = delete;
+  virtual ~CoverageStrategy() = default;
+
+  [[nodiscard]] virtual StrategyStep step(const StrategyInput& input) = 0;
+  /// The picture asked for was taken (or will not come).
+  virtual void image_taken(const StrategyInput& input) = 0;
+  /// Something else moved the robot meanwhile: present drives are void.
+  virtual void interrupted(RobotTime now) = 0;
+  virtual void transform(const Pose2& new_T_old) = 0;
+  [[nodiscard]] virtual const GridLists& lists() const = 0;
+};
+
+}  // namespace seeker::search
