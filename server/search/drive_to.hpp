@@ -1,0 +1,40 @@
+/// \file
+/// Drives to a point by whatever the strategy has: planned paths, or the local planner and a bearing.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/search/local_planner.hpp"
+#include "server/search/planned_driver.hpp"
+#include "server/search/progress_watch.hpp"
+
+namespace seeker::search {
+
+/// Used for confirming and approaching. Arrived means within `tolerance_m` (local planner) or at the path's end.
+class DriveTo {
+ public:
+  DriveTo(const SearchParams& params, LocalPlanner planner, bool use_map);
+
+  /// False when no way is known.
+  bool start(const StrategyInput& input, const Point2& goal_map, double tolerance_m);
+  [[nodiscard]] DriveStep step(const StrategyInput& input);
+  void stop();
+  [[nodiscard]] std::vector<Point2> path(const Pose2& map_T_base) const;
+  [[nodiscard]] bool uses_map() const { return use_map_; }
+
+ private:
+  [[nodiscard]] DriveStep step_locally(const StrategyInput& input);
+
+  PaperParams paper_;
+  LocalPlanner planner_;
+  PlannedDriver driver_;
+  bool use_map_;
+  bool active_ = false;
+  Point2 goal_ = Point2::Zero();
+  double tolerance_m_ = 0.1;
+  ProgressWatch progress_;
+};
+
+}  // namespace seeker::search

@@ -1,0 +1,83 @@
+/// \file
+/// Inside of SearchMission; nobody else includes it.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "server/search/detection_tracker.hpp"
+#include "server/search/search_mission.hpp"
+#include "server/search/strategy.hpp"
+#include "server/search/target_visit.hpp"
+
+namespace seeker::search {
+
+class SearchMission::Impl {
+ public:
+  Impl(SearchRequest request, const SearchParams& params, const std::shared_ptr<const ControlTable>& table);
+
+  [[nodiscard]] SearchStep step(const SearchInput& input);
+  void add_look(const Look& look);
+  void resume(RobotTime now);
+  void transform(const Pose2& new_T_old);
+
+  [[nodiscard]] EvidenceReport evidence_report() const;
+
+  SearchRequest request_;
+  SearchParams params_;
+  FloorSource floors_;
+  EvidenceGrid evidence_;
+  DetectionTracker tracker_;
+  LocalPlanner planner_;
+  std::unique_ptr<CoverageStrategy> strategy_;
+  TargetVisit visit_;
+  CoverageSummary summary_;
+  double path_length_m_ = 0.0;
+  Matrix3 pose_covariance_ = Matrix3::Zero();  ///< of the last step, for pictures taken since
+
+ private:
+  /// A picture whose sightings are in the tracker and whose evidence waits for the next step's map.
+  struct PendingLook {
+    Point2 camera_map;
+    std::vector<std::uint64_t> seen;
+  };
+  [[nodiscard]] StrategyInput strategy_input(const SearchInput& input);
+  void account(const SearchInput& input, SearchStep& out);
+  void process_looks(const StrategyInput& input, SearchStep& out);
+  void process_look(const PendingLook& look, const StrategyInput& input, SearchStep& out);
+  void note_sighting(std::uint64_t id, const StrategyInput& input, SearchStep& out);
+  void note_confirmed(const Detection& detection, const StrategyInput& input, SearchStep& out);
+  void start_waiting_confirm(RobotTime now);
+  void run_visit(const StrategyInput& input, SearchStep& out);
+  void run_cover(const StrategyInput& input, SearchStep& out);
+  void hand_over(StrategyStep&& from, const StrategyInput& input, SearchStep& out);
+  void settle_image(const StrategyInput& input, SearchStep& out);
+  void image_taken(const StrategyInput& input);
+  void finish(EndKind kind, std::string cause, std::string remedy, SearchStep& out);
+  void finish_found(std::uint64_t id, SearchStep& out);
+  void finish_covered(const StrategyStep& step, const StrategyInput& input, SearchStep& out);
+  [[nodiscard]] std::string name_of(int target) const;
+  [[nodiscard]] double smallest_target_m() const;
+
+  std::deque<PendingLook> looks_;
+  std::deque<std::uint64_t> to_confirm_;
+  std::set<std::uint64_t> sighted_;    ///< reported as sighting
+  std::set<std::uint64_t> confirmed_;  ///< reported as confirmed
+  std::vector<Point2> refused_;        ///< places where confirming failed
+  std::optional<SearchEnd> end_;
+  std::optional<RobotTime> waiting_since_;   ///< for a picture
+  std::optional<RobotTime> standing_since_;  ///< no motion since
+  Pose2 last_pose_;
+  Point2 path_anchor_ = Point2::Zero();
+  bool started_ = false;
+  bool image_missing_ = false;
+  std::uint32_t map_epoch_ = 0;
+  RobotTime last_now_;
+  Duration paused_{0};
+};
+
+}  // namespace seeker::search

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/core/angle.hpp"
+#include "server/nav/visibility.hpp"
+#include "server/search/goal_chooser.hpp"
+#include "server/search/search_mission_impl.hpp"
+#include "server/search/text.hpp"
+
+namespace seeker::search {
+namespace {
+
+/// A track so near to a refused one is the same mistake: no second detour for it.
+constexpr double kRefusedAgain_m = 0.6;
+/// More answers than this were not asked for.
+constexpr std::size_t kMaxPendingLooks = 16;
+/// The last stretch before a target is the target itself in the occupancy.
+constexpr double kTargetExtent_m = 0.25;
+constexpr double kUnreachableRadius_m = 0.8;
+constexpr double kPercent = 100.0;
+
+bool floor_at(const Grid<std::uint8_t>& floor, const Point2& p_map) {
+  const CellIndex cell = floor.frame().cell_of(p_map);
+  return floor.contains(cell) && floor[cell] != 0;
+}
+
+}  // namespace
+
+void SearchMission::Impl::add_look(const Look& look) {
+  if (end_ || !is_finite(look.map_T_base) || looks_.size() >= kMaxPendingLooks) {
+    return;
+  }
+  const Point2 camera = (look.map_T_base * params_.detection.base_T_camera).translation();
+  looks_.push_back({camera, tracker_.add(look)});
+}
+
+void SearchMission::Impl::process_looks(const StrategyInput& input, SearchStep& out) {
+  bool any = false;
+  while (!looks_.empty() && !end_) {
+    const PendingLook look = std::move(looks_.front());
+    looks_.pop_front();
+    process_look(look, input, out);
+    any = true;
+  }
+  if (any) {
+    image_missing_ = false;
+    if (waiting_since_) {
+      image_taken(input);
+    }
+  }
+}
+
+void SearchMission::Impl::process_look(const PendingLook& look, const StrategyInput& input, SearchStep& out) {
+  // A robot that stands walled in still has the floor of a moment ago.
+  const auto view = input.floors.view();
+  const auto floor = view ? *view : input.floors.last();
+  if (floor) {
+    evidence_.add_look(floor->occupancy, look.camera_map, smallest_target_m());
+    summary_ = evidence_.summary(floor->reachable);
+    const auto refuted = tracker_.note_misses(look.seen, [&](const Point2& p, int target) {
+      const Point2 d = p - look.camera_map;
+      const double r = d.norm();
+      const auto& spec = request_.targets[static_cast<std::size_t>(target)];
+      const bool clear = r > kTargetExtent_m && nav::line_of_sight(floor->occupancy, look.camera_map,
+                                                                   look.camera_map + (r - kTargetExtent_m) / r * d);
+      return clear ? params_.hit_rate.probability(r, std::min(spec.width_m, spec.height_m)) : 0.0;
+    });
+    for (const std::uint64_t id : refuted) {
+      out.events.push_back({"refuted", "detection " + std::to_string(id) + " was not seen again"});
+    }
+  }
+  for (const std::uint64_t id : look.seen) {
+    if (!end_) {
+      note_sighting(id, input, out);
+    }
+  }
+}
+
+void SearchMission::Impl::note_sighting(std::uint64_t id, const StrategyInput& input, SearchStep& out) {
+  const auto detection = tracker_.find(id);
+  if (!detection) {
+    return;
+  }
+  if (sighted_.insert(id).second) {
+    const std::string where = detection->position_map
+                                  ? " near " + text(*detection->position_map)
+                                  : " at a bearing of " + text(rad_to_deg(detection->bearing_map_rad)) + " deg";
+    out.events.push_back({"sighting", "detection " + std::to_string(id) + ": " + name_of(detection->target) + where +
+                                          ", score " + text(detection->score)});
+    const bool refused_before =
+        detection->position_map && near_any(*detection->position_map, refused_, kRefusedAgain_m);
+    if (!detection->confirmed && !refused_before) {
+      to_confirm_.push_back(id);
+    }
+  }
+  if (detection->confirmed && confirmed_.insert(id).second) {
+    note_confirmed(*detection, input, out);
+  }
+}
+
+void SearchMission::Impl::note_confirmed(const Detection& detection, const StrategyInput& input, SearchStep& out) {
+  out.events.push_back({"confirmed", "detection " + std::to_string(detection.id) + ": " + name_of(detection.target) +
+                                         " confirmed by " + std::to_string(detection.sightings) + " sightings"});
+  switch (request_.on_found) {
+    case OnFound::kStop: finish_found(detection.id, out); break;
+    case OnFound::kApproach:
+      if (!visit_.approaching()) {
+        visit_.begin_approach(detection.id, input.now);
+      }
+      break;
+    case OnFound::kContinue: break;
+  }
+}
+
+void SearchMission::Impl::start_waiting_confirm(RobotTime now) {
+  while (!visit_.active() && !to_confirm_.empty()) {
+    const std::uint64_t id = to_confirm_.front();
+    to_confirm_.pop_front();
+    const auto detection = tracker_.find(id);
+    if (detection && !detection->confirmed) {
+      visit_.begin_confirm(id, now);
+    }
+  }
+}
+
+void SearchMission::Impl::run_visit(const StrategyInput& input, SearchStep& out) {
+  StrategyStep step;
+  const std::uint64_t id = visit_.id();
+  const VisitResult result = visit_.step(input, tracker_, step);
+  hand_over(std::move(step), input, out);
+  if (result == VisitResult::kBusy) {
+    return;
+  }
+  strategy_->interrupted(input.now);
+  if (result == VisitResult::kReached) {
+    finish_found(id, out);
+  } else if (result == VisitResult::kRefused) {
+    if (const auto detection = tracker_.find(id); detection && detection->position_map) {
+      refused_.push_back(*detection->position_map);
+    }
+    tracker_.refute(id);
+    out.events.push_back({"refuted", "detection " + std::to_string(id) + " could not be confirmed"});
+  }
+}
+
+void SearchMission::Impl::finish(EndKind kind, std::string cause, std::string remedy, SearchStep& out) {
+  end_ = SearchEnd{kind, std::move(cause), std::move(remedy)};
+  out.events.push_back({"end", std::string(to_string(kind)) + ": " + end_->cause});
+}
+
+void SearchMission::Impl::finish_found(std::uint64_t id, SearchStep& out) {
+  const auto detection = tracker_.find(id);
+  std::string cause = "the target was found";
+  std::string remedy;
+  if (detection) {
+    cause = "target " + name_of(detection->target) + " found at a bearing of " +
+            text(rad_to_deg(detection->bearing_map_rad)) + " deg";
+    if (detection->position_map) {
+      const double sigma = std::sqrt(std::max(0.0, detection->position_covariance.trace()));
+      cause += ", position " + text(*detection->position_map) + ", uncertain by " + text(sigma) + " m";
+    } else {
+      remedy = "no range was measured; look from a second place to get the position";
+    }
+  }
+  finish(EndKind::kTargetFound, std::move(cause), std::move(remedy), out);
+}
+
+void SearchMission::Impl::finish_covered(const StrategyStep& step, const StrategyInput& input, SearchStep& out) {
+  if (const auto floor = input.floors.view(true)) {
+    summary_ = evidence_.summary((*floor)->reachable);
+  }
+  if (request_.on_found == OnFound::kContinue && !confirmed_.empty()) {
+    finish_found(*confirmed_.begin(), out);
+    return;
+  }
+  const double share = summary_.reachable_area_m2 > 0.0 ? summary_.covered_area_m2 / summary_.reachable_area_m2 : 0.0;
+  const std::string covered = text(kPercent * share) + " % of " + text(summary_.reachable_area_m2) +
+                              " m2 reachable floor seen with probability " + text(summary_.threshold) + " or more";
+  const bool nothing = step.trapped && strategy_->lists().searched.size() <= 1;
+  if (nothing) {
+    finish(EndKind::kUnreachable, step.activity + "; " + covered, "free the robot or move it, then start again", out);
+    return;
+  }
+  const std::size_t unreachable = strategy_->lists().unreachable.size();
+  finish(EndKind::kNotFoundAreaCovered,
+         step.activity + "; " + covered + "; " + std::to_string(unreachable) + " places unreachable",
+         share < 1.0 ? "search the gaps only, or look at the listed gaps by hand" : "", out);
+}
+
+EvidenceReport SearchMission::Impl::evidence_report() const {
+  const auto& floor = floors_.last();
+  if (!floor) {
+    return {};
+  }
+  const auto everything = floors_.unrestricted_floor();
+  const std::vector<Point2>& unreachable = strategy_->lists().unreachable;
+  return evidence_.report(floor->reachable, [&](const Point2& p) -> std::optional<std::string> {
+    if (floor_at(floor->reachable, p)) {
+      return near_any(p, unreachable, kUnreachableRadius_m) ? std::optional<std::string>("unreachable") : std::nullopt;
+    }
+    if (!everything || !floor_at(*everything, p)) {
+      return std::nullopt;
+    }
+    return request_.areas.outside_bound(p) ? "outside the bound" : "keep-out";
+  });
+}
+
+}  // namespace seeker::search

@@ -1,0 +1,64 @@
+/// \file
+/// Going to see a target again: from a second place to confirm it, or up to it to refine its position.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "server/search/detection_tracker.hpp"
+#include "server/search/drive_to.hpp"
+
+namespace seeker::search {
+
+enum class VisitResult : std::uint8_t { kBusy, kConfirmed, kRefused, kReached };
+
+/// One visit at a time. Confirming: look from up to confirm_looks other places until the track is confirmed; time or
+/// looks used up refuse it. Approaching: drive to standoff_m in front, turn to face it, look, done; what cannot be
+/// reached is looked at from where the robot got to.
+class TargetVisit {
+ public:
+  TargetVisit(const SearchParams& params, LocalPlanner planner, bool use_map);
+
+  void begin_confirm(std::uint64_t id, RobotTime now) { begin(id, false, now); }
+  void begin_approach(std::uint64_t id, RobotTime now) { begin(id, true, now); }
+  [[nodiscard]] bool active() const { return active_; }
+  [[nodiscard]] bool approaching() const { return active_ && approach_; }
+  [[nodiscard]] std::uint64_t id() const { return id_; }
+
+  /// Fills command, phase, activity, wants_image and planned_path of `out`.
+  [[nodiscard]] VisitResult step(const StrategyInput& input, const DetectionTracker& tracker, StrategyStep& out);
+  void image_taken();
+  void interrupted();
+
+ private:
+  enum class State : std::uint8_t { kPlan, kDrive, kFace, kLook };
+
+  void begin(std::uint64_t id, bool approach, RobotTime now);
+  [[nodiscard]] VisitResult finish(VisitResult result);
+  [[nodiscard]] std::optional<VisitResult> verdict(const Detection& detection, RobotTime now) const;
+  void plan(const StrategyInput& input, const DetectionTracker& tracker, const Detection& detection);
+  void plan_approach(const StrategyInput& input, const Detection& detection);
+  void plan_confirm(const StrategyInput& input, const DetectionTracker& tracker, const Detection& detection);
+  void face(const StrategyInput& input, const Detection& detection, StrategyStep& out);
+  void drive(const StrategyInput& input, StrategyStep& out);
+
+  MissionParams params_;
+  double new_place_m_;
+  DriveTo drive_;
+  std::uint64_t id_ = 0;
+  bool active_ = false;
+  bool approach_ = false;
+  bool arrived_ = false;
+  int looks_ = 0;
+  State state_ = State::kPlan;
+  RobotTime started_;
+  RobotTime face_since_;
+};
+
+/// The cheapest place on circles about `p_map` from which it can be seen, at least `away_m` from all `others`; radii
+/// are tried in order and the first that has a place wins.
+[[nodiscard]] std::optional<Point2> viewpoint_about(const FloorView& floor, const Pose2& map_T_base,
+                                                    const Point2& p_map, const std::vector<double>& radii_m,
+                                                    const std::vector<Point2>& others, double away_m);
+
+}  // namespace seeker::search
