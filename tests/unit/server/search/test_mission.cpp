@@ -1,0 +1,255 @@
+#include <cmath>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "server/search/search_mission.hpp"
+#include "tests/support/matchers.hpp"
+#include "tests/unit/server/search/toy_world.hpp"
+
+namespace seeker::search {
+namespace {
+
+using seeker::testing::Point2Near;
+
+/// Two rooms of 5 x 5 m joined by a door of 1.2 m, with a box of furniture in the second.
+ToyWorld two_rooms() {
+  ToyWorld world;
+  world.walls = box(0, 0, 10.2, 5);
+  world.walls.push_back({{5.1, 0.0}, {5.1, 1.9}});
+  world.walls.push_back({{5.1, 3.1}, {5.1, 5.0}});
+  for (const Wall& wall : box(7.2, 2.0, 8.0, 2.8)) {
+    world.walls.push_back(wall);
+  }
+  return world;
+}
+
+ToyWorld one_room() {
+  ToyWorld world;
+  world.walls = box(0, 0, 5, 5);
+  for (const Wall& wall : box(2.2, 2.2, 2.8, 2.8)) {
+    world.walls.push_back(wall);
+  }
+  return world;
+}
+
+SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::kApproach, ForbiddenAreas areas = {}) {
+  SearchRequest request;
+  request.targets = {{"box", 0.4, 0.4, 0.3}};
+  request.strategy = strategy;
+  request.on_found = on_found;
+  request.areas = std::move(areas);
+  auto mission = SearchMission::create(request, {}, shared_table());
+  EXPECT_TRUE(mission.has_value());
+  return std::move(*mission);
+}
+
+void print(const char* name, const ToyRun& run) {
+  std::cout << name << ": " << (run.end ? run.end->cause : "no end") << "; " << run.seconds << " s, " << run.path_m
+            << " m, clearance " << run.least_clearance_m << " m, images " << run.images << '\n';
+}
+
+TEST(SearchMission, PlanCoversTwoRoomsWithoutTarget) {
+  auto mission = mission_of(Strategy::kPlan);
+  ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 5);
+  const ToyRun run = robot.run(mission, 1200.0);
+  print("plan", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kNotFoundAreaCovered);
+  EXPECT_GT(run.summary.reachable_area_m2, 35.0);
+  EXPECT_GE(run.summary.covered_area_m2, 0.97 * run.summary.reachable_area_m2);
+  EXPECT_GT(run.least_clearance_m, 0.2);
+  EXPECT_LT(run.path_m, 60.0);
+  const auto report = mission.evidence_report();
+  EXPECT_EQ(report.summary.gaps, static_cast<int>(report.gaps.size()));
+}
+
+TEST(SearchMission, PlanFindsAndApproachesATargetInTheOtherRoom) {
+  ToyWorld world = two_rooms();
+  world.target = Point2(9.4, 0.8);
+  auto mission = mission_of(Strategy::kPlan);
+  ToyRobot robot(world, {1.0, 1.0, 0.3}, true, 6);
+  const ToyRun run = robot.run(mission, 1200.0);
+  print("plan, target", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kTargetFound);
+  ASSERT_FALSE(run.detections.empty());
+  const Detection& found = run.detections.front();
+  ASSERT_TRUE(found.position_map.has_value());
+  EXPECT_THAT(*found.position_map, Point2Near(*world.target, 0.2));
+  EXPECT_EQ(found.range_source, RangeSource::kLidar);
+  EXPECT_LT((run.pose.translation() - *world.target).norm(), 1.2);
+  EXPECT_GT(run.least_clearance_m, 0.2);
+}
+
+TEST(SearchMission, PlanWithSonarsOnlyFindsATarget) {
+  ToyWorld world = one_room();
+  world.target = Point2(4.2, 4.2);
+  auto mission = mission_of(Strategy::kPlan);
+  ToyRobot robot(world, {0.8, 0.8, 0.3}, false, 7);
+  const ToyRun run = robot.run(mission, 1200.0);
+  print("plan, sonars", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kTargetFound);
+}
+
+TEST(SearchMission, PaperFindsATargetBySonarAndBearing) {
+  ToyWorld world = one_room();
+  world.target = Point2(4.2, 4.2);
+  auto mission = mission_of(Strategy::kPaper);
+  ToyRobot robot(world, {0.8, 0.8, 0.0}, false, 8);
+  const ToyRun run = robot.run(mission, 1800.0);
+  print("paper, target", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kTargetFound);
+  ASSERT_FALSE(run.detections.empty());
+  ASSERT_TRUE(run.detections.front().position_map.has_value());
+  EXPECT_THAT(*run.detections.front().position_map, Point2Near(*world.target, 0.4));
+}
+
+TEST(SearchMission, PaperEndsCleanlyWithoutATarget) {
+  auto mission = mission_of(Strategy::kPaper);
+  ToyRobot robot(one_room(), {0.8, 0.8, 0.0}, false, 9);
+  const ToyRun run = robot.run(mission, 3600.0);
+  print("paper", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kNotFoundAreaCovered);
+  EXPECT_GE(run.lists.searched.size(), 10U);
+  EXPECT_TRUE(run.lists.unsearched.empty());
+}
+
+TEST(SearchMission, PaperStaysInsideItsBound) {
+  ForbiddenAreas areas;
+  areas.bound = Polygon{{-1, -1}, {6, -1}, {6, 1.8}, {-1, 1.8}};
+  auto mission = mission_of(Strategy::kPaper, OnFound::kApproach, areas);
+  ToyRobot robot(one_room(), {0.8, 0.8, 0.0}, false, 10);
+  const ToyRun run = robot.run(mission, 900.0, areas.bound);
+  print("paper, bound", run);
+  EXPECT_FALSE(run.left_bound);
+  for (const Point2& p : run.lists.searched) {
+    EXPECT_TRUE(areas.allows(p));
+  }
+}
+
+TEST(SearchMission, PlanKeepsOutAndListsWhy) {
+  ForbiddenAreas areas;
+  areas.keep_out.push_back({{5.2, 0.0}, {10.2, 0.0}, {10.2, 5.0}, {5.2, 5.0}});
+  auto mission = mission_of(Strategy::kPlan, OnFound::kApproach, areas);
+  ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 11);
+  const ToyRun run = robot.run(mission, 900.0);
+  print("plan, keep-out", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_LT(run.pose.x_m, 5.2);
+  const auto report = mission.evidence_report();
+  EXPECT_TRUE(std::any_of(report.gaps.begin(), report.gaps.end(),
+                          [](const Gap& gap) { return gap.reason == "keep-out" && gap.area_m2 > 1.0; }));
+}
+
+TEST(SearchMission, BaselinesEnd) {
+  for (const Strategy strategy : {Strategy::kSpiral, Strategy::kFrontier}) {
+    auto mission = mission_of(strategy);
+    ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 12);
+    const ToyRun run = robot.run(mission, 2400.0);
+    print(std::string(to_string(strategy)).c_str(), run);
+    ASSERT_TRUE(run.end.has_value());
+    EXPECT_EQ(run.end->kind, EndKind::kNotFoundAreaCovered);
+    EXPECT_GT(run.summary.covered_area_m2, 0.5 * run.summary.reachable_area_m2);
+    EXPECT_GT(run.least_clearance_m, 0.2);
+  }
+}
+
+TEST(SearchMission, GapsOnlyContinuesFromEarlierEvidence) {
+  auto first = mission_of(Strategy::kPlan);
+  ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 13);
+  const ToyRun run = robot.run(first, 1200.0);
+  ASSERT_TRUE(run.end.has_value());
+  SearchRequest request = first.request();
+  request.gaps_only = true;
+  auto second = SearchMission::create(request, {}, shared_table());
+  second->keep_evidence(first.evidence());
+  const ToyRun again = robot.run(*second, 1200.0);
+  print("gaps", again);
+  ASSERT_TRUE(again.end.has_value());
+  EXPECT_LT(again.images, run.images);
+  EXPECT_GE(again.summary.covered_area_m2, 0.97 * again.summary.reachable_area_m2);
+}
+
+TEST(SearchMission, SameInputsGiveTheSameEvents) {
+  ToyWorld world = two_rooms();
+  world.target = Point2(9.4, 0.8);
+  std::vector<ToyRun> runs;
+  for (int k = 0; k < 2; ++k) {
+    auto mission = mission_of(Strategy::kPlan);
+    ToyRobot robot(world, {1.0, 1.0, 0.3}, true, 14);
+    runs.push_back(robot.run(mission, 1200.0));
+  }
+  EXPECT_EQ(runs[0].events, runs[1].events);
+  EXPECT_EQ(runs[0].pose, runs[1].pose);
+  EXPECT_FALSE(runs[0].events.empty());
+}
+
+TEST(SearchMission, NanFromASonarStopsTheRobotAndSaysWhy) {
+  auto mission = mission_of(Strategy::kPaper);
+  ToyRobot robot(one_room(), {0.8, 0.8, 0.0}, false, 15);
+  nav::OccupancyMap map;
+  SonarScan scan = robot.sonar(robot_time_s(0.0));
+  scan.readings[3].range_m = std::nanf("");
+  const SearchStep step = mission.step({robot_time_s(0.0), {}, Matrix3::Zero(), &scan, nullptr, map, 0});
+  EXPECT_EQ(step.command, Twist2{});
+  EXPECT_EQ(step.phase, "stopped");
+  EXPECT_NE(step.activity.find("sonar"), std::string::npos);
+  ASSERT_FALSE(step.events.empty());
+  // Silence: the reading grows old.
+  scan = robot.sonar(robot_time_s(0.0));
+  const SearchStep silent = mission.step({robot_time_s(2.0), {}, Matrix3::Zero(), &scan, nullptr, map, 0});
+  EXPECT_EQ(silent.phase, "stopped");
+}
+
+TEST(SearchMission, PausedTimeDoesNotCount) {
+  auto mission = mission_of(Strategy::kPaper);
+  ToyRobot robot(one_room(), {0.8, 0.8, 0.0}, false, 16);
+  nav::OccupancyMap map;
+  const auto step_at = [&](double t) {
+    const SonarScan scan = robot.sonar(robot_time_s(t));
+    return mission.step({robot_time_s(t), {0.8, 0.8, 0.0}, Matrix3::Zero(), &scan, nullptr, map, 0});
+  };
+  for (int k = 0; k < 10; ++k) {
+    (void)step_at(0.1 * k);
+  }
+  EXPECT_TRUE(step_at(1.0).wants_image);
+  mission.pause();
+  mission.resume(robot_time_s(500.0));
+  for (int k = 0; k < 10; ++k) {
+    for (const SearchEvent& event : step_at(500.0 + 0.1 * k).events) {
+      EXPECT_NE(event.kind, "no_image");
+    }
+  }
+}
+
+TEST(SearchMission, AnUncertainPoseEndsIt) {
+  auto mission = mission_of(Strategy::kPlan);
+  nav::OccupancyMap map;
+  const SearchStep step = mission.step({robot_time_s(0.0), {}, 25.0 * Matrix3::Identity(), nullptr, nullptr, map, 0});
+  ASSERT_TRUE(step.end.has_value());
+  EXPECT_EQ(step.end->kind, EndKind::kUncertain);
+  EXPECT_FALSE(step.end->remedy.empty());
+}
+
+TEST(SearchMission, RefusesBadRequests) {
+  SearchRequest request;
+  EXPECT_FALSE(SearchMission::create(request, {}, shared_table()).has_value());
+  request.targets = {{"box", -1.0, 0.4, 0.0}};
+  EXPECT_FALSE(SearchMission::create(request, {}, shared_table()).has_value());
+  request.targets = {{"box"}};
+  request.areas.bound = Polygon{{0, 0}, {1, 1}, {1, 0}, {0, 1}};  // crosses itself
+  EXPECT_FALSE(SearchMission::create(request, {}, shared_table()).has_value());
+  request.areas.bound.reset();
+  SearchParams params;
+  params.evidence.cell_m = 0.0;
+  EXPECT_FALSE(SearchMission::create(request, params, shared_table()).has_value());
+  EXPECT_FALSE(SearchMission::create(request, {}, nullptr).has_value());
+  EXPECT_TRUE(SearchMission::create(request, {}, shared_table()).has_value());
+}
+
+}  // namespace
+}  // namespace seeker::search
