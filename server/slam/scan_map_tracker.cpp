@@ -85,9 +85,11 @@ bool ScanMapTracker::believable(const MatchResult& match, const Pose2& predicted
 
 MatchResult ScanMapTracker::best_match(const std::vector<OrientedPoint>& points_base, const Pose2& predicted) const {
   MatchResult match = matcher_.match(*reference_, points_base, predicted);
-  const bool gap = failures_ > 0 || moved(matched_pose_, predicted, params_.gap_m, params_.gap_rad) ||
-                   odometry_.estimate().quality != LocalisationQuality::kLocalised;
-  if (match.inlier_ratio >= params_.good_ratio || !gap) {
+  // After a gap even a fair match may be a wrong one: look at the whole window and let the inliers decide.
+  const bool gap = moved(matched_pose_, predicted, params_.gap_m, params_.gap_rad);
+  const bool poor = match.inlier_ratio < params_.good_ratio;
+  const bool unsure = failures_ > 0 || odometry_.estimate().quality != LocalisationQuality::kLocalised;
+  if (!gap && !(poor && unsure)) {
     return match;
   }
   if (const auto start = matcher_.search(*reference_, points_base, predicted)) {

@@ -13,7 +13,7 @@ namespace seeker::slam {
 namespace {
 
 constexpr double kHoldWeight = 1.0e6;         ///< keeps the guess along a degenerate direction
-constexpr double kUnseenVariance_m2 = 1.0e4;  ///< what a match says about a direction it does not see
+constexpr double kUnseenVariance_m2 = 100.0;  ///< what a match says about a direction it does not see
 constexpr double kMinSearchScore = 0.5;
 
 /// Normal equations of one iteration; rotation about the robot, translation in the frame `map`.

@@ -1,0 +1,201 @@
+#include "server/drivers/replay/replay.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "tests/support/data.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace seeker::drivers {
+namespace {
+
+constexpr const char* kScan = "FLASER 3 1.0 2.5 81.91 9 9 9 0.1 0.2 0.3 100.5 robot 100.6";
+constexpr const char* kLog =
+    "# a comment\n"
+    "PARAM robot_front_laser_max 81.92\n"
+    "ODOM 1 2 0.5 0.3 0.1 0 100.0 robot 100.0\n"
+    "FLASER 3 1.0 2.5 81.91 9 9 9 1.1 2.0 0.5 100.5 robot 100.6\r\n"
+    "FLASER 3 1.0 2.5 81.9\n"
+    "FLASER 3 1.1 0.001 80.0 9 9 9 1.2 2.0 0.5 101.0 robot 101.0\n"
+    "FLASER 3 1.1 2.5 3.0 9 9 9 1.3 2.0 0.5 99.0 robot 99.0\n"
+    "ODOM 1 2 nan 0 0 0 101.0 robot 101.0\n";
+
+/// A file of its own that is gone after the test.
+class TemporaryLog {
+ public:
+  TemporaryLog(const std::string& name, const std::string& text, bool compressed = false)
+      : path_(std::filesystem::temp_directory_path() /
+              ("seeker_" + std::to_string(getpid()) + "_" + name + (compressed ? ".gz" : ""))) {
+    if (compressed) {
+      gzFile file = gzopen(path_.c_str(), "wb");
+      gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
+      gzclose(file);
+    } else {
+      std::ofstream(path_, std::ios::binary) << text;
+    }
+  }
+  TemporaryLog(const TemporaryLog&) = delete;
+  TemporaryLog& operator=(const TemporaryLog&) = delete;
+  ~TemporaryLog() { std::filesystem::remove(path_); }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+TEST(CarmenLine, ReadsEachRecordType) {
+  const auto scan = parse_carmen_line(kScan);
+  ASSERT_TRUE(scan && *scan);
+  const auto& laser = std::get<CarmenScan>(**scan);
+  EXPECT_EQ(laser.ranges_m, (std::vector<float>{1.0F, 2.5F, 81.91F}));
+  EXPECT_EQ(laser.stamp_s, 100.5);
+  EXPECT_THAT(*laser.odom_T_base, testing::Pose2Near(Pose2{0.1, 0.2, 0.3}, 1e-12, 1e-12));
+
+  const auto odometry = parse_carmen_line("ODOM 1 2 0.5 0.3 0.1 0 100.0 robot 100.0");
+  ASSERT_TRUE(odometry && *odometry);
+  EXPECT_EQ(std::get<CarmenOdometry>(**odometry).velocity, (Twist2{0.3, 0.1}));
+
+  const auto raw = parse_carmen_line("RAWLASER1 0 -1.57 3.14 1.57 80 0.01 0 2 1.5 2.5 1 7 50.0 host 50.0");
+  ASSERT_TRUE(raw && *raw);
+  EXPECT_EQ(std::get<CarmenScan>(**raw).angle_min_rad, -1.57);
+  EXPECT_EQ(std::get<CarmenScan>(**raw).angle_step_rad, 1.57);
+  EXPECT_FALSE(std::get<CarmenScan>(**raw).odom_T_base);
+
+  const auto robot =
+      parse_carmen_line("ROBOTLASER1 0 -1.57 3.14 1.57 80 0.01 0 2 1.5 2.5 0 1 2 3 4 5 0.6 0 0 1 1 0 50.0 host 50.0");
+  ASSERT_TRUE(robot && *robot);
+  EXPECT_THAT(*std::get<CarmenScan>(**robot).odom_T_base, testing::Pose2Near(Pose2{4.0, 5.0, 0.6}, 1e-12, 1e-12));
+}
+
+TEST(CarmenLine, IgnoresWhatItDoesNotUse) {
+  for (const char* line : {"", "   ", "# hello", "PARAM a b", "SYNC x", "NMEAGGA 1 2 3"}) {
+    const auto record = parse_carmen_line(line);
+    EXPECT_TRUE(record && !*record) << line;
+  }
+}
+
+TEST(CarmenLine, EveryCutOfALineIsRefused) {
+  const std::string whole = kScan;
+  for (std::size_t length = 7; length < whole.size() - 5; ++length) {
+    const auto record = parse_carmen_line(std::string_view(whole).substr(0, length));
+    EXPECT_FALSE(record) << whole.substr(0, length);
+  }
+}
+
+TEST(CarmenLine, RefusesImpossibleCountsAndNumbers) {
+  EXPECT_EQ(parse_carmen_line("FLASER 99999999 1 2 3").error().code, Errc::kTooLarge);
+  EXPECT_EQ(parse_carmen_line("FLASER -1 1").error().code, Errc::kTooLarge);
+  EXPECT_EQ(parse_carmen_line("FLASER 1 inf 0 0 0 0 0 0 1 h 1").error().code, Errc::kParse);
+  EXPECT_EQ(parse_carmen_line("FLASER 1 1e999 0 0 0 0 0 0 1 h 1").error().code, Errc::kParse);
+  EXPECT_EQ(parse_carmen_line("1.02 1.03 0.5").error().code, Errc::kParse);
+}
+
+TEST(Replay, DeliversInRobotTimeAndCountsBadLines) {
+  const TemporaryLog log("basic", kLog);
+  auto source = ReplaySource::open(log.path());
+  ASSERT_TRUE(source) << source.error().message;
+  ReplayClock clock(*source, 0.0);
+  ReplayBase base(*source);
+  ReplayLidar lidar(*source);
+  EXPECT_TRUE(clock.lockstep());
+  ASSERT_TRUE(clock.advance(seconds(0.1)));
+  EXPECT_FALSE(lidar.read()->has_value());
+  const auto first = base.read().value();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->odom_T_base, (Pose2{1.0, 2.0, 0.5}));
+  EXPECT_FALSE(base.read()->has_value());
+  for (int k = 0; k < 4; ++k) {
+    ASSERT_TRUE(clock.advance(seconds(0.1)));
+  }
+  const auto scan = lidar.read().value();
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->stamp, robot_time_s(0.5));
+  EXPECT_EQ(scan->ranges_m, (std::vector<float>{1.0F, 2.5F, kNoReturn}));
+  EXPECT_NEAR(scan->angle_step_rad, kPi / 2.0, 1e-12);
+  EXPECT_TRUE(validate(*scan));
+  const auto sample = base.read().value();
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->stamp, scan->stamp);  // the scan's own odometry
+  while (clock.advance(seconds(0.1))) {
+  }
+  const auto last = lidar.read().value();
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->ranges_m, (std::vector<float>{1.1F, kNoReturn, kNoReturn}));
+  EXPECT_EQ(last->quality, (std::vector<std::uint8_t>{1, 0, 1}));
+  EXPECT_EQ(clock.advance(seconds(0.1)).error().code, Errc::kCancelled);
+  const ReplaySummary& summary = (*source)->summary();
+  EXPECT_TRUE((*source)->finished());
+  EXPECT_EQ(summary.scans, 2U);
+  EXPECT_EQ(summary.odometry, 1U);
+  EXPECT_EQ(summary.ignored, 2U);
+  EXPECT_EQ(summary.bad, 3U);
+  ASSERT_EQ(summary.examples.size(), 3U);
+  EXPECT_EQ(summary.examples[0].number, 5U);
+  EXPECT_EQ(summary.examples[1].number, 7U);
+  EXPECT_NEAR(summary.duration_s, 1.0, 1e-9);
+  EXPECT_NE(describe(summary).find("2 scans"), std::string::npos);
+}
+
+TEST(Replay, ReadsCompressedLogsAlike) {
+  const TemporaryLog log("gz", kLog, true);
+  auto source = ReplaySource::open(log.path());
+  ASSERT_TRUE(source);
+  (*source)->advance_to(robot_time_s(10.0));
+  EXPECT_EQ((*source)->summary().scans, 2U);
+  EXPECT_EQ((*source)->summary().overtaken, 1U);
+}
+
+TEST(Replay, ACutCompressedLogIsReadAsFarAsItGoes) {
+  std::string text;
+  for (int k = 0; k < 5000; ++k) {
+    text += "ODOM " + std::to_string(k * 7919 % 1000) + " 2 0.5 0 0 0 " + std::to_string(k) + ".0 robot 1.0\n";
+  }
+  const TemporaryLog log("cut", text, true);
+  std::filesystem::resize_file(log.path(), std::filesystem::file_size(log.path()) / 2);
+  auto source = ReplaySource::open(log.path());
+  ASSERT_TRUE(source);
+  (*source)->advance_to(robot_time_s(1e4));
+  EXPECT_GT((*source)->summary().odometry, 100U);
+  EXPECT_FALSE((*source)->summary().damage.empty());
+}
+
+TEST(Replay, ALineWithoutEndIsBoundedAndCounted) {
+  const TemporaryLog log("long", std::string(2 * CarmenReader::kMaxLine_bytes, '7') + "\n" + kScan + "\n");
+  auto source = ReplaySource::open(log.path());
+  ASSERT_TRUE(source);
+  EXPECT_EQ((*source)->summary().bad, 1U);
+  EXPECT_EQ((*source)->summary().scans, 1U);
+}
+
+TEST(Replay, RefusesToDriveAndFilesThatAreNoLogs) {
+  const TemporaryLog log("drive", std::string(kScan) + "\n");
+  ReplayBase base(*ReplaySource::open(log.path()));
+  EXPECT_EQ(base.set_velocity({0.1, 0.0}, {}).error().code, Errc::kRefused);
+  EXPECT_TRUE(base.set_velocity({}, {}));
+  EXPECT_EQ(base.set_motors(true).error().code, Errc::kRefused);
+  EXPECT_EQ(ReplaySource::open("/nonexistent/file.clf").error().code, Errc::kNotFound);
+  const TemporaryLog noise("noise", "hello\nworld 1 2 3\n");
+  EXPECT_EQ(ReplaySource::open(noise.path()).error().code, Errc::kParse);
+}
+
+TEST(Replay, ReadsTheRecordedLogsWhole) {
+  SEEKER_REQUIRE_DATA(pioneer, "lidar/p3dx/trace0.clf.gz");
+  SEEKER_REQUIRE_DATA(freiburg, "lidar/fr079.clf.gz");
+  auto source = ReplaySource::open(pioneer);
+  ASSERT_TRUE(source);
+  (*source)->advance_to(robot_time_s(1e5));
+  EXPECT_EQ((*source)->summary().scans, 958U) << describe((*source)->summary());
+  auto other = ReplaySource::open(freiburg);
+  ASSERT_TRUE(other);
+  (*other)->advance_to(robot_time_s(1e5));
+  EXPECT_EQ((*other)->summary().scans + (*other)->summary().bad, 4791U) << describe((*other)->summary());
+  EXPECT_LT((*other)->summary().bad, 50U) << describe((*other)->summary());
+}
+
+}  // namespace
+}  // namespace seeker::drivers

@@ -1,0 +1,138 @@
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "server/drivers/replay/replay.hpp"
+#include "server/slam/scan_map_tracker.hpp"
+#include "tests/support/data.hpp"
+
+namespace seeker::slam {
+namespace {
+
+/// Estimated and reference pose of the base at one scan.
+struct Sample {
+  Pose2 estimate;
+  Pose2 odometry;
+  Pose2 reference;
+};
+
+struct Errors {
+  double translation_m = 0.0;
+  double rotation_deg = 0.0;
+};
+
+/// Mean error of the motion between samples `lag` apart: independent of the choice of frames.
+template <class Select>
+Errors relative_error(const std::vector<Sample>& samples, std::size_t lag, const Select& select) {
+  Errors sum;
+  std::size_t count = 0;
+  for (std::size_t k = lag; k < samples.size(); k += 5, ++count) {
+    const Pose2 truth = inverse(samples[k - lag].reference) * samples[k].reference;
+    const Pose2 moved = inverse(select(samples[k - lag])) * select(samples[k]);
+    const Pose2 error = inverse(truth) * moved;
+    sum.translation_m += std::hypot(error.x_m, error.y_m);
+    sum.rotation_deg += rad_to_deg(std::abs(error.theta_rad));
+  }
+  const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
+  return {sum.translation_m / n, sum.rotation_deg / n};
+}
+
+/// Plays a log through the tracker. `reference_at` gives the scoring pose; samples without one are left out.
+template <class Reference>
+std::vector<Sample> play(const std::filesystem::path& path, const drivers::ReplayParams& params,
+                         const Reference& reference_at) {
+  auto reader = drivers::CarmenReader::open(path);
+  EXPECT_TRUE(reader);
+  ScanMapTracker tracker;
+  std::vector<Sample> samples;
+  double spent_s = 0.0;
+  std::map<LocalisationQuality, int> qualities;
+  std::optional<double> first_s;
+  while (auto record = reader->next()) {
+    const auto* scan = std::get_if<drivers::CarmenScan>(&*record);
+    if (scan == nullptr || !scan->odom_T_base) {
+      continue;
+    }
+    first_s = first_s.value_or(scan->stamp_s);
+    const RobotTime stamp = robot_time_s(scan->stamp_s - *first_s);
+    const LaserScan laser = drivers::to_laser_scan(*scan, params, stamp);
+    const auto begin = std::chrono::steady_clock::now();
+    (void)tracker.predict(*scan->odom_T_base, stamp);
+    (void)tracker.update(laser);
+    spent_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    ++qualities[tracker.estimate().quality];
+    if (const std::optional<Pose2> reference = reference_at(*scan)) {
+      samples.push_back({tracker.estimate().map_T_base, *scan->odom_T_base, *reference});
+    }
+  }
+  std::cout << path.filename() << ": " << 1e3 * spent_s / static_cast<double>(reader->summary().scans)
+            << " ms/scan, keyframes " << tracker.keyframe_count() << ", scans by quality:";
+  for (const auto& [quality, count] : qualities) {
+    std::cout << " " << to_string(quality) << " " << count;
+  }
+  std::cout << "\n";
+  return samples;
+}
+
+Errors report(const std::vector<Sample>& samples, std::size_t lag) {
+  const Errors ours = relative_error(samples, lag, [](const Sample& s) { return s.estimate; });
+  const Errors odometry = relative_error(samples, lag, [](const Sample& s) { return s.odometry; });
+  std::cout << "  lag " << lag << ": tracker " << ours.translation_m << " m " << ours.rotation_deg << " deg, odometry "
+            << odometry.translation_m << " m " << odometry.rotation_deg << " deg\n";
+  return ours;
+}
+
+TEST(RecordedLogs, Freiburg079IsFollowedToItsEnd) {
+  SEEKER_REQUIRE_DATA(path, "lidar/fr079.clf.gz");
+  const auto samples = play(path, {}, [](const drivers::CarmenScan& scan) { return scan.corrected_T_laser; });
+  ASSERT_GT(samples.size(), 4700U);
+  EXPECT_LT(report(samples, 50).translation_m, 0.15);
+  EXPECT_LT(report(samples, 1000).translation_m, 0.8);
+}
+
+/// `t,x,y,theta` lines of a gzip file: the localiser's map -> odom.
+std::map<double, Pose2> read_corrections(const std::filesystem::path& path) {
+  std::map<double, Pose2> corrections;
+  gzFile file = gzopen(path.c_str(), "rb");
+  char line[256];
+  while (file != nullptr && gzgets(file, line, sizeof(line)) != nullptr) {
+    std::istringstream words(line);
+    double t = 0.0;
+    Pose2 pose;
+    char comma = ',';
+    if (words >> t >> comma >> pose.x_m >> comma >> pose.y_m >> comma >> pose.theta_rad) {
+      corrections[t] = pose;
+    }
+  }
+  gzclose(file);
+  return corrections;
+}
+
+TEST(RecordedLogs, ARealPioneerIsFollowedThroughItsBuilding) {
+  SEEKER_REQUIRE_DATA(path, "lidar/p3dx/trace0.clf.gz");
+  SEEKER_REQUIRE_DATA(scores, "lidar/p3dx/trace0_map_to_odom.csv.gz");
+  const auto corrections = read_corrections(scores);
+  ASSERT_FALSE(corrections.empty());
+  drivers::ReplayParams params;
+  params.angle_min_rad = -2.356194;
+  params.angle_step_rad = 0.00613592;
+  params.range_max_m = 5.6;
+  params.base_T_laser = {0.135, 0.0, 0.0};
+  const auto samples = play(path, params, [&](const drivers::CarmenScan& scan) -> std::optional<Pose2> {
+    const auto at = corrections.lower_bound(scan.stamp_s - 0.05);
+    if (at == corrections.end()) {
+      return std::nullopt;
+    }
+    return at->second * *scan.odom_T_base;
+  });
+  ASSERT_GT(samples.size(), 900U);
+  EXPECT_LT(report(samples, 50).translation_m, 0.2);
+  EXPECT_LT(report(samples, 400).translation_m, 0.5);
+}
+
+}  // namespace
+}  // namespace seeker::slam

@@ -1,0 +1,105 @@
+#include "server/slam/scan_matcher.hpp"
+
+#include <gtest/gtest.h>
+#include <iostream>
+
+#include <Eigen/LU>
+
+#include "rooms.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace seeker::slam {
+namespace {
+
+using testing::Pose2Near;
+
+ReferenceCloud cloud_from(const std::vector<Wall>& walls, const Pose2& pose, Rng& rng) {
+  std::vector<OrientedPoint> points = oriented_points(scan_at(walls, pose, 0.0, rng, kTwoPi));
+  for (OrientedPoint& point : points) {
+    point = transform(pose, point);
+  }
+  return ReferenceCloud(std::move(points));
+}
+
+const Pose2 kPose{2.5, 3.0, 0.3};
+
+TEST(OrientedPoints, NormalsFaceTheSensorAndStandOnTheWall) {
+  Rng rng(1);
+  const auto points = oriented_points(scan_at(box(0.0, 0.0, 10.0, 6.0), kPose, 0.0, rng));
+  EXPECT_GT(points.size(), 300U);
+  for (const OrientedPoint& point : points) {
+    EXPECT_LT(point.normal.dot(point.p - Point2(0.15, 0.0)), 0.0);
+    EXPECT_NEAR(point.normal.norm(), 1.0, 1e-9);
+  }
+}
+
+TEST(ScanMatcher, FindsTheTruePoseFromANearbyGuess) {
+  Rng rng(2);
+  const auto reference = cloud_from(furnished_room(), {3.0, 3.0, 0.0}, rng);
+  const auto points = oriented_points(scan_at(furnished_room(), kPose, 1.0, rng));
+  const MatchResult match = ScanMatcher().match(reference, points, kPose * Pose2{0.15, -0.1, 0.1});
+  EXPECT_THAT(match.map_T_base, Pose2Near(kPose, 0.02, 0.006));
+  EXPECT_TRUE(match.converged);
+  EXPECT_GT(match.inlier_ratio, 0.8);
+  EXPECT_LT(match.rms_m, 0.03);
+  EXPECT_FALSE(match.degenerate_direction);
+}
+
+TEST(ScanMatcher, ItsErrorIsWithinItsCovariance) {
+  Rng rng(3);
+  const auto reference = cloud_from(furnished_room(), {3.0, 3.0, 0.0}, rng);
+  double sum = 0.0;
+  constexpr int kRuns = 100;
+  for (int k = 0; k < kRuns; ++k) {
+    const Pose2 truth{rng.uniform(2.0, 3.8), rng.uniform(2.0, 4.5), rng.uniform(-1.0, 1.0)};
+    const auto points = thin_out(oriented_points(scan_at(furnished_room(), truth, 1.0, rng)), 180);
+    const MatchResult match =
+        ScanMatcher().match(reference, points, truth * Pose2{rng.normal(0.05), rng.normal(0.05), rng.normal(0.03)});
+    const Eigen::Vector3d error(match.map_T_base.x_m - truth.x_m, match.map_T_base.y_m - truth.y_m,
+                                wrap_angle(match.map_T_base.theta_rad - truth.theta_rad));
+    sum += error.dot(match.covariance.inverse() * error);
+  }
+  std::cout << "mean NEES of the match (3 = consistent, less = cautious): " << sum / kRuns << ", seed 3\n";
+  EXPECT_LT(sum / kRuns, 6.0);
+  EXPECT_GT(sum / kRuns, 0.05);
+}
+
+TEST(ScanMatcher, NamesTheDirectionOfACorridorAndKeepsTheGuessAlongIt) {
+  Rng rng(4);
+  const std::vector<Wall> corridor{{{-50.0, 0.0}, {50.0, 0.0}}, {{-50.0, 2.0}, {50.0, 2.0}}};
+  const auto reference = cloud_from(corridor, {0.0, 1.0, 0.0}, rng);
+  const auto points = oriented_points(scan_at(corridor, {0.5, 1.0, 0.05}, 1.0, rng));
+  const MatchResult match = ScanMatcher().match(reference, points, {0.3, 1.1, 0.0});
+  ASSERT_TRUE(match.degenerate_direction);
+  EXPECT_GT(std::abs(match.degenerate_direction->x()), 0.99);
+  EXPECT_NEAR(match.map_T_base.x_m, 0.3, 0.02);
+  EXPECT_NEAR(match.map_T_base.y_m, 1.0, 0.02);
+  EXPECT_NEAR(match.map_T_base.theta_rad, 0.05, 0.01);
+  EXPECT_GT(match.covariance(0, 0), 50.0);
+  EXPECT_LT(match.covariance(1, 1), 0.01);
+}
+
+TEST(ScanMatcher, CorrelativeSearchBridgesAGapOfAMetre) {
+  Rng rng(5);
+  const auto reference = cloud_from(furnished_room(), {3.0, 3.0, 0.0}, rng);
+  const auto points = oriented_points(scan_at(furnished_room(), kPose, 1.0, rng));
+  const ScanMatcher matcher;
+  const auto start = matcher.search(reference, points, kPose * Pose2{0.7, -0.6, 0.45});
+  ASSERT_TRUE(start);
+  EXPECT_THAT(matcher.match(reference, points, *start).map_T_base, Pose2Near(kPose, 0.03, 0.01));
+}
+
+TEST(ScanMatcher, WithoutPartnersThereIsNoMatch) {
+  const ReferenceCloud empty({});
+  Rng rng(6);
+  const auto points = oriented_points(scan_at(furnished_room(), kPose, 1.0, rng));
+  const MatchResult match = ScanMatcher().match(empty, points, kPose);
+  EXPECT_FALSE(match.converged);
+  EXPECT_EQ(match.pairs, 0);
+  EXPECT_EQ(match.map_T_base, kPose);
+  EXPECT_FALSE(ScanMatcher().search(empty, points, kPose));
+  EXPECT_EQ(ScanMatcher().match(empty, {}, kPose).inlier_ratio, 0.0);
+}
+
+}  // namespace
+}  // namespace seeker::slam
