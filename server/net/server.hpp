@@ -34,13 +34,13 @@ struct BacklogLimits {
 };
 
 struct ServerParams {
-  std::string address = "127.0.0.1";                ///< of the interface to listen on
-  std::uint16_t port = 7471;                        ///< 0: any free one
-  std::size_t max_sessions = 256;                   ///< connections at a time, those without hello included
-  Duration heartbeat = std::chrono::seconds(1);     ///< wall time
-  Duration lost_after = std::chrono::seconds(3);    ///< wall time without a sign of life
-  Duration stop_timeout = std::chrono::seconds(1);  ///< wall time for goodbyes to leave when the server stops
-  api::Role max_role = api::Role::kAdmin;           ///< granted at most
+  std::string address = "127.0.0.1";                 ///< of the interface to listen on
+  std::uint16_t port = 7471;                         ///< 0: any free one
+  std::size_t max_sessions = 256;                    ///< connections at a time, those without hello included
+  Duration heartbeat = std::chrono::seconds(1);      ///< wall time
+  Duration lost_after = std::chrono::seconds(3);     ///< wall time without a sign of life
+  Duration linger = std::chrono::milliseconds(500);  ///< wall time for the last frames of a session to leave
+  api::Role max_role = api::Role::kAdmin;            ///< granted at most
   SessionLimits session;
   BacklogLimits backlog;
   /// Robot time now; called on the server's thread. Empty: the newest stamp that was published.

@@ -1,0 +1,91 @@
+/// \file
+/// Inside of RobotClient: one thread, one connection at a time, subscriptions that outlive connections.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "common/net/connect.hpp"
+#include "common/net/connection.hpp"
+#include "common/rpc/client_streams.hpp"
+#include "common/rpc/robot_client.hpp"
+#include "common/wire/client_session.hpp"
+#include "common/wire/outbox.hpp"
+
+namespace seeker::rpc {
+
+/// Public methods may be called from any thread; private ones run on the client's thread.
+class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl> {
+ public:
+  Impl(Endpoint endpoint, ClientParams params);
+  ~Impl();
+
+  /// Starts the thread and waits for the first hello.
+  Status open();
+  /// Goodbye, and the end of the thread. On the client's own thread it does not wait for itself.
+  void shut_down();
+
+  void call(seeker::v1::Request request, wire::ClientSession::Answer answer);
+  void sync_time(api::Reply<TimeSync> reply);
+  Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
+                                                       api::UpdateSink sink);
+
+  [[nodiscard]] api::RobotInfo robot() const;
+  [[nodiscard]] api::Role role() const;
+  [[nodiscard]] LinkState link() const;
+
+ private:
+  void connect_now();
+  void on_connected(Result<net::Transport> transport);
+  void on_payload(std::string_view payload);
+  void act(wire::ClientStep step);
+  void on_open();
+  void on_update(const seeker::v1::StreamUpdate& message);
+  void end_connection(const Error& error, bool final_end);
+  void tick();
+  void close_now();
+  void set_link(LinkState state, std::string why, bool restarted = false);
+  bool send(const seeker::v1::Envelope& envelope);
+  void call_now(seeker::v1::Request request, wire::ClientSession::Answer answer);
+  void send_subscription(const std::shared_ptr<ClientStream>& stream);
+  void catch_up_tiles(const std::shared_ptr<ClientStream>& stream, bool restarted);
+  void first_result(Status result);
+
+  Endpoint endpoint_;
+  ClientParams params_;
+  std::uint64_t instance_;
+  boost::asio::io_context io_;
+  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_;
+  boost::asio::steady_timer tick_;
+  boost::asio::steady_timer retry_;
+  net::Backoff backoff_;
+  std::shared_ptr<net::Connection> connection_;
+  std::optional<wire::ClientSession> session_;
+  std::uint64_t connection_number_ = 0;  ///< tells late handlers of a former connection
+  wire::Outbox outbox_;
+  std::map<std::uint64_t, std::shared_ptr<ClientStream>> streams_;
+  std::uint64_t next_stream_ = 1;
+  std::uint64_t stream_id_ = 0;  ///< of the run that was connected last
+  bool was_open_ = false;
+  bool closing_ = false;
+  std::function<void(Status)> on_first_;
+  std::optional<TimeSync> best_sync_;
+
+  mutable std::mutex mutex_;  ///< guards what follows: read from any thread
+  api::RobotInfo robot_;
+  api::Role role_ = api::Role::kObserver;
+  LinkState link_ = LinkState::kLost;
+  bool stopped_ = false;
+  std::thread thread_;
+};
+
+}  // namespace seeker::rpc

@@ -1,0 +1,214 @@
+#include "common/rpc/robot_client.hpp"
+
+#include <utility>
+
+#include "common/rpc/client_impl.hpp"
+#include "common/wire/convert.hpp"
+#include "common/wire/outcome.hpp"
+
+namespace seeker::rpc {
+namespace {
+
+namespace pb = ::seeker::v1;
+using Responses = std::vector<pb::Response>;
+
+/// The reply of a call without value.
+wire::ClientSession::Answer empty_answer(api::Reply<void> reply) {
+  return [reply = std::move(reply)](Result<Responses> responses) {
+    reply(responses ? wire::outcome(responses->front()) : Status(tl::unexpected<Error>(responses.error())));
+  };
+}
+
+/// The reply of a call with a value that `read` takes out of the successful responses.
+template <class T, class Read>
+wire::ClientSession::Answer value_answer(api::Reply<T> reply, Read read) {
+  return [reply = std::move(reply), read](Result<Responses> responses) {
+    if (!responses) {
+      reply(tl::unexpected<Error>(responses.error()));
+      return;
+    }
+    for (const pb::Response& response : *responses) {
+      if (const Status ok = wire::outcome(response); !ok) {
+        reply(tl::unexpected<Error>(ok.error()));
+        return;
+      }
+    }
+    Result<T> value = read(*responses);
+    reply(value ? std::move(value) : fail_with_context("the robot's answer is not valid", value.error()));
+  };
+}
+
+template <class T>
+Result<std::vector<T>> read_list(const auto& messages, std::size_t limit) {
+  if (static_cast<std::size_t>(messages.size()) > limit) {
+    return fail(Errc::kTooLarge, "too many entries");
+  }
+  std::vector<T> out;
+  for (const auto& message : messages) {
+    Result<T> one = wire::from_message<T>(message);
+    if (!one) {
+      return tl::unexpected<Error>(one.error());
+    }
+    out.push_back(std::move(*one));
+  }
+  return out;
+}
+
+Result<api::TileUpdate> join_parts(const Responses& parts) {
+  api::TileUpdate all;
+  for (const pb::Response& part : parts) {
+    Result<api::TileUpdate> one = wire::from_message<api::TileUpdate>(part.get_tiles().update());
+    if (!one) {
+      return one;
+    }
+    all.revision = one->revision;
+    all.map_epoch = one->map_epoch;
+    all.tiles.insert(all.tiles.end(), one->tiles.begin(), one->tiles.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+RobotClient::RobotClient(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+Result<std::shared_ptr<RobotClient>> RobotClient::connect(const Endpoint& endpoint, ClientParams params) {
+  auto impl = std::make_shared<Impl>(endpoint, std::move(params));
+  if (const Status opened = impl->open(); !opened) {
+    impl->shut_down();
+    return tl::unexpected<Error>(opened.error());
+  }
+  return std::shared_ptr<RobotClient>(new RobotClient(std::move(impl)));
+}
+
+RobotClient::~RobotClient() { impl_->shut_down(); }
+
+api::RobotInfo RobotClient::robot() const { return impl_->robot(); }
+api::Role RobotClient::role() const { return impl_->role(); }
+LinkState RobotClient::link() const { return impl_->link(); }
+void RobotClient::close() { impl_->shut_down(); }
+void RobotClient::sync_time(api::Reply<TimeSync> reply) { impl_->sync_time(std::move(reply)); }
+
+void RobotClient::get_info(api::Reply<api::RobotInfo> reply) {
+  pb::Request request;
+  request.mutable_get_info();
+  impl_->call(std::move(request), value_answer<api::RobotInfo>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<api::RobotInfo>(r.front().get_info().info());
+              }));
+}
+
+void RobotClient::get_status(api::Reply<api::RobotStatus> reply) {
+  pb::Request request;
+  request.mutable_get_status();
+  impl_->call(std::move(request), value_answer<api::RobotStatus>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<api::RobotStatus>(r.front().get_status().robot());
+              }));
+}
+
+void RobotClient::list_components(api::Reply<std::vector<api::ComponentInfo>> reply) {
+  pb::Request request;
+  request.mutable_list_components();
+  impl_->call(std::move(request),
+              value_answer<std::vector<api::ComponentInfo>>(std::move(reply), [](const Responses& r) {
+                return read_list<api::ComponentInfo>(r.front().list_components().components(), wire::kMaxComponents);
+              }));
+}
+
+void RobotClient::restart_component(const std::string& name, api::Reply<void> reply) {
+  pb::Request request;
+  request.mutable_restart_component()->set_name(wire::clean_text(name));
+  impl_->call(std::move(request), empty_answer(std::move(reply)));
+}
+
+void RobotClient::start_mission(const api::MissionRequest& mission, api::Reply<api::MissionId> reply) {
+  pb::Request request;
+  wire::write(mission, request.mutable_start_mission()->mutable_mission());
+  impl_->call(std::move(request), value_answer<api::MissionId>(std::move(reply), [](const Responses& r) {
+                return Result<api::MissionId>(r.front().start_mission().mission_id());
+              }));
+}
+
+void RobotClient::command_mission(api::MissionCommand command, api::Reply<void> reply) {
+  pb::Request request;
+  request.mutable_command_mission()->set_command(static_cast<pb::MissionCommand>(wire::wire_enum(command)));
+  impl_->call(std::move(request), empty_answer(std::move(reply)));
+}
+
+void RobotClient::get_mission(api::Reply<api::MissionStatus> reply) {
+  pb::Request request;
+  request.mutable_get_mission();
+  impl_->call(std::move(request), value_answer<api::MissionStatus>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<api::MissionStatus>(r.front().get_mission().mission());
+              }));
+}
+
+void RobotClient::stop(api::Reply<void> reply) {
+  pb::Request request;
+  request.mutable_stop();
+  impl_->call(std::move(request), empty_answer(std::move(reply)));
+}
+
+void RobotClient::set_estop(bool engaged, api::Reply<void> reply) {
+  pb::Request request;
+  request.mutable_set_estop()->set_engaged(engaged);
+  impl_->call(std::move(request), empty_answer(std::move(reply)));
+}
+
+void RobotClient::command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) {
+  pb::Request request;
+  request.mutable_command_lease()->set_action(static_cast<pb::LeaseAction>(wire::wire_enum(action)));
+  impl_->call(std::move(request), value_answer<api::LeaseState>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<api::LeaseState>(r.front().command_lease().lease());
+              }));
+}
+
+void RobotClient::drive(const api::DriveCommand& command, api::Reply<void> reply) {
+  pb::Request request;
+  wire::write(command, request.mutable_drive()->mutable_command());
+  impl_->call(std::move(request), empty_answer(std::move(reply)));
+}
+
+void RobotClient::get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) {
+  pb::Request request;
+  request.mutable_get_tiles()->set_since_revision(since_revision);
+  impl_->call(std::move(request), value_answer<api::TileUpdate>(std::move(reply), join_parts));
+}
+
+void RobotClient::get_grid(api::Reply<api::GridReport> reply) {
+  pb::Request request;
+  request.mutable_get_grid();
+  impl_->call(std::move(request), value_answer<api::GridReport>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<api::GridReport>(r.front().get_grid().grid());
+              }));
+}
+
+void RobotClient::get_detections(api::Reply<std::vector<api::Detection>> reply) {
+  pb::Request request;
+  request.mutable_get_detections();
+  impl_->call(std::move(request), value_answer<std::vector<api::Detection>>(std::move(reply), [](const Responses& r) {
+                return read_list<api::Detection>(r.front().get_detections().detections(), wire::kMaxDetections);
+              }));
+}
+
+void RobotClient::get_trajectory(api::Reply<std::vector<Pose2>> reply) {
+  pb::Request request;
+  request.mutable_get_trajectory();
+  impl_->call(std::move(request), value_answer<std::vector<Pose2>>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<std::vector<Pose2>>(r.front().get_trajectory().poses());
+              }));
+}
+
+void RobotClient::grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) {
+  pb::Request request;
+  request.mutable_grab_image()->set_camera(wire::clean_text(camera));
+  impl_->call(std::move(request), value_answer<api::ImageFrame>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<api::ImageFrame>(r.front().grab_image().image());
+              }));
+}
+
+Result<std::unique_ptr<api::Subscription>> RobotClient::subscribe(const std::vector<api::TopicRequest>& topics,
+                                                                  api::UpdateSink sink) {
+  return impl_->subscribe(topics, std::move(sink));
+}
+
+}  // namespace seeker::rpc

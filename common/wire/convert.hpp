@@ -1,0 +1,114 @@
+/// \file
+/// Values to messages and back. write() never fails: it cuts texts that are too long and replaces what is not UTF-8.
+/// read() trusts nothing: counts, numbers, enumerators and sizes are checked, and the error names the field.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "common/api/robot_api.hpp"
+#include "common/wire/check.hpp"
+#include "seeker/v1/calls.pb.h"
+#include "seeker/v1/session.pb.h"
+
+namespace seeker::wire {
+
+namespace pb = ::seeker::v1;
+
+/// At most kMaxTextBytes (or `limit`) of valid UTF-8.
+[[nodiscard]] std::string clean_text(std::string_view text, std::size_t limit = kMaxTextBytes);
+
+template <class E>
+[[nodiscard]] int wire_enum(E value) {
+  return static_cast<int>(value) + 1;
+}
+
+void write(const Pose2& from, pb::Pose2* to);
+void write(const Twist2& from, pb::Twist2* to);
+void write(const Point2& from, pb::Point2* to);
+void write(const std::vector<Point2>& from, pb::PointList* to);
+void write(const std::vector<Pose2>& from, pb::PoseList* to);
+void read(const pb::Pose2& from, Pose2& to, Check& check);
+void read(const pb::Twist2& from, Twist2& to, Check& check);
+void read(const pb::Point2& from, Point2& to, Check& check);
+void read(const pb::PointList& from, std::vector<Point2>& to, Check& check, std::size_t limit = kMaxListPoints);
+void read(const pb::PoseList& from, std::vector<Pose2>& to, Check& check);
+
+void write(const LaserScan& from, pb::LaserScan* to);
+void write(const SonarScan& from, pb::SonarScan* to);
+void write(const Image& from, pb::Image* to);
+void write(const api::ImageFrame& from, pb::ImageFrame* to);
+void read(const pb::LaserScan& from, LaserScan& to, Check& check);
+void read(const pb::SonarScan& from, SonarScan& to, Check& check);
+void read(const pb::Image& from, Image& to, Check& check);
+void read(const pb::ImageFrame& from, api::ImageFrame& to, Check& check);
+
+void write(const OccupancyTile& from, pb::Tile* to);
+void write(const api::TileUpdate& from, pb::TileUpdate* to);
+void read(const pb::Tile& from, OccupancyTile& to, Check& check);
+void read(const pb::TileUpdate& from, api::TileUpdate& to, Check& check);
+
+void write(const api::Detection& from, pb::Detection* to);
+void write(const api::CoverageSummary& from, pb::CoverageSummary* to);
+void write(const api::GridReport& from, pb::GridReport* to);
+void read(const pb::Detection& from, api::Detection& to, Check& check);
+void read(const pb::CoverageSummary& from, api::CoverageSummary& to, Check& check);
+void read(const pb::GridReport& from, api::GridReport& to, Check& check);
+
+void write(const api::MissionRequest& from, pb::MissionRequest* to);
+void write(const api::MissionStatus& from, pb::MissionStatus* to);
+void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check);
+void read(const pb::MissionStatus& from, api::MissionStatus& to, Check& check);
+
+void write(const PoseEstimate& from, pb::PoseEstimate* to);
+void write(const api::RobotInfo& from, pb::RobotInfo* to);
+void write(const api::ComponentInfo& from, pb::ComponentInfo* to);
+void write(const api::LeaseState& from, pb::LeaseState* to);
+void write(const api::RobotStatus& from, pb::RobotStatus* to);
+void write(const api::Event& from, pb::Event* to);
+void write(const api::DriveCommand& from, pb::DriveCommand* to);
+void read(const pb::PoseEstimate& from, PoseEstimate& to, Check& check);
+void read(const pb::RobotInfo& from, api::RobotInfo& to, Check& check);
+void read(const pb::ComponentInfo& from, api::ComponentInfo& to, Check& check);
+void read(const pb::LeaseState& from, api::LeaseState& to, Check& check);
+void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check);
+void read(const pb::Event& from, api::Event& to, Check& check);
+void read(const pb::DriveCommand& from, api::DriveCommand& to, Check& check);
+
+/// Everything but subscription id and drop count, which differ between receivers.
+void write(const api::Update& from, pb::StreamUpdate* to);
+/// `subscription_id` is not a matter of the value.
+void read(const pb::StreamUpdate& from, api::Update& to, Check& check);
+
+void write(const api::TopicRequest& from, pb::TopicRequest* to);
+void read(const pb::TopicRequest& from, api::TopicRequest& to, Check& check);
+
+/// The value of a message, or the first thing that is wrong with it.
+template <class T, class M>
+[[nodiscard]] Result<T> from_message(const M& message) {
+  Check check;
+  T value{};
+  read(message, value, check);
+  if (!check.ok()) {
+    return tl::unexpected<Error>(check.status().error());
+  }
+  return value;
+}
+
+template <class M, class T>
+[[nodiscard]] M to_message(const T& value) {
+  M message;
+  write(value, &message);
+  return message;
+}
+
+/// A sub-message that must be there.
+template <class M, class T>
+void read_required(bool present, const M& from, T& to, std::string_view field, Check& check) {
+  if (check.require(field, present)) {
+    const auto scope = check.in(field);
+    read(from, to, check);
+  }
+}
+
+}  // namespace seeker::wire

@@ -1,0 +1,212 @@
+#include "common/wire/convert.hpp"
+
+namespace seeker::wire {
+namespace {
+
+void write_polygons(const std::vector<Polygon>& from, google::protobuf::RepeatedPtrField<pb::Polygon>* to) {
+  for (const Polygon& polygon : from) {
+    write(polygon, to->Add()->mutable_corners());
+  }
+}
+
+void read_polygon(const pb::Polygon& from, Polygon& to, Check& check) {
+  const auto scope = check.in("corners");
+  read(from.corners(), to, check, kMaxPolygonCorners);
+}
+
+void read_polygons(const google::protobuf::RepeatedPtrField<pb::Polygon>& from, std::vector<Polygon>& to,
+                   Check& check) {
+  if (!check.count("keep_out", static_cast<std::size_t>(from.size()), api::kMaxKeepOuts)) {
+    return;
+  }
+  to.resize(static_cast<std::size_t>(from.size()));
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    const auto scope = check.in("keep_out", k);
+    read_polygon(from.Get(static_cast<int>(k)), to[k], check);
+  }
+}
+
+void write_target(const api::TargetSpec& from, pb::Target* to) {
+  to->set_name(clean_text(from.name, kMaxNameBytes));
+  write(from.picture, to->mutable_picture());
+  to->set_width_m(from.width_m);
+  to->set_height_m(from.height_m);
+  to->set_depth_m(from.depth_m);
+  to->set_recogniser(static_cast<pb::Recogniser>(wire_enum(from.recogniser)));
+}
+
+void read_target(const pb::Target& from, api::TargetSpec& to, Check& check) {
+  to.name = check.text("name", from.name(), kMaxNameBytes);
+  // Before unpacking: a target is small, so a peer must not make us allocate for a large one.
+  if (from.picture().width_px() > static_cast<std::uint32_t>(api::kMaxTargetSide_px) ||
+      from.picture().height_px() > static_cast<std::uint32_t>(api::kMaxTargetSide_px)) {
+    check.refuse("picture", Errc::kTooLarge, "is larger than 1024 pixels; scale it down");
+    return;
+  }
+  read_required(from.has_picture(), from.picture(), to.picture, "picture", check);
+  to.width_m = check.finite("width_m", from.width_m());
+  to.height_m = check.finite("height_m", from.height_m());
+  to.depth_m = check.finite("depth_m", from.depth_m());
+  check.enumerator("recogniser", from.recogniser(), api::RecogniserKind::kFeatures, to.recogniser);
+}
+
+struct TaskWriter {
+  pb::MissionRequest* to;
+
+  void operator()(const api::SearchMission& from) const {
+    pb::SearchMission* search = to->mutable_search();
+    for (const api::TargetSpec& target : from.targets) {
+      write_target(target, search->add_targets());
+    }
+    search->set_mode(static_cast<pb::SearchMode>(wire_enum(from.mode)));
+    search->set_on_found(static_cast<pb::OnFound>(wire_enum(from.on_found)));
+    if (from.bound) {
+      write(*from.bound, search->mutable_bound()->mutable_corners());
+    }
+    write_polygons(from.keep_out, search->mutable_keep_out());
+    search->set_gaps_only(from.gaps_only);
+  }
+  void operator()(const api::GotoMission& from) const {
+    pb::GotoMission* go = to->mutable_go_to();
+    write(from.waypoints, go->mutable_waypoints());
+    if (from.final_heading_rad) {
+      go->set_final_heading_rad(*from.final_heading_rad);
+    }
+    write_polygons(from.keep_out, go->mutable_keep_out());
+  }
+  void operator()(const api::ReturnMission& /*from*/) const { to->mutable_return_home(); }
+};
+
+void read_search(const pb::SearchMission& from, api::SearchMission& to, Check& check) {
+  if (!check.count("targets", static_cast<std::size_t>(from.targets_size()), api::kMaxTargets)) {
+    return;
+  }
+  to.targets.resize(static_cast<std::size_t>(from.targets_size()));
+  for (std::size_t k = 0; k < to.targets.size() && check.ok(); ++k) {
+    const auto scope = check.in("targets", k);
+    read_target(from.targets(static_cast<int>(k)), to.targets[k], check);
+  }
+  check.enumerator("mode", from.mode(), api::SearchMode::kPlan, to.mode);
+  check.enumerator("on_found", from.on_found(), api::OnFound::kContinue, to.on_found);
+  if (from.has_bound()) {
+    const auto scope = check.in("bound");
+    read_polygon(from.bound(), to.bound.emplace(), check);
+  }
+  read_polygons(from.keep_out(), to.keep_out, check);
+  to.gaps_only = from.gaps_only();
+}
+
+void read_goto(const pb::GotoMission& from, api::GotoMission& to, Check& check) {
+  {
+    const auto scope = check.in("waypoints");
+    read(from.waypoints(), to.waypoints, check, api::kMaxWaypoints);
+  }
+  if (from.has_final_heading_rad()) {
+    to.final_heading_rad = check.finite("final_heading_rad", from.final_heading_rad());
+  }
+  read_polygons(from.keep_out(), to.keep_out, check);
+}
+
+void write_end(const api::MissionEnd& from, pb::MissionEnd* to) {
+  to->set_outcome(static_cast<pb::Outcome>(wire_enum(from.outcome)));
+  to->set_cause(clean_text(from.cause));
+  to->set_remedy(clean_text(from.remedy));
+  write(from.unreachable, to->mutable_unreachable());
+}
+
+void read_end(const pb::MissionEnd& from, api::MissionEnd& to, Check& check) {
+  check.enumerator("outcome", from.outcome(), api::Outcome::kFault, to.outcome);
+  to.cause = check.text("cause", from.cause());
+  to.remedy = check.text("remedy", from.remedy());
+  const auto scope = check.in("unreachable");
+  read(from.unreachable(), to.unreachable, check);
+}
+
+}  // namespace
+
+void write(const api::MissionRequest& from, pb::MissionRequest* to) {
+  to->set_id(clean_text(from.id, kMaxNameBytes + 1));
+  std::visit(TaskWriter{to}, from.task);
+  to->set_link_policy(static_cast<pb::LinkPolicy>(wire_enum(from.link_policy)));
+  if (from.time_limit) {
+    to->set_time_limit_ns(from.time_limit->count());
+  }
+}
+
+void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check) {
+  to.id = check.text("id", from.id(), kMaxNameBytes);
+  switch (from.task_case()) {
+    case pb::MissionRequest::kSearch: {
+      const auto scope = check.in("search");
+      read_search(from.search(), to.task.emplace<api::SearchMission>(), check);
+      break;
+    }
+    case pb::MissionRequest::kGoTo: {
+      const auto scope = check.in("go_to");
+      read_goto(from.go_to(), to.task.emplace<api::GotoMission>(), check);
+      break;
+    }
+    case pb::MissionRequest::kReturnHome: to.task = api::ReturnMission{}; break;
+    case pb::MissionRequest::TASK_NOT_SET:
+      check.refuse("task", Errc::kInvalidArgument, "is missing or of a kind that is not known here");
+      break;
+  }
+  check.enumerator("link_policy", from.link_policy(), api::LinkPolicy::kReturn, to.link_policy);
+  if (from.has_time_limit_ns()) {
+    to.time_limit = Duration(from.time_limit_ns());
+  }
+}
+
+void write(const api::MissionStatus& from, pb::MissionStatus* to) {
+  to->set_id(clean_text(from.id, kMaxNameBytes));
+  to->set_kind(clean_text(from.kind, kMaxNameBytes));
+  to->set_state(static_cast<pb::MissionState>(wire_enum(from.state)));
+  to->set_phase(clean_text(from.phase, kMaxNameBytes));
+  to->set_activity(clean_text(from.activity));
+  to->set_progress(from.progress);
+  to->set_started_ns(from.started.time_since_epoch().count());
+  to->set_updated_ns(from.updated.time_since_epoch().count());
+  to->set_path_length_m(from.path_length_m);
+  to->set_cells_searched(static_cast<std::uint32_t>(from.cells_searched));
+  to->set_cells_unsearched(static_cast<std::uint32_t>(from.cells_unsearched));
+  if (from.coverage) {
+    write(*from.coverage, to->mutable_coverage());
+  }
+  write(from.planned_path, to->mutable_planned_path());
+  to->set_link_policy(static_cast<pb::LinkPolicy>(wire_enum(from.link_policy)));
+  if (from.end) {
+    write_end(*from.end, to->mutable_end());
+  }
+}
+
+void read(const pb::MissionStatus& from, api::MissionStatus& to, Check& check) {
+  to.id = check.text("id", from.id(), kMaxNameBytes);
+  to.kind = check.text("kind", from.kind(), kMaxNameBytes);
+  check.enumerator("state", from.state(), api::MissionState::kEnded, to.state);
+  to.phase = check.text("phase", from.phase(), kMaxNameBytes);
+  to.activity = check.text("activity", from.activity());
+  to.progress = check.finite("progress", from.progress());
+  to.started = RobotTime(Duration(from.started_ns()));
+  to.updated = RobotTime(Duration(from.updated_ns()));
+  to.path_length_m = check.finite("path_length_m", from.path_length_m());
+  to.cells_searched = check.natural("cells_searched", from.cells_searched());
+  to.cells_unsearched = check.natural("cells_unsearched", from.cells_unsearched());
+  if (from.has_coverage()) {
+    const auto scope = check.in("coverage");
+    read(from.coverage(), to.coverage.emplace(), check);
+  }
+  {
+    const auto scope = check.in("planned_path");
+    read(from.planned_path(), to.planned_path, check, kMaxPathPoints);
+  }
+  check.enumerator("link_policy", from.link_policy(), api::LinkPolicy::kReturn, to.link_policy);
+  if (from.has_end() != (to.state == api::MissionState::kEnded)) {
+    check.refuse("end", Errc::kInvalidArgument, "must be present exactly when the mission has ended");
+  }
+  if (from.has_end()) {
+    const auto scope = check.in("end");
+    read_end(from.end(), to.end.emplace(), check);
+  }
+}
+
+}  // namespace seeker::wire

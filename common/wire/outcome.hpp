@@ -1,0 +1,28 @@
+/// \file
+/// How a call ended, on the wire and as a value. The status enums of the responses share their names with Errc
+/// (kNotFound = STATUS_NOT_FOUND = CODE_NOT_FOUND), so one rule serves all calls; a test holds them together.
+#pragma once
+
+#include <string>
+
+#include "common/core/result.hpp"
+#include "seeker/v1/calls.pb.h"
+
+namespace seeker::wire {
+
+/// Field number of a call: the same in Request and Response.
+using CallNumber = int;
+
+/// Writes success or failure: into the call's own status where it knows the code, else into the common error. The
+/// result message of the call exists afterwards.
+void set_outcome(seeker::v1::Response& response, CallNumber call, const Status& outcome);
+/// A common error without a call's result, e.g. CODE_RATE_LIMITED.
+void set_common_error(seeker::v1::Response& response, seeker::v1::CommonError::Code code, std::string message);
+/// Reads it back. A response without status, or with one that is not known here, is kInternal.
+[[nodiscard]] Status outcome(const seeker::v1::Response& response);
+/// kInvalidArgument for STATUS_INVALID_ARGUMENT, and so on; nothing for OK, UNSPECIFIED and unknown names.
+[[nodiscard]] bool errc_of(const std::string& enumerator, Errc& code);
+/// "get_info" and so on; "unknown" for a number that is no call.
+[[nodiscard]] std::string call_name(CallNumber call);
+
+}  // namespace seeker::wire

@@ -1,0 +1,213 @@
+#include "common/wire/server_session.hpp"
+
+#include <algorithm>
+
+#include "common/wire/convert.hpp"
+#include "common/wire/envelope.hpp"
+#include "common/wire/outcome.hpp"
+
+namespace seeker::wire {
+namespace {
+
+/// Pressing the stop key as fast as one likes stays below this.
+constexpr double kUrgentPerSecond = 50.0;
+constexpr double kUrgentBurst = 100.0;
+
+ServerStep end_with(pb::Close::Reason reason, std::string text) {
+  ServerStep step;
+  step.end = Ending{reason, std::move(text), false, true};
+  return step;
+}
+
+}  // namespace
+
+bool is_client_name(std::string_view name) {
+  return !name.empty() && name.size() <= kMaxNameBytes &&
+         std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < 0x7f; });
+}
+
+bool is_urgent(const pb::Request& request) {
+  return request.call_case() == pb::Request::kStop || (request.has_set_estop() && request.set_estop().engaged());
+}
+
+api::Role required_role(const pb::Request& request) {
+  switch (request.call_case()) {
+    case pb::Request::kRestartComponent:
+    case pb::Request::kStartMission:
+    case pb::Request::kCommandMission:
+    case pb::Request::kCommandLease:
+    case pb::Request::kDrive: return api::Role::kOperator;
+    case pb::Request::kSetEstop: return request.set_estop().engaged() ? api::Role::kObserver : api::Role::kOperator;
+    default: return api::Role::kObserver;
+  }
+}
+
+void begin_response(const pb::RequestHeader& request, const std::string& robot_id, RobotTime received, RobotTime now,
+                    pb::Response& response) {
+  pb::ResponseHeader* header = response.mutable_header();
+  header->set_request_id(request.request_id());
+  header->set_robot_id(robot_id);
+  header->set_client_time_ns(request.client_time_ns());
+  header->set_robot_received_time_ns(received.time_since_epoch().count());
+  header->set_robot_sent_time_ns(now.time_since_epoch().count());
+}
+
+ServerSession::ServerSession(ServerSessionParams params, WallTime now)
+    : params_(std::move(params)),
+      liveness_(params_.liveness, now),
+      tokens_(params_.requests_per_s, params_.request_burst, now),
+      urgent_tokens_(kUrgentPerSecond, kUrgentBurst, now),
+      started_(now),
+      last_request_(now) {}
+
+void ServerSession::answered() {
+  if (in_flight_ > 0) {
+    --in_flight_;
+  }
+}
+
+ServerStep ServerSession::on_payload(std::string_view payload, WallTime now, RobotTime robot_now) {
+  Result<pb::Envelope> envelope = parse_envelope(payload);
+  if (!envelope) {
+    return end_with(pb::Close::REASON_PROTOCOL_ERROR, envelope.error().message);
+  }
+  liveness_.on_received(now);
+  if (!open_) {
+    return envelope->has_hello() ? on_hello(envelope->hello())
+                                 : end_with(pb::Close::REASON_PROTOCOL_ERROR, "say hello first");
+  }
+  switch (envelope->body_case()) {
+    case pb::Envelope::kRequest: return on_request(*envelope->mutable_request(), now, robot_now);
+    case pb::Envelope::kHeartbeat: return {};
+    case pb::Envelope::kClose: {
+      ServerStep step;
+      const bool goodbye = envelope->close().reason() == pb::Close::REASON_GOODBYE;
+      step.end =
+          Ending{envelope->close().reason(), goodbye ? "goodbye" : "the client closed the session", goodbye, false};
+      return step;
+    }
+    default: return end_with(pb::Close::REASON_PROTOCOL_ERROR, "a client may not send this kind of message here");
+  }
+}
+
+pb::HelloReply ServerSession::reply_base() const {
+  pb::HelloReply reply;
+  reply.set_protocol_major(api::kProtocolMajor);
+  reply.set_protocol_minor(api::kProtocolMinor);
+  write(params_.robot, reply.mutable_robot());
+  return reply;
+}
+
+ServerStep ServerSession::refuse_hello(pb::HelloReply::Status status, std::string message) const {
+  ServerStep step;
+  pb::HelloReply reply = reply_base();
+  reply.set_status(status);
+  reply.set_message(message);
+  *step.send.emplace().mutable_hello_reply() = std::move(reply);
+  step.end = Ending{pb::Close::REASON_PROTOCOL_ERROR, std::move(message), false, false};
+  return step;
+}
+
+ServerStep ServerSession::on_hello(const pb::Hello& hello) {
+  if (hello.protocol_major() != api::kProtocolMajor) {
+    return refuse_hello(pb::HelloReply::STATUS_UNSUPPORTED_VERSION,
+                        "the robot speaks protocol " + std::to_string(api::kProtocolMajor) + "." +
+                            std::to_string(api::kProtocolMinor) + ", the client " +
+                            std::to_string(hello.protocol_major()) + "." + std::to_string(hello.protocol_minor()) +
+                            "; update the older of both");
+  }
+  if (!is_client_name(hello.client_name()) || !pb::Role_IsValid(hello.role()) || hello.role() == pb::ROLE_UNSPECIFIED) {
+    return refuse_hello(pb::HelloReply::STATUS_INVALID_ARGUMENT,
+                        "hello needs a role and a client name of 1 to 64 printable characters without spaces");
+  }
+  if (!hello.robot_id().empty() && hello.robot_id() != params_.robot.robot_id) {
+    return refuse_hello(pb::HelloReply::STATUS_NOT_FOUND,
+                        "this robot is '" + params_.robot.robot_id + "'; check the address of the one you look for");
+  }
+  if (params_.full) {
+    return refuse_hello(pb::HelloReply::STATUS_BUSY, "the robot has no session left; close another client");
+  }
+  open_ = true;
+  instance_ = hello.instance();
+  const auto asked = static_cast<api::Role>(hello.role() - 1);
+  caller_ = {hello.client_name(), std::min(asked, params_.max_role)};
+  ServerStep step;
+  step.opened = true;
+  pb::HelloReply reply = reply_base();
+  reply.set_status(pb::HelloReply::STATUS_OK);
+  reply.set_protocol_minor(std::min(hello.protocol_minor(), api::kProtocolMinor));
+  reply.set_role(static_cast<pb::Role>(wire_enum(caller_.role)));
+  reply.set_stream_id(params_.stream_id);
+  reply.set_heartbeat_period_ns(params_.liveness.heartbeat.count());
+  reply.set_lost_after_ns(params_.liveness.lost_after.count());
+  *step.send.emplace().mutable_hello_reply() = std::move(reply);
+  return step;
+}
+
+ServerStep ServerSession::refuse_request(const pb::Request& request, RobotTime robot_now, pb::CommonError::Code code,
+                                         std::string message) {
+  ++refused_total_;
+  ServerStep step;
+  pb::Response* response = step.send.emplace().mutable_response();
+  begin_response(request.header(), params_.robot.robot_id, robot_now, robot_now, *response);
+  set_common_error(*response, code, std::move(message));
+  return step;
+}
+
+ServerStep ServerSession::on_request(pb::Request& request, WallTime now, RobotTime robot_now) {
+  last_request_ = now;
+  if (request.header().request_id() == 0) {
+    return end_with(pb::Close::REASON_PROTOCOL_ERROR, "a request needs a header with an id above zero");
+  }
+  const bool urgent = is_urgent(request);
+  const bool allowed = urgent ? urgent_tokens_.take(now) : in_flight_ < params_.in_flight && tokens_.take(now);
+  if (!allowed) {
+    if (++refused_in_a_row_ > params_.refused_requests) {
+      return end_with(pb::Close::REASON_FLOODING, "the client keeps sending more requests than allowed");
+    }
+    return refuse_request(request, robot_now, pb::CommonError::CODE_RATE_LIMITED,
+                          "too many requests per second or in flight; wait for answers and repeat");
+  }
+  refused_in_a_row_ = 0;
+  const std::string& meant = request.header().robot_id();
+  if (!meant.empty() && meant != params_.robot.robot_id) {
+    return refuse_request(request, robot_now, pb::CommonError::CODE_WRONG_ROBOT,
+                          "this robot is '" + params_.robot.robot_id + "'");
+  }
+  if (request.call_case() == pb::Request::CALL_NOT_SET) {
+    return refuse_request(request, robot_now, pb::CommonError::CODE_UNSUPPORTED_VERSION,
+                          "this robot does not know the call; it speaks protocol " +
+                              std::to_string(api::kProtocolMajor) + "." + std::to_string(api::kProtocolMinor));
+  }
+  if (caller_.role < required_role(request)) {
+    return refuse_request(request, robot_now, pb::CommonError::CODE_REFUSED,
+                          "an observer may not do this; connect as operator");
+  }
+  ++in_flight_;
+  ServerStep step;
+  step.request = std::move(request);
+  return step;
+}
+
+ServerStep ServerSession::on_tick(WallTime now, RobotTime robot_now, bool has_subscriptions) {
+  if (!open_) {
+    return now - started_ >= params_.hello_timeout ? end_with(pb::Close::REASON_SILENT, "no hello came in time")
+                                                   : ServerStep{};
+  }
+  if (liveness_.lost(now)) {
+    return end_with(pb::Close::REASON_SILENT, "nothing was heard from the client for " +
+                                                  std::to_string(to_seconds(params_.liveness.lost_after)) + " s");
+  }
+  if (params_.idle_limit > Duration::zero() && !has_subscriptions && now - last_request_ >= params_.idle_limit) {
+    return end_with(pb::Close::REASON_IDLE, "the client asked for nothing for a long time");
+  }
+  ServerStep step;
+  if (liveness_.heartbeat_due(now)) {
+    pb::Heartbeat* heartbeat = step.send.emplace().mutable_heartbeat();
+    heartbeat->set_sender_time_ns(now.time_since_epoch().count());
+    heartbeat->set_robot_time_ns(robot_now.time_since_epoch().count());
+  }
+  return step;
+}
+
+}  // namespace seeker::wire

@@ -1,0 +1,96 @@
+/// \file
+/// The robot's side of one session as a state machine: bytes and time in, what to do out. No sockets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/api/robot_api.hpp"
+#include "common/wire/liveness.hpp"
+#include "common/wire/token_bucket.hpp"
+#include "seeker/v1/session.pb.h"
+
+namespace seeker::wire {
+
+struct ServerSessionParams {
+  api::RobotInfo robot;
+  std::uint64_t stream_id = 0;
+  LivenessParams liveness;
+  Duration hello_timeout = std::chrono::seconds(3);
+  Duration idle_limit = Duration::zero();  ///< zero: none
+  api::Role max_role = api::Role::kAdmin;
+  std::size_t in_flight = 64;
+  double requests_per_s = 200.0;
+  double request_burst = 400.0;
+  std::size_t refused_requests = 2000;  ///< consecutive
+  bool full = false;                    ///< refuse hello: too many sessions
+};
+
+/// Why and how a session ends.
+struct Ending {
+  seeker::v1::Close::Reason reason = seeker::v1::Close::REASON_PROTOCOL_ERROR;
+  std::string text;
+  bool goodbye = false;  ///< the client left on purpose
+  bool tell = true;      ///< send Close before closing
+};
+
+/// What is to be done after one input.
+struct ServerStep {
+  std::optional<seeker::v1::Envelope> send;
+  std::optional<seeker::v1::Request> request;  ///< to be carried out; report with answered()
+  bool opened = false;                         ///< hello was accepted
+  std::optional<Ending> end;
+};
+
+class ServerSession {
+ public:
+  ServerSession(ServerSessionParams params, WallTime now);
+
+  [[nodiscard]] ServerStep on_payload(std::string_view payload, WallTime now, RobotTime robot_now);
+  /// Call it a few times per heartbeat.
+  [[nodiscard]] ServerStep on_tick(WallTime now, RobotTime robot_now, bool has_subscriptions);
+  void on_sent(WallTime now) { liveness_.on_sent(now); }
+  void answered();
+
+  [[nodiscard]] bool open() const { return open_; }
+  [[nodiscard]] const api::Caller& caller() const { return caller_; }
+  [[nodiscard]] std::uint64_t instance() const { return instance_; }
+  [[nodiscard]] std::uint64_t refused_requests() const { return refused_total_; }
+
+ private:
+  [[nodiscard]] ServerStep on_hello(const seeker::v1::Hello& hello);
+  [[nodiscard]] ServerStep on_request(seeker::v1::Request& request, WallTime now, RobotTime robot_now);
+  [[nodiscard]] ServerStep refuse_hello(seeker::v1::HelloReply::Status status, std::string message) const;
+  [[nodiscard]] ServerStep refuse_request(const seeker::v1::Request& request, RobotTime robot_now,
+                                          seeker::v1::CommonError::Code code, std::string message);
+  [[nodiscard]] seeker::v1::HelloReply reply_base() const;
+
+  ServerSessionParams params_;
+  Liveness liveness_;
+  TokenBucket tokens_;
+  TokenBucket urgent_tokens_;
+  WallTime started_;
+  WallTime last_request_;
+  bool open_ = false;
+  api::Caller caller_;
+  std::uint64_t instance_ = 0;
+  std::size_t in_flight_ = 0;
+  std::size_t refused_in_a_row_ = 0;
+  std::uint64_t refused_total_ = 0;
+};
+
+/// The header of the answer to a request.
+void begin_response(const seeker::v1::RequestHeader& request, const std::string& robot_id, RobotTime received,
+                    RobotTime now, seeker::v1::Response& response);
+
+/// What a role may do. Everybody may stop the robot.
+[[nodiscard]] api::Role required_role(const seeker::v1::Request& request);
+/// stop and engaging the emergency stop: not subject to the limits that hold back a busy client.
+[[nodiscard]] bool is_urgent(const seeker::v1::Request& request);
+/// 1 to 64 printable ASCII characters without spaces.
+[[nodiscard]] bool is_client_name(std::string_view name);
+
+}  // namespace seeker::wire

@@ -1,0 +1,366 @@
+#include "server/net/server.hpp"
+
+#include <algorithm>
+#include <array>
+#include <future>
+#include <map>
+#include <random>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "common/log/log.hpp"
+#include "server/net/mailbox.hpp"
+#include "server/net/session.hpp"
+
+namespace seeker::server_net {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+constexpr std::string_view kPart = "server/net";
+/// Sessions are looked after this often per heartbeat.
+constexpr int kTicksPerHeartbeat = 5;
+constexpr Duration kMinTick = std::chrono::milliseconds(5);
+/// Wall time for the robot to tell who it is at the start.
+constexpr Duration kInfoTimeout = std::chrono::seconds(10);
+/// After an accept that failed (no file descriptor left): the listener must not die, nor spin.
+constexpr Duration kAcceptPause = std::chrono::milliseconds(100);
+constexpr std::string_view kOwnName = "seekerd/net";
+
+template <std::size_t... I>
+wire::Backlogs make_backlogs(const BacklogLimits& limits, std::index_sequence<I...> /*all*/) {
+  return {((void)I, wire::Backlog(limits.items, limits.bytes))...};
+}
+
+std::vector<api::TopicRequest> all_topics() {
+  std::vector<api::TopicRequest> topics;
+  for (std::size_t k = 0; k < api::kTopicCount; ++k) {
+    topics.push_back({static_cast<api::Topic>(k), 0.0, 0});
+  }
+  return topics;
+}
+
+std::uint64_t random_id() {
+  std::random_device device;
+  const std::uint64_t id = (std::uint64_t{device()} << 32U) | device();
+  return id == 0 ? 1 : id;
+}
+
+}  // namespace
+
+/// Everything below start() and stop() runs on the network thread, except push of an update.
+class Server::Impl {
+ public:
+  Impl(api::RobotHost& host, ServerParams params)
+      : params_(std::move(params)),
+        io_(std::make_shared<asio::io_context>(1)),
+        work_(asio::make_work_guard(*io_)),
+        acceptor_(*io_),
+        tick_(*io_),
+        pause_(*io_),
+        mailbox_(std::make_shared<Mailbox>(2 * params_.backlog.items)),
+        backlogs_(make_backlogs(params_.backlog, std::make_index_sequence<api::kTopicCount>())),
+        hub_{params_, host, io_, backlogs_, {}, random_id(), {}, {}, {}, {}} {
+    hub_.robot_now = [this] { return params_.robot_now ? params_.robot_now() : newest_; };
+    hub_.opened = [this](const std::shared_ptr<Session>& session) { on_opened(session); };
+    hub_.ended = [this](const std::shared_ptr<Session>& session, const wire::Ending& end) { on_ended(session, end); };
+  }
+
+  Result<std::uint16_t> start() {
+    robot_ = hub_.host.open({std::string(kOwnName), api::Role::kObserver});
+    Status ready = ask_info();
+    if (!ready) {
+      return tl::unexpected<Error>(ready.error());
+    }
+    const Result<std::uint16_t> port = listen();
+    if (!port) {
+      return port;
+    }
+    ready = follow_robot();
+    if (!ready) {
+      return tl::unexpected<Error>(ready.error());
+    }
+    accept();
+    tick();
+    thread_ = std::thread([this] { run(); });
+    log::info(kPart, "listening on " + params_.address + " port " + std::to_string(*port));
+    return port;
+  }
+
+  void stop() {
+    if (!thread_.joinable()) {
+      return;
+    }
+    asio::post(*io_, [this] { close_all(); });
+    subscription_.reset();
+    // Connections linger for a bounded time, so run() returns by itself.
+    thread_.join();
+    robot_.reset();
+  }
+
+  ServerStats stats() {
+    if (!thread_.joinable()) {
+      return hub_.stats;
+    }
+    auto promise = std::make_shared<std::promise<ServerStats>>();
+    auto future = promise->get_future();
+    asio::post(*io_, [this, promise] {
+      hub_.stats.sessions = sessions_.size();
+      promise->set_value(hub_.stats);
+    });
+    return future.get();
+  }
+
+ private:
+  void run() {
+    // A fault in one session must not end the others: log it and go on.
+    for (;;) {
+      try {
+        io_->run();
+        return;
+      } catch (const std::exception& e) {
+        log::error(kPart, std::string("a session failed: ") + e.what());
+      }
+    }
+  }
+
+  Status ask_info() {
+    auto promise = std::make_shared<std::promise<Result<api::RobotInfo>>>();
+    auto future = promise->get_future();
+    robot_->get_info([promise](Result<api::RobotInfo> info) { promise->set_value(std::move(info)); });
+    if (future.wait_for(kInfoTimeout) != std::future_status::ready) {
+      return fail(Errc::kTimeout, "the robot does not tell who it is");
+    }
+    Result<api::RobotInfo> info = future.get();
+    if (!info) {
+      return tl::unexpected<Error>(info.error());
+    }
+    hub_.robot = std::move(*info);
+    return {};
+  }
+
+  Result<std::uint16_t> listen() {
+    const std::string where = params_.address + " port " + std::to_string(params_.port);
+    error_code error;
+    const auto address = asio::ip::make_address(params_.address, error);
+    if (error) {
+      return fail(Errc::kInvalidArgument, "'" + params_.address + "' is not an IP address of this machine");
+    }
+    const tcp::endpoint endpoint(address, params_.port);
+    acceptor_.open(endpoint.protocol(), error);
+    if (!error) {
+      acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+    }
+    if (!error) {
+      acceptor_.bind(endpoint, error);
+    }
+    if (!error) {
+      acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    }
+    if (error) {
+      return fail(Errc::kIo, "cannot listen on " + where + ": " + error.message() +
+                                 "; stop what listens there or choose another port");
+    }
+    return acceptor_.local_endpoint().port();
+  }
+
+  /// One subscription for all clients. Updates come on the robot's thread.
+  Status follow_robot() {
+    auto sink = [this](const api::UpdatePtr& update) {
+      if (mailbox_->push(update)) {
+        asio::post(*io_, [this] { publish(); });
+      }
+    };
+    auto subscription = robot_->subscribe(all_topics(), sink);
+    if (!subscription) {
+      return tl::unexpected<Error>(subscription.error());
+    }
+    subscription_ = std::move(*subscription);
+    return {};
+  }
+
+  void accept() {
+    acceptor_.async_accept([this](error_code error, tcp::socket socket) {
+      if (stopping_) {
+        return;
+      }
+      if (error) {
+        log::warning(kPart, "a connection could not be accepted: " + error.message());
+        pause_.expires_after(kAcceptPause);
+        pause_.async_wait([this](error_code ended) {
+          if (!ended) {
+            accept();
+          }
+        });
+        return;
+      }
+      admit(std::move(socket));
+      accept();
+    });
+  }
+
+  void admit(tcp::socket socket) {
+    ++hub_.stats.accepted;
+    // Some more than max_sessions are let in, to be told why they are refused; beyond that there is no talk.
+    constexpr std::size_t kRefusing = 32;
+    if (sessions_.size() >= params_.max_sessions + kRefusing) {
+      return;
+    }
+    const auto session = std::make_shared<Session>(hub_, std::move(socket), sessions_.size() >= params_.max_sessions);
+    sessions_.insert(session);
+    session->start();
+  }
+
+  void on_opened(const std::shared_ptr<Session>& opened) {
+    ++names_[opened->caller().client_name];
+    log::info(kPart, "client '" + opened->caller().client_name + "' connected");
+    for (const auto& session : snapshot()) {
+      const bool same = session != opened && session->open() && session->instance() == opened->instance() &&
+                        session->caller().client_name == opened->caller().client_name;
+      if (same) {
+        session->end({::seeker::v1::Close::REASON_REPLACED, "the same client has connected again", false, true});
+      }
+    }
+  }
+
+  void on_ended(const std::shared_ptr<Session>& session, const wire::Ending& ending) {
+    sessions_.erase(session);
+    if (!session->open()) {
+      log::info(kPart, "a connection ended before hello: " + ending.text);
+      return;
+    }
+    const api::Caller& caller = session->caller();
+    log::info(kPart, "client '" + caller.client_name + "' left: " + ending.text);
+    hub_.stats.lost += ending.goodbye ? 0 : 1;
+    // Two sessions of one name are one client to the robot: it is gone when the last one is.
+    if (--names_[caller.client_name] > 0) {
+      return;
+    }
+    names_.erase(caller.client_name);
+    if (ending.goodbye) {
+      hub_.host.closed(caller);
+    } else {
+      hub_.host.lost(caller, ending.text);
+    }
+  }
+
+  [[nodiscard]] std::vector<std::shared_ptr<Session>> snapshot() const { return {sessions_.begin(), sessions_.end()}; }
+
+  void tick() {
+    const Duration period = std::max(kMinTick, params_.heartbeat / kTicksPerHeartbeat);
+    tick_.expires_after(period);
+    tick_.async_wait([this](error_code error) {
+      if (error || stopping_) {
+        return;
+      }
+      const wire::WallTime now = net::wall_now();
+      for (const auto& session : snapshot()) {
+        session->tick(now);
+      }
+      tick();
+    });
+  }
+
+  /// Encodes each update once and hands the bytes to all sessions.
+  void publish() {
+    if (stopping_) {
+      return;
+    }
+    for (const api::UpdatePtr& update : mailbox_->drain()) {
+      newest_ = std::max(newest_, update->stamp);
+      if (api::stream_class(update->topic) == api::StreamClass::kReliable) {
+        publish_reliable(*update);
+      } else if (wanted()) {
+        publish_latest(*update);
+      }
+    }
+    for (const auto& session : snapshot()) {
+      session->wake();
+    }
+  }
+
+  [[nodiscard]] bool wanted() const {
+    return std::any_of(sessions_.begin(), sessions_.end(),
+                       [](const auto& session) { return session->streams().subscriptions() > 0; });
+  }
+
+  void publish_reliable(const api::Update& update) {
+    wire::Backlog& backlog = backlogs_[static_cast<std::size_t>(update.topic)];
+    if (update.sequence <= backlog.last()) {
+      log::error(kPart, "the robot repeated sequence " + std::to_string(update.sequence) + " of the topic " +
+                            std::string(api::to_string(update.topic)));
+      return;
+    }
+    ++hub_.stats.encoded;
+    backlog.push(update.sequence, wire::encode_body(update));
+  }
+
+  void publish_latest(const api::Update& update) {
+    ++hub_.stats.encoded;
+    if (update.topic == api::Topic::kTiles) {
+      const auto& tiles = std::get<api::TileUpdate>(update.payload);
+      wire::EncodedTiles encoded{{update.sequence, update.stamp, tiles.revision, tiles.map_epoch}, {}};
+      for (const OccupancyTile& tile : tiles.tiles) {
+        encoded.tiles.emplace_back(tile.index, wire::encode_tile(tile));
+      }
+      for (const auto& session : sessions_) {
+        session->offer_tiles(encoded);
+      }
+      return;
+    }
+    const wire::SharedBody body = wire::encode_body(update);
+    if (body->size() + wire::kMaxTextBytes > wire::kMaxFrameBytes) {
+      log::warning(kPart, "an update of the topic " + std::string(api::to_string(update.topic)) +
+                              " does not fit into a frame of 16 MiB; lower its resolution");
+      return;
+    }
+    for (const auto& session : sessions_) {
+      session->offer(update.topic, body);
+    }
+  }
+
+  void close_all() {
+    stopping_ = true;
+    error_code ignored;
+    acceptor_.close(ignored);
+    tick_.cancel();
+    pause_.cancel();
+    for (const auto& session : snapshot()) {
+      session->end({::seeker::v1::Close::REASON_SHUTTING_DOWN, "the robot's server is shutting down", false, true});
+    }
+    work_.reset();
+  }
+
+  ServerParams params_;
+  std::shared_ptr<asio::io_context> io_;
+  asio::executor_work_guard<asio::io_context::executor_type> work_;
+  tcp::acceptor acceptor_;
+  asio::steady_timer tick_;
+  asio::steady_timer pause_;
+  std::shared_ptr<Mailbox> mailbox_;
+  wire::Backlogs backlogs_;
+  SessionHub hub_;
+  std::set<std::shared_ptr<Session>> sessions_;
+  std::map<std::string, int> names_;
+  RobotTime newest_{};
+  bool stopping_ = false;
+  std::shared_ptr<api::RobotApi> robot_;
+  std::unique_ptr<api::Subscription> subscription_;
+  std::thread thread_;
+};
+
+Server::Server(api::RobotHost& host, ServerParams params) : impl_(std::make_unique<Impl>(host, std::move(params))) {}
+Server::~Server() { stop(); }
+Result<std::uint16_t> Server::start() { return impl_->start(); }
+void Server::stop() { impl_->stop(); }
+ServerStats Server::stats() const { return impl_->stats(); }
+
+}  // namespace seeker::server_net

@@ -1,0 +1,80 @@
+/// \file
+/// One client: its connection, its protocol state, its streams and its view of the robot.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include <boost/asio/io_context.hpp>
+
+#include "common/api/robot_api.hpp"
+#include "common/net/connection.hpp"
+#include "common/wire/outbox.hpp"
+#include "common/wire/outcome.hpp"
+#include "common/wire/server_session.hpp"
+#include "common/wire/stream_sender.hpp"
+#include "server/net/server.hpp"
+
+namespace seeker::server_net {
+
+class Session;
+
+/// What all sessions of a server share. Lives on the network thread.
+struct SessionHub {
+  const ServerParams& params;
+  api::RobotHost& host;
+  std::shared_ptr<boost::asio::io_context> io;
+  const wire::Backlogs& backlogs;
+  api::RobotInfo robot;
+  std::uint64_t stream_id = 0;
+  std::function<RobotTime()> robot_now;
+  std::function<void(const std::shared_ptr<Session>&)> opened;
+  std::function<void(const std::shared_ptr<Session>&, const wire::Ending&)> ended;
+  ServerStats stats;
+};
+
+/// All methods run on the network thread.
+class Session : public std::enable_shared_from_this<Session> {
+ public:
+  Session(SessionHub& hub, net::Transport transport, bool full);
+
+  void start();
+  void tick(wire::WallTime now);
+  /// Says why and closes; harmless when repeated.
+  void end(const wire::Ending& ending);
+
+  void offer(api::Topic topic, const wire::SharedBody& body) { streams_.offer(topic, body); }
+  void offer_tiles(const wire::EncodedTiles& tiles) { streams_.offer_tiles(tiles); }
+  /// New items may wait: write, or end when the client is too far behind.
+  void wake();
+
+  /// Sends an answer (from a handler). The last one of a request makes room for another request.
+  void respond(const seeker::v1::Response& response, wire::CallNumber call, bool last = true);
+  [[nodiscard]] api::RobotApi& robot() { return *robot_; }
+  [[nodiscard]] wire::StreamSender& streams() { return streams_; }
+  [[nodiscard]] const SessionHub& hub() const { return hub_; }
+  [[nodiscard]] bool open() const { return session_.open(); }
+  [[nodiscard]] bool ended() const { return ended_; }
+  [[nodiscard]] const api::Caller& caller() const { return session_.caller(); }
+  [[nodiscard]] std::uint64_t instance() const { return session_.instance(); }
+
+ private:
+  void on_payload(std::string_view payload);
+  void act(wire::ServerStep step);
+  void send(const seeker::v1::Envelope& envelope);
+  [[nodiscard]] std::optional<wire::OutFrame> next_frame();
+  void wake_at(wire::WallTime due);
+
+  SessionHub& hub_;
+  wire::ServerSession session_;
+  wire::Outbox outbox_;
+  wire::StreamSender streams_;
+  std::shared_ptr<net::Connection> connection_;
+  std::shared_ptr<api::RobotApi> robot_;
+  boost::asio::steady_timer due_;
+  bool ended_ = false;
+};
+
+}  // namespace seeker::server_net
