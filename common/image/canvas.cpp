@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "common/core/angle.hpp"
 #include "common/image/coverage.hpp"
 
@@ -193,14 +191,20 @@ void Canvas::ellipse(const Point2& centre, const Matrix2& covariance_px2, double
   if (!centre.allFinite() || !covariance_px2.allFinite()) {
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix2> solver(covariance_px2);
-  const Point2 radii = sigmas * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  // Eigenvalues and axes of a symmetric 2x2 matrix in closed form.
+  const double mean = (covariance_px2(0, 0) + covariance_px2(1, 1)) / 2.0;
+  const double half = (covariance_px2(0, 0) - covariance_px2(1, 1)) / 2.0;
+  const double spread = std::hypot(half, covariance_px2(0, 1));
+  const double axis_rad = 0.5 * std::atan2(covariance_px2(0, 1), half);
+  const double major_px = sigmas * std::sqrt(std::max(0.0, mean + spread));
+  const double minor_px = sigmas * std::sqrt(std::max(0.0, mean - spread));
+  const Point2 major = major_px * Point2(std::cos(axis_rad), std::sin(axis_rad));
+  const Point2 minor = minor_px * Point2(-std::sin(axis_rad), std::cos(axis_rad));
   constexpr int kCorners = 72;
   std::vector<Point2> corners;
   for (int i = 0; i < kCorners; ++i) {
     const double angle = kTwoPi * i / kCorners;
-    corners.push_back(centre +
-                      solver.eigenvectors() * Point2(radii.x() * std::cos(angle), radii.y() * std::sin(angle)));
+    corners.push_back(centre + std::cos(angle) * major + std::sin(angle) * minor);
   }
   polygon(corners, stroke);
 }

@@ -1,0 +1,130 @@
+/// \file
+/// What the user asked for, as values. The parser behind it (CLI11) is in parser.cpp only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "client/cli/exit_code.hpp"
+
+namespace seeker::cli {
+
+struct GlobalOptions {
+  std::string robot = "127.0.0.1:7471";
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  std::optional<double> timeout_s;  ///< wall time; see docs/client.md for what it limits
+};
+
+struct StatusVerb {};
+struct WatchVerb {
+  std::vector<std::string> topics;
+  double rate_hz = 2.0;
+};
+struct SearchVerb {
+  std::vector<std::string> targets;
+  std::vector<std::string> target_folders;
+  std::string recogniser;
+  std::optional<double> width_m;
+  std::optional<double> height_m;
+  std::optional<double> depth_m;
+  std::string mode = "plan";
+  std::string on_found = "approach";
+  std::string bound;
+  std::vector<std::string> keep_out;
+  bool gaps_only = false;
+  std::optional<double> time_limit_s;
+  std::string link_policy = "stop";
+  bool detach = false;
+  std::string save;
+  std::string id;
+};
+struct GotoVerb {
+  std::vector<std::string> points;
+  std::optional<double> heading_deg;
+  std::vector<std::string> keep_out;
+  std::optional<double> time_limit_s;
+  std::string link_policy = "stop";
+  bool home = false;
+  bool detach = false;
+  std::string id;
+};
+struct DriveVerb {
+  std::optional<double> v_m_s;
+  std::optional<double> omega_rad_s;
+  double for_s = 1.0;
+  bool take_over = false;
+};
+struct StopVerb {};
+struct EstopVerb {
+  bool release = false;
+};
+struct PauseVerb {};
+struct ResumeVerb {};
+struct MapExportVerb {
+  std::string name;
+};
+struct GridVerb {
+  std::string evidence;
+};
+struct DetectionsVerb {};
+struct CameraGrabVerb {
+  std::string camera = "omni";
+  std::string out;
+};
+struct ComponentsVerb {
+  std::string restart;
+};
+struct RunVerb {
+  std::string file;
+  std::vector<std::string> target_folders;
+  bool check = false;
+};
+struct CompletionVerb {
+  std::string shell;
+};
+struct VersionVerb {};
+
+using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, GotoVerb, DriveVerb, StopVerb, EstopVerb, PauseVerb,
+                          ResumeVerb, MapExportVerb, GridVerb, DetectionsVerb, CameraGrabVerb, ComponentsVerb, RunVerb,
+                          CompletionVerb, VersionVerb>;
+
+struct CommandLine {
+  GlobalOptions global;
+  Verb verb;
+};
+
+/// The command line, or what to print instead and with which code to end (help, version, a usage error).
+struct ParsedCommandLine {
+  std::optional<CommandLine> command;
+  ExitCode exit_code = ExitCode::kOk;
+  std::string out;
+  std::string err;
+};
+
+/// `arguments` are those after the program's name; SEEKER_ROBOT gives the default of --robot.
+[[nodiscard]] ParsedCommandLine parse_command_line(const std::vector<std::string>& arguments);
+
+/// One command with its options and subcommands, as the parser knows them.
+struct CommandTree {
+  std::string name;
+  std::string description;
+  struct Option {
+    std::vector<std::string> names;  ///< with their dashes
+    std::string description;
+    bool takes_value = false;
+    std::vector<std::string> values;  ///< what it may be, when that is a list
+  };
+  std::vector<Option> options;
+  std::vector<CommandTree> commands;
+  std::vector<std::string> words;  ///< values of the positional argument, when that is a list
+};
+[[nodiscard]] CommandTree command_tree();
+
+/// Script for bash, zsh or fish; kInvalidArgument for another shell.
+[[nodiscard]] Result<std::string> completion_script(const std::string& shell);
+
+}  // namespace seeker::cli

@@ -1,0 +1,44 @@
+#include "client/cli/exit_code.hpp"
+
+namespace seeker::cli {
+
+ExitCode exit_code(Errc code) {
+  switch (code) {
+    case Errc::kInvalidArgument:
+    case Errc::kParse:
+    case Errc::kTooLarge: return ExitCode::kUsage;
+    case Errc::kRefused:
+    case Errc::kBusy:
+    case Errc::kNotReady:
+    case Errc::kUnreachable:
+    case Errc::kUnsupportedVersion: return ExitCode::kRefused;
+    case Errc::kLinkLost: return ExitCode::kNoLink;
+    case Errc::kTimeout: return ExitCode::kTimeout;
+    case Errc::kCancelled: return ExitCode::kInterrupted;
+    case Errc::kNotFound:
+    case Errc::kCorrupt:
+    case Errc::kIo:
+    case Errc::kInternal: return ExitCode::kFailed;
+  }
+  return ExitCode::kFailed;
+}
+
+ExitCode exit_code(api::Outcome outcome) {
+  switch (outcome) {
+    case api::Outcome::kComplete:
+    case api::Outcome::kTargetFound: return ExitCode::kOk;
+    case api::Outcome::kNotFoundAreaCovered:
+    case api::Outcome::kBoundReached: return ExitCode::kTargetNotFound;
+    case api::Outcome::kTimeLimit: return ExitCode::kTimeout;
+    case api::Outcome::kLinkLost: return ExitCode::kNoLink;
+    case api::Outcome::kUnreachable:
+    case api::Outcome::kUncertain:
+    case api::Outcome::kLost:
+    case api::Outcome::kBattery:
+    case api::Outcome::kOperator:
+    case api::Outcome::kFault: return ExitCode::kFailed;
+  }
+  return ExitCode::kFailed;
+}
+
+}  // namespace seeker::cli

@@ -1,0 +1,26 @@
+/// \file
+/// Exit codes of `seeker`: what a script branches on.
+#pragma once
+
+#include <cstdint>
+
+#include "common/api/mission.hpp"
+#include "common/core/result.hpp"
+
+namespace seeker::cli {
+
+enum class ExitCode : std::uint8_t {
+  kOk = 0,
+  kFailed = 1,
+  kUsage = 2,           ///< the command line or a file given on it is wrong
+  kRefused = 3,         ///< the robot says no
+  kNoLink = 4,          ///< nobody answers, or the connection broke for good
+  kTimeout = 5,         ///< no answer, or no end, in time
+  kTargetNotFound = 6,  ///< the search ended as it should, without the target
+  kInterrupted = 130,   ///< SIGINT
+};
+
+[[nodiscard]] ExitCode exit_code(Errc code);
+[[nodiscard]] ExitCode exit_code(api::Outcome outcome);
+
+}  // namespace seeker::cli

@@ -1,0 +1,245 @@
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+#include "client/cli/command_line.hpp"
+
+namespace seeker::cli {
+namespace {
+
+/// What the options write to while CLI11 parses, and which verb was chosen.
+struct Parse {
+  CLI::App app{"seeker: commands a Seeker robot from the workstation", "seeker"};
+  GlobalOptions global;
+  std::optional<Verb> verb;
+  std::vector<std::function<void()>> choose;  ///< keep the structs of the verbs alive
+};
+
+constexpr const char* kPolicies = "What the robot does when this client is gone";
+
+/// Adds one verb: its options write to a struct that becomes Parse::verb when the verb is chosen.
+template <class T>
+std::pair<CLI::App*, std::shared_ptr<T>> add_verb(Parse& parse, CLI::App& parent, const std::string& name,
+                                                  const std::string& description, const std::string& example) {
+  auto options = std::make_shared<T>();
+  CLI::App* sub = parent.add_subcommand(name, description);
+  sub->fallthrough();
+  sub->footer("Example:\n  " + example);
+  sub->callback([&parse, options] { parse.verb = *options; });
+  return {sub, options};
+}
+
+CLI::Option* repeatable(CLI::Option* option) { return option->allow_extra_args(false); }
+
+void add_globals(Parse& parse) {
+  CLI::App& app = parse.app;
+  GlobalOptions& global = parse.global;
+  app.add_option("--robot", global.robot, "Robot to talk to, HOST[:PORT]")
+      ->envname("SEEKER_ROBOT")
+      ->capture_default_str();
+  app.add_flag("--json", global.json, "Print data as JSON");
+  app.add_option("--timeout", global.timeout_s,
+                 "Longest wall time in s: for an answer (default 5), or for the whole of search, goto, watch and run")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* quiet = app.add_flag("-q,--quiet", global.quiet, "No progress and no messages except errors");
+  app.add_flag("-v,--verbose", global.verbose, "Every event of the robot as a message")->excludes(quiet);
+  app.require_subcommand(1);
+  app.footer(
+      "Data go to stdout, messages and progress to stderr. NO_COLOR switches colours off.\n"
+      "Exit codes: 0 ok, 1 failed, 2 usage, 3 refused, 4 no link, 5 timeout, 6 target not found, 130 interrupted.\n"
+      "Example:\n  seeker --robot 10.0.0.5 search --target poster-a");
+}
+
+void add_search(Parse& parse) {
+  auto [sub, o] =
+      add_verb<SearchVerb>(parse, parse.app, "search", "Search the building for targets and say where they are",
+                           "seeker search --target poster-a --bound \"0,0 12,0 12,8 0,8\" --save out/floor1\n"
+                           "Ctrl-C asks the robot to stop the mission before the program ends.");
+  repeatable(sub->add_option("-t,--target", o->targets,
+                             "NAME (looked up in the target folders), FILE.yaml or FILE.png; repeatable"))
+      ->required();
+  repeatable(sub->add_option("--targets", o->target_folders, "Folder of target files; repeatable"));
+  sub->add_option("--recogniser", o->recogniser, "How the targets are recognised; else as their files say")
+      ->check(CLI::IsMember({"template", "features"}));
+  sub->add_option("--width", o->width_m, "Width of targets given as pictures, m (default 0.4)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--height", o->height_m, "Height of targets given as pictures, m (default 0.4)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--depth", o->depth_m, "Depth of targets given as pictures, m (default 0: flat)")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--mode", o->mode, "plan: drive along planned paths; paper: the published algorithm")
+      ->check(CLI::IsMember({"paper", "plan"}))
+      ->capture_default_str();
+  sub->add_option("--on-found", o->on_found, "What to do when a target is found")
+      ->check(CLI::IsMember({"stop", "approach", "continue"}))
+      ->capture_default_str();
+  sub->add_option("--bound", o->bound, "Search inside only: corners \"x,y x,y ...\" in m, or @FILE with a YAML list");
+  repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners as in --bound; repeatable"));
+  sub->add_flag("--gaps-only", o->gaps_only, "Cover what the last search left out");
+  sub->add_option("--time-limit", o->time_limit_s, "Longest robot time, s")->check(CLI::PositiveNumber);
+  sub->add_option("--link-policy", o->link_policy, kPolicies)
+      ->check(CLI::IsMember({"stop", "finish-step", "continue", "return"}))
+      ->capture_default_str();
+  CLI::Option* detach = sub->add_flag("--detach", o->detach, "Print the mission's id and return; the mission goes on");
+  sub->add_option("--save", o->save, "At the end write PREFIX.png, .pgm and .yaml of the map")->excludes(detach);
+  sub->add_option("--id", o->id, "Id of the mission, [a-z0-9-]; else one is made up");
+}
+
+void add_goto(Parse& parse) {
+  auto [sub, o] = add_verb<GotoVerb>(parse, parse.app, "goto", "Drive to points in the frame of the map, in order",
+                                     "seeker goto 3,4.5 6,2 --heading 90\n  seeker goto --home\n"
+                                     "Ctrl-C asks the robot to stop the mission before the program ends.");
+  CLI::Option* points = sub->add_option("points", o->points, "Points X,Y in m");
+  sub->add_option("--heading", o->heading_deg, "Heading at the last point, degrees")->needs(points);
+  repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners \"x,y x,y ...\" or @FILE; repeatable"));
+  sub->add_option("--time-limit", o->time_limit_s, "Longest robot time, s")->check(CLI::PositiveNumber);
+  sub->add_option("--link-policy", o->link_policy, kPolicies)
+      ->check(CLI::IsMember({"stop", "finish-step", "continue", "return"}))
+      ->capture_default_str();
+  sub->add_flag("--home", o->home, "Return to where the robot was started")->excludes(points);
+  sub->add_flag("--detach", o->detach, "Print the mission's id and return; the mission goes on");
+  sub->add_option("--id", o->id, "Id of the mission, [a-z0-9-]; else one is made up");
+}
+
+void add_motion(Parse& parse) {
+  auto [drive, d] = add_verb<DriveVerb>(
+      parse, parse.app, "drive", "Drive by hand: a velocity for some seconds, or the keyboard while a key is held",
+      "seeker drive 0.2 0 --for 3\n  seeker drive          (keyboard: arrows or w a s d, space stops, q ends)");
+  CLI::Option* v = drive->add_option("v", d->v_m_s, "Forward velocity, m/s");
+  CLI::Option* omega = drive->add_option("omega", d->omega_rad_s, "Turn rate, rad/s, positive to the left");
+  v->needs(omega);
+  drive->add_option("--for", d->for_s, "Seconds to drive")->check(CLI::Range(0.1, 600.0))->capture_default_str();
+  drive->add_flag("--take-over", d->take_over, "Take the lease from its present owner");
+  add_verb<StopVerb>(parse, parse.app, "stop", "End mission and motion", "seeker stop");
+  auto [estop, e] = add_verb<EstopVerb>(parse, parse.app, "estop", "Emergency stop: latches until it is released",
+                                        "seeker estop\n  seeker estop --release");
+  estop->add_flag("--release", e->release, "Release the latch; the robot does not move by itself");
+  add_verb<PauseVerb>(parse, parse.app, "pause", "Pause the mission", "seeker pause");
+  add_verb<ResumeVerb>(parse, parse.app, "resume", "Go on with the paused mission", "seeker resume");
+}
+
+void add_reports(Parse& parse) {
+  add_verb<StatusVerb>(parse, parse.app, "status", "Where the robot is, what it does, what is wrong", "seeker status");
+  auto [watch, w] = add_verb<WatchVerb>(parse, parse.app, "watch", "Follow the robot live until Ctrl-C or --timeout",
+                                        "seeker watch --topics status,event --json");
+  watch->add_option("--topics", w->topics, "Of status, scan, sonar, tiles, grid, image, mission, event, detection")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"status", "scan", "sonar", "tiles", "grid", "image", "mission", "event", "detection"}));
+  watch->add_option("--rate", w->rate_hz, "Highest rate of each topic, Hz")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  CLI::App* map = parse.app.add_subcommand("map", "Maps");
+  map->require_subcommand(1);
+  map->fallthrough();
+  map->footer("Example:\n  seeker map export out/office");
+  auto [map_export, m] = add_verb<MapExportVerb>(
+      parse, *map, "export", "Write NAME.pgm and NAME.yaml (ROS map_server) and the picture NAME.png",
+      "seeker map export out/office");
+  map_export->add_option("name", m->name, "Path without extension")->required();
+  auto [grid, g] = add_verb<GridVerb>(parse, parse.app, "grid", "What was searched, what was not, and the gaps",
+                                      "seeker grid --evidence out/evidence.png");
+  grid->add_option("--evidence", g->evidence, "Write the picture of what was seen and the gaps (PNG)");
+  add_verb<DetectionsVerb>(parse, parse.app, "detections", "What was found and where", "seeker detections --json");
+  CLI::App* camera = parse.app.add_subcommand("camera", "Cameras");
+  camera->require_subcommand(1);
+  camera->fallthrough();
+  camera->footer("Example:\n  seeker camera grab --out view.png");
+  auto [grab, c] = add_verb<CameraGrabVerb>(parse, *camera, "grab", "Write one picture as PNG",
+                                            "seeker camera grab --camera omni --out view.png");
+  grab->add_option("--camera", c->camera, "Name of the camera")->capture_default_str();
+  grab->add_option("--out", c->out, "File to write (default CAMERA.png)");
+  auto [components, r] = add_verb<ComponentsVerb>(parse, parse.app, "components", "The robot's parts and their state",
+                                                  "seeker components --restart camera");
+  components->add_option("--restart", r->restart, "Restart this component; motion stays disarmed until armed again");
+}
+
+void add_rest(Parse& parse) {
+  auto [run, r] =
+      add_verb<RunVerb>(parse, parse.app, "run", "Play a mission script; 0 only when every expectation holds",
+                        "seeker run config/missions/demo-search.yaml\n  seeker run --check mission.yaml");
+  run->add_option("file", r->file, "Mission script (YAML)")->required();
+  repeatable(run->add_option("--targets", r->target_folders, "Folder of target files; repeatable"));
+  run->add_flag("--check", r->check, "Read and check the script, command nothing");
+  auto [completion, c] =
+      add_verb<CompletionVerb>(parse, parse.app, "completion", "Print completion for a shell",
+                               "seeker completion bash > ~/.local/share/bash-completion/completions/seeker");
+  completion->add_option("shell", c->shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  add_verb<VersionVerb>(parse, parse.app, "version", "Version of this program and of its protocol", "seeker version");
+}
+
+void build(Parse& parse) {
+  add_globals(parse);
+  add_reports(parse);
+  add_search(parse);
+  add_goto(parse);
+  add_motion(parse);
+  add_rest(parse);
+}
+
+CommandTree tree_of(const CLI::App& app) {
+  CommandTree tree{app.get_name(), app.get_description(), {}, {}, {}};
+  for (const CLI::Option* option : app.get_options()) {
+    // CLI11 has no list of a check's values, but prints it: ":{a,b,c}".
+    std::vector<std::string> values;
+    const std::string type = option->get_type_name();
+    if (const std::size_t brace = type.find('{'); brace != std::string::npos) {
+      std::stringstream list(type.substr(brace + 1, type.find('}') - brace - 1));
+      for (std::string value; std::getline(list, value, ',');) {
+        values.push_back(value);
+      }
+    }
+    if (option->get_positional()) {
+      tree.words = values;
+      continue;
+    }
+    CommandTree::Option entry{{}, option->get_description(), option->get_type_size() != 0, values};
+    for (const std::string& name : option->get_lnames()) {
+      entry.names.push_back("--" + name);
+    }
+    for (const std::string& name : option->get_snames()) {
+      entry.names.push_back("-" + name);
+    }
+    tree.options.push_back(std::move(entry));
+  }
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    tree.commands.push_back(tree_of(*sub));
+  }
+  return tree;
+}
+
+}  // namespace
+
+ParsedCommandLine parse_command_line(const std::vector<std::string>& arguments) {
+  Parse parse;
+  build(parse);
+  ParsedCommandLine result;
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  try {
+    parse.app.parse(reversed);
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out;
+    std::ostringstream err;
+    // CLI11's own codes (104..109 and more) would say nothing to a script.
+    result.exit_code = parse.app.exit(error, out, err) == 0 ? ExitCode::kOk : ExitCode::kUsage;
+    result.out = out.str();
+    result.err = err.str();
+    return result;
+  }
+  if (parse.verb) {
+    result.command = CommandLine{parse.global, *parse.verb};
+  }
+  return result;
+}
+
+CommandTree command_tree() {
+  Parse parse;
+  build(parse);
+  return tree_of(parse.app);
+}
+
+}  // namespace seeker::cli
