@@ -1,0 +1,174 @@
+#include "client/cli/scene.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "client/cli/values.hpp"
+#include "common/image/map_server.hpp"
+#include "common/image/png.hpp"
+
+namespace seeker::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 64 MiB of cells: a square of 410 m.
+constexpr long kMaxTilesSpanned = 16384;
+
+bool fits_one_grid(const std::vector<OccupancyTile>& tiles) {
+  const auto [low_i, high_i] = std::minmax_element(tiles.begin(), tiles.end(),
+                                                   [](const auto& a, const auto& b) { return a.index.i < b.index.i; });
+  const auto [low_j, high_j] = std::minmax_element(tiles.begin(), tiles.end(),
+                                                   [](const auto& a, const auto& b) { return a.index.j < b.index.j; });
+  const long columns = static_cast<long>(high_i->index.i) - low_i->index.i + 1;
+  const long rows = static_cast<long>(high_j->index.j) - low_j->index.j + 1;
+  return columns <= kMaxTilesSpanned && rows <= kMaxTilesSpanned && columns * rows <= kMaxTilesSpanned;
+}
+
+/// Absent where the robot says that it has none; other failures are failures.
+template <class T>
+Result<std::optional<T>> optional_answer(Result<T> answer) {
+  if (answer) {
+    return std::optional<T>(std::move(*answer));
+  }
+  const Errc code = answer.error().code;
+  if (code == Errc::kNotFound || code == Errc::kNotReady) {
+    return std::optional<T>();
+  }
+  return tl::unexpected<Error>(answer.error());
+}
+
+void add_grid(image::MapScene& scene, const api::GridReport& grid) {
+  scene.cell_size_m = grid.lists.cell_size_m;
+  scene.searched = grid.lists.searched;
+  scene.unsearched = grid.lists.unsearched;
+  scene.unreachable = grid.lists.unreachable;
+  if (!grid.evidence.probability.empty()) {
+    scene.evidence = grid.evidence.probability;
+    const api::CoverageSummary& summary = grid.evidence.summary;
+    scene.facts.emplace_back("reachable floor", fixed("%.1f m\xC2\xB2", summary.reachable_area_m2));
+    scene.facts.emplace_back("searched", fixed("%.1f m\xC2\xB2", summary.covered_area_m2));
+    scene.facts.emplace_back("mean probability", fixed("%.2f", summary.mean_probability));
+  }
+  for (const api::Gap& gap : grid.evidence.gaps) {
+    scene.gaps.push_back({gap.centre, gap.area_m2, gap.reason});
+  }
+}
+
+void add_status(image::MapScene& scene, const api::RobotStatus& status) {
+  scene.robot = status.pose.map_T_base;
+  if (!status.mission) {
+    return;
+  }
+  const api::MissionStatus& mission = *status.mission;
+  scene.title = mission.kind + " " + mission.id;
+  scene.facts.emplace_back(
+      "outcome", mission.end ? std::string(to_string(mission.end->outcome)) : std::string(to_string(mission.state)));
+  scene.facts.emplace_back("path", fixed("%.1f m", mission.path_length_m));
+  scene.facts.emplace_back("robot time", fixed("%.0f s", to_seconds(mission.updated - mission.started)));
+  if (!mission.end) {
+    scene.planned_path = mission.planned_path;
+  }
+}
+
+void add_detections(image::MapScene& scene, const std::vector<api::Detection>& detections) {
+  for (const api::Detection& d : detections) {
+    scene.detections.push_back(
+        {d.target, d.position, d.position_covariance, d.map_T_base.translation(), d.bearing_map_rad});
+  }
+}
+
+/// Fills one part of the scene, when the robot has it.
+template <class T, class Add>
+Status add_part(const Context& context, void (api::RobotApi::*method)(api::Reply<T>), Add add) {
+  const Result<std::optional<T>> part = optional_answer(ask<T>(context, method));
+  if (!part) {
+    return tl::unexpected<Error>(part.error());
+  }
+  if (*part) {
+    add(**part);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::optional<Grid<std::uint8_t>>> fetch_occupancy(const Context& context) {
+  const Result<std::optional<api::TileUpdate>> tiles = optional_answer(
+      ask<api::TileUpdate>(context, [&](api::Reply<api::TileUpdate> r) { context.robot->get_tiles(0, std::move(r)); }));
+  if (!tiles) {
+    return tl::unexpected<Error>(tiles.error());
+  }
+  if (!*tiles || (*tiles)->tiles.empty()) {
+    return std::optional<Grid<std::uint8_t>>();
+  }
+  if (!fits_one_grid((*tiles)->tiles)) {
+    return fail(Errc::kTooLarge, "the map's tiles lie too far apart for one picture; something was sensed far away");
+  }
+  return assemble((*tiles)->tiles);
+}
+
+Result<image::MapScene> fetch_scene(const Context& context) {
+  image::MapScene scene;
+  scene.title = "Map";
+  Result<std::optional<Grid<std::uint8_t>>> occupancy = fetch_occupancy(context);
+  if (!occupancy) {
+    return tl::unexpected<Error>(occupancy.error());
+  }
+  scene.occupancy = std::move(*occupancy);
+  using api::RobotApi;
+  Status ok = add_part<api::RobotInfo>(context, &RobotApi::get_info,
+                                       [&](const api::RobotInfo& info) { scene.robot_radius_m = info.robot_radius_m; });
+  if (ok) {
+    ok = add_part<api::RobotStatus>(context, &RobotApi::get_status, [&](const auto& s) { add_status(scene, s); });
+  }
+  if (ok) {
+    ok = add_part<std::vector<Pose2>>(context, &RobotApi::get_trajectory, [&](const auto& t) { scene.trajectory = t; });
+  }
+  if (ok) {
+    ok = add_part<api::GridReport>(context, &RobotApi::get_grid, [&](const auto& g) { add_grid(scene, g); });
+  }
+  if (ok) {
+    ok = add_part<std::vector<api::Detection>>(context, &RobotApi::get_detections,
+                                               [&](const auto& d) { add_detections(scene, d); });
+  }
+  if (!ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  return scene;
+}
+
+Status save_picture(const fs::path& path, const Image& picture) {
+  if (path.has_parent_path()) {
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    if (error) {
+      return fail(Errc::kIo, "cannot make the folder " + path.parent_path().string() + ": " + error.message());
+    }
+  }
+  return image::write_png(path, picture);
+}
+
+Result<std::vector<fs::path>> export_map(const Context& context, const std::string& name) {
+  const Result<image::MapScene> scene = fetch_scene(context);
+  if (!scene) {
+    return tl::unexpected<Error>(scene.error());
+  }
+  const Result<Image> picture = image::draw_map(*scene);
+  if (!picture) {
+    return tl::unexpected<Error>(picture.error());
+  }
+  std::vector<fs::path> files{name + ".png"};
+  Status ok = save_picture(files.front(), *picture);
+  if (ok && scene->occupancy) {
+    ok = image::write_map_server(name, *scene->occupancy);
+    files.emplace_back(name + ".pgm");
+    files.emplace_back(name + ".yaml");
+  }
+  if (!ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  return files;
+}
+
+}  // namespace seeker::cli

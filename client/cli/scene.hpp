@@ -1,0 +1,25 @@
+/// \file
+/// Everything the robot knows about its map, gathered for pictures and exports.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "client/cli/context.hpp"
+#include "common/image/map_picture.hpp"
+
+namespace seeker::cli {
+
+/// The occupancy as one grid. Error: kTooLarge when the tiles lie too far apart to be one picture.
+[[nodiscard]] Result<std::optional<Grid<std::uint8_t>>> fetch_occupancy(const Context& context);
+
+/// Map, trajectory, grid lists, evidence, detections and pose; what the robot does not have is left out.
+[[nodiscard]] Result<image::MapScene> fetch_scene(const Context& context);
+
+/// Writes NAME.pgm, NAME.yaml and NAME.png; makes the folder when it is absent. The written files are the answer.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> export_map(const Context& context, const std::string& name);
+
+/// Writes a picture as PNG into a folder that is made when absent.
+[[nodiscard]] Status save_picture(const std::filesystem::path& path, const Image& picture);
+
+}  // namespace seeker::cli

@@ -1,0 +1,71 @@
+/// \file
+/// Updates of a subscription, handed from the thread that delivers them to the verb that waits for them.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "common/api/robot_api.hpp"
+
+namespace seeker::cli {
+
+/// Bounded: when a verb does not keep up, the oldest updates are left out and counted.
+class UpdateQueue {
+ public:
+  static constexpr std::size_t kLimit = 65536;
+
+  void push(const api::UpdatePtr& update) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (updates_.size() >= kLimit) {
+        updates_.pop_front();
+        ++lost_;
+      }
+      updates_.push_back(update);
+    }
+    changed_.notify_one();
+  }
+
+  /// The oldest update; nothing when none came in time.
+  [[nodiscard]] std::optional<api::UpdatePtr> pop(Duration wait) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, wait, [this] { return !updates_.empty(); })) {
+      return std::nullopt;
+    }
+    api::UpdatePtr update = updates_.front();
+    updates_.pop_front();
+    return update;
+  }
+
+  [[nodiscard]] std::size_t lost() const {
+    const std::lock_guard lock(mutex_);
+    return lost_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<api::UpdatePtr> updates_;
+  std::size_t lost_ = 0;
+};
+
+/// A subscription with its queue; ends when destroyed.
+struct Stream {
+  std::shared_ptr<UpdateQueue> queue = std::make_shared<UpdateQueue>();
+  std::unique_ptr<api::Subscription> subscription;
+};
+
+[[nodiscard]] inline Result<Stream> open_stream(api::RobotApi& robot, const std::vector<api::TopicRequest>& topics) {
+  Stream stream;
+  auto subscription = robot.subscribe(topics, [queue = stream.queue](const api::UpdatePtr& u) { queue->push(u); });
+  if (!subscription) {
+    return tl::unexpected<Error>(subscription.error());
+  }
+  stream.subscription = std::move(*subscription);
+  return stream;
+}
+
+}  // namespace seeker::cli

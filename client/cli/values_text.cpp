@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "client/cli/values.hpp"
+#include "common/core/angle.hpp"
+
+namespace seeker::cli {
+namespace {
+
+std::string text_of_mission(const api::MissionStatus& mission) {
+  std::string text = mission.kind + " " + mission.id + " " + std::string(to_string(mission.state));
+  if (mission.end) {
+    return text + " " + std::string(to_string(mission.end->outcome)) + ": " + mission.end->cause;
+  }
+  return text + " " + fixed("%.0f %% ", 100.0 * mission.progress) + mission.phase +
+         (mission.activity.empty() ? "" : ": " + mission.activity);
+}
+
+struct Describe {
+  std::string operator()(const api::RobotStatus& s) const {
+    return text_of(s.pose.map_T_base) + " " + std::string(to_string(s.pose.quality)) +
+           fixed("  %.2f m/s", s.velocity.v_m_s) + (s.estop ? "  ESTOP" : "") +
+           (s.faults.empty() ? "" : "  fault: " + s.faults.front().message) +
+           (s.mission && !s.mission->end ? "  " + text_of_mission(*s.mission) : "");
+  }
+  std::string operator()(const LaserScan& scan) const {
+    const auto returns =
+        std::count_if(scan.ranges_m.begin(), scan.ranges_m.end(), [](float r) { return std::isfinite(r); });
+    return std::to_string(returns) + " of " + std::to_string(scan.ranges_m.size()) + " beams came back";
+  }
+  std::string operator()(const SonarScan& sonar) const {
+    std::string text;
+    for (const SonarReading& reading : sonar.readings) {
+      text += std::isfinite(reading.range_m) ? fixed("%.2f ", static_cast<double>(reading.range_m)) : "- ";
+    }
+    return text + "m";
+  }
+  std::string operator()(const api::TileUpdate& tiles) const {
+    return std::to_string(tiles.tiles.size()) + " tiles, revision " + std::to_string(tiles.revision);
+  }
+  std::string operator()(const api::GridReport& grid) const {
+    return std::to_string(grid.lists.searched.size()) + " cells searched, " +
+           std::to_string(grid.lists.unsearched.size()) + " to go, " + text_of(grid.evidence.summary);
+  }
+  std::string operator()(const api::ImageFrame& image) const {
+    return image.camera + " " + std::to_string(image.frame.image.width_px()) + "x" +
+           std::to_string(image.frame.image.height_px());
+  }
+  std::string operator()(const api::MissionStatus& mission) const { return text_of_mission(mission); }
+  std::string operator()(const api::Event& event) const {
+    return std::string(to_string(event.severity)) + " " + event.kind + ": " + event.text;
+  }
+  std::string operator()(const api::Detection& detection) const { return text_of(detection); }
+};
+
+}  // namespace
+
+std::string fixed(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+std::string text_of(const Point2& p) { return "(" + fixed("%.2f, ", p.x()) + fixed("%.2f)", p.y()); }
+
+std::string text_of(const Pose2& pose) {
+  return text_of(pose.translation()) + " m, " + fixed("%.0f deg", rad_to_deg(pose.theta_rad));
+}
+
+double sigma_m(const Matrix2& c) {
+  const double mean = (c(0, 0) + c(1, 1)) / 2.0;
+  return std::sqrt(std::max(0.0, mean + std::hypot((c(0, 0) - c(1, 1)) / 2.0, c(0, 1))));
+}
+
+std::string text_of(const api::Detection& detection) {
+  std::string text = detection.target;
+  if (detection.position) {
+    text += " at " + text_of(*detection.position) +
+            fixed(" m \xC2\xB1 %.2f m", sigma_m(detection.position_covariance)) + ", range from " +
+            std::string(to_string(detection.range_source));
+  } else {
+    text += ", bearing only";
+  }
+  return text + fixed(", bearing %.1f deg", rad_to_deg(detection.bearing_map_rad)) + " from " +
+         text_of(detection.map_T_base.translation()) + fixed(", score %.2f", detection.score) + ", " +
+         std::to_string(detection.sightings) + (detection.sightings == 1 ? " sighting" : " sightings");
+}
+
+std::string text_of(const api::CoverageSummary& coverage) {
+  const double share =
+      coverage.reachable_area_m2 > 0.0 ? 100.0 * coverage.covered_area_m2 / coverage.reachable_area_m2 : 0.0;
+  return fixed("%.1f of ", coverage.covered_area_m2) + fixed("%.1f m\xC2\xB2 ", coverage.reachable_area_m2) +
+         fixed("(%.0f %%) with probability ", share) + fixed("%.2f or more, ", coverage.threshold) +
+         fixed("mean %.2f", coverage.mean_probability);
+}
+
+std::string text_of(const api::Gap& gap) {
+  return fixed("%.1f m\xC2\xB2 at ", gap.area_m2) + text_of(gap.centre) + " " + gap.reason;
+}
+
+std::string text_of(const api::Update& update) {
+  std::string name(to_string(update.topic));
+  constexpr std::size_t kColumn = 10;
+  name.resize(kColumn, ' ');
+  return fixed("%9.2f s  ", to_seconds(update.stamp)) + name + std::visit(Describe{}, update.payload) +
+         (update.dropped > 0 ? " (" + std::to_string(update.dropped) + " left out)" : "");
+}
+
+}  // namespace seeker::cli
