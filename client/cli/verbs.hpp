@@ -1,0 +1,45 @@
+/// \file
+/// The verbs of `seeker` as functions over a robot. Each prints its data to Context::out and returns the exit code;
+/// an error becomes a sentence on stderr and its exit code (see exit_code.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/cli/command_line.hpp"
+#include "client/cli/context.hpp"
+#include "client/cli/mission_run.hpp"
+
+namespace seeker::cli {
+
+using VerbResult = Result<ExitCode>;
+
+/// Reads targets and areas and checks everything that needs no robot.
+[[nodiscard]] Result<api::MissionRequest> make_request(const SearchVerb& verb);
+[[nodiscard]] Result<api::MissionRequest> make_request(const GotoVerb& verb);
+
+[[nodiscard]] VerbResult show_status(const Context& context);
+[[nodiscard]] VerbResult show_components(const Context& context, const ComponentsVerb& verb);
+[[nodiscard]] VerbResult show_detections(const Context& context);
+[[nodiscard]] VerbResult show_grid(const Context& context, const GridVerb& verb);
+[[nodiscard]] VerbResult grab_image(const Context& context, const CameraGrabVerb& verb);
+[[nodiscard]] VerbResult export_map(const Context& context, const MapExportVerb& verb);
+[[nodiscard]] VerbResult watch(const Context& context, const WatchVerb& verb);
+
+[[nodiscard]] VerbResult stop(const Context& context);
+[[nodiscard]] VerbResult estop(const Context& context, const EstopVerb& verb);
+[[nodiscard]] VerbResult command_mission(const Context& context, api::MissionCommand command);
+/// Velocity commands of 300 ms life every 100 ms under a lease that is acquired and released; without a velocity
+/// the keyboard drives.
+[[nodiscard]] VerbResult drive(const Context& context, const DriveVerb& verb);
+/// One velocity for a time; the part of drive() that mission scripts use.
+[[nodiscard]] Status drive_for(const Context& context, const Twist2& velocity, Duration duration, bool take_over);
+/// As long as a key is held (drive_keyboard.cpp); needs a terminal on stdin.
+[[nodiscard]] Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch);
+
+[[nodiscard]] VerbResult search(const Context& context, const api::MissionRequest& request, const SearchVerb& verb);
+[[nodiscard]] VerbResult go(const Context& context, const api::MissionRequest& request, const GotoVerb& verb);
+/// Prints how a mission ended, with detections, coverage and gaps.
+void print_report(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps);
+
+}  // namespace seeker::cli

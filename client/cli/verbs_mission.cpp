@@ -1,0 +1,217 @@
+#include <iomanip>
+
+#include "client/cli/scene.hpp"
+#include "client/cli/targets.hpp"
+#include "client/cli/values.hpp"
+#include "client/cli/verbs.hpp"
+#include "common/core/angle.hpp"
+
+namespace seeker::cli {
+namespace {
+
+Result<std::vector<Polygon>> parse_areas(const std::vector<std::string>& texts) {
+  std::vector<Polygon> areas;
+  for (const std::string& text : texts) {
+    Result<Polygon> area = parse_polygon(text);
+    if (!area) {
+      return tl::unexpected<Error>(area.error());
+    }
+    areas.push_back(std::move(*area));
+  }
+  return areas;
+}
+
+Result<api::MissionRequest> checked(api::MissionRequest request) {
+  if (const Status ok = api::validate(request); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  return request;
+}
+
+std::vector<api::Gap> fetch_gaps(const Context& context) {
+  const Result<api::GridReport> grid = ask<api::GridReport>(context, &api::RobotApi::get_grid);
+  return grid ? grid->evidence.gaps : std::vector<api::Gap>();
+}
+
+/// The robot's own list is the fused one; where it cannot be had the stream's is kept.
+void refresh_detections(const Context& context, MissionReport& report) {
+  if (const auto detections = ask<std::vector<api::Detection>>(context, &api::RobotApi::get_detections);
+      detections && detections->size() >= report.detections.size()) {
+    report.detections = *detections;
+  }
+}
+
+void print_json(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps) {
+  const api::MissionStatus& m = report.status;
+  Json json;
+  json.begin_object()
+      .field("mission", m.id)
+      .field("kind", m.kind)
+      .field("outcome", to_string(m.end->outcome))
+      .field("cause", m.end->cause)
+      .field("remedy", m.end->remedy)
+      .field("exit_code", static_cast<int>(exit_code(m.end->outcome)));
+  write_list(json, "detections", report.detections);
+  json.key("coverage");
+  if (m.coverage) {
+    write_json(json, *m.coverage);
+  } else {
+    json.null();
+  }
+  write_list(json, "gaps", gaps);
+  write_list(json, "unreachable", m.end->unreachable);
+  json.field("cells_searched", m.cells_searched)
+      .field("cells_unsearched", m.cells_unsearched)
+      .field("path_length_m", m.path_length_m)
+      .field("robot_time_s", to_seconds(m.updated - m.started))
+      .field("wall_time_s", to_seconds(report.wall));
+  *context.out << json.end_object().str() << '\n';
+}
+
+VerbResult run_mission(const Context& context, const api::MissionRequest& request, bool detach,
+                       const std::string& save) {
+  Result<MissionRun> run = MissionRun::start(context, request);
+  if (!run) {
+    return tl::unexpected<Error>(run.error());
+  }
+  if (detach) {
+    *context.out << (context.json ? Json().begin_object().field("mission", request.id).end_object().str() : request.id)
+                 << '\n';
+    return ExitCode::kOk;
+  }
+  say(context, "mission " + request.id +
+                   " started; if this client is lost the robot does: " + std::string(to_string(request.link_policy)));
+  FollowLimits limits;
+  limits.wall = context.timeout;
+  Result<MissionReport> report = run->follow(context, limits);
+  if (!report) {
+    return tl::unexpected<Error>(report.error());
+  }
+  refresh_detections(context, *report);
+  print_report(context, *report, request.task.index() == 0 ? fetch_gaps(context) : std::vector<api::Gap>());
+  if (!save.empty()) {
+    const auto files = export_map(context, save);
+    if (!files) {
+      return tl::unexpected<Error>(files.error());
+    }
+    for (const std::filesystem::path& file : *files) {
+      say(context, "wrote " + file.string());
+    }
+  }
+  return exit_code(report->status.end->outcome);
+}
+
+}  // namespace
+
+Result<api::MissionRequest> make_request(const SearchVerb& verb) {
+  api::SearchMission search;
+  const TargetDefaults defaults{verb.recogniser, verb.width_m, verb.height_m, verb.depth_m};
+  for (const std::string& name : verb.targets) {
+    Result<api::TargetSpec> target = load_target(name, defaults, target_folders(verb.target_folders));
+    if (!target) {
+      return tl::unexpected<Error>(target.error());
+    }
+    search.targets.push_back(std::move(*target));
+  }
+  if (!verb.bound.empty()) {
+    Result<Polygon> bound = parse_polygon(verb.bound);
+    if (!bound) {
+      return fail_with_context("--bound", bound.error());
+    }
+    search.bound = std::move(*bound);
+  }
+  Result<std::vector<Polygon>> keep_out = parse_areas(verb.keep_out);
+  if (!keep_out) {
+    return fail_with_context("--keep-out", keep_out.error());
+  }
+  search.keep_out = std::move(*keep_out);
+  search.mode = parse_search_mode(verb.mode);
+  search.on_found = parse_on_found(verb.on_found);
+  search.gaps_only = verb.gaps_only;
+  api::MissionRequest request;
+  request.id = verb.id.empty() ? make_mission_id("search") : verb.id;
+  request.task = std::move(search);
+  request.link_policy = parse_link_policy(verb.link_policy);
+  if (verb.time_limit_s) {
+    request.time_limit = seconds(*verb.time_limit_s);
+  }
+  return checked(std::move(request));
+}
+
+Result<api::MissionRequest> make_request(const GotoVerb& verb) {
+  api::MissionRequest request;
+  request.id = verb.id.empty() ? make_mission_id(verb.home ? "return" : "goto") : verb.id;
+  request.link_policy = parse_link_policy(verb.link_policy);
+  if (verb.time_limit_s) {
+    request.time_limit = seconds(*verb.time_limit_s);
+  }
+  if (verb.home) {
+    request.task = api::ReturnMission{};
+    return checked(std::move(request));
+  }
+  if (verb.points.empty()) {
+    return fail(Errc::kInvalidArgument, "goto needs points X,Y in metres, as in seeker goto 3,4.5, or --home");
+  }
+  api::GotoMission go;
+  for (const std::string& text : verb.points) {
+    const Result<Point2> point = parse_point(text);
+    if (!point) {
+      return tl::unexpected<Error>(point.error());
+    }
+    go.waypoints.push_back(*point);
+  }
+  if (verb.heading_deg) {
+    go.final_heading_rad = wrap_angle(deg_to_rad(*verb.heading_deg));
+  }
+  Result<std::vector<Polygon>> keep_out = parse_areas(verb.keep_out);
+  if (!keep_out) {
+    return fail_with_context("--keep-out", keep_out.error());
+  }
+  go.keep_out = std::move(*keep_out);
+  request.task = std::move(go);
+  return checked(std::move(request));
+}
+
+void print_report(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps) {
+  if (context.json) {
+    print_json(context, report, gaps);
+    return;
+  }
+  const api::MissionStatus& m = report.status;
+  const auto row = [&](const char* name, const std::string& value) {
+    constexpr int kColumn = 12;
+    *context.out << std::left << std::setw(kColumn) << name << value << '\n';
+  };
+  row("outcome", std::string(to_string(m.end->outcome)));
+  row("cause", m.end->cause);
+  if (!m.end->remedy.empty()) {
+    row("remedy", m.end->remedy);
+  }
+  for (const api::Detection& detection : report.detections) {
+    row("found", text_of(detection));
+  }
+  for (const Point2& place : m.end->unreachable) {
+    row("unreachable", text_of(place));
+  }
+  if (m.coverage) {
+    row("covered", text_of(*m.coverage));
+    row("cells", std::to_string(m.cells_searched) + " searched, " + std::to_string(m.cells_unsearched) + " left");
+    row("gaps", std::to_string(gaps.size()));
+  }
+  for (const api::Gap& gap : gaps) {
+    row("", text_of(gap));
+  }
+  row("path", fixed("%.1f m", m.path_length_m));
+  row("time",
+      fixed("%.1f s robot, ", to_seconds(m.updated - m.started)) + fixed("%.1f s wall", to_seconds(report.wall)));
+}
+
+VerbResult search(const Context& context, const api::MissionRequest& request, const SearchVerb& verb) {
+  return run_mission(context, request, verb.detach, verb.save);
+}
+
+VerbResult go(const Context& context, const api::MissionRequest& request, const GotoVerb& verb) {
+  return run_mission(context, request, verb.detach, "");
+}
+
+}  // namespace seeker::cli

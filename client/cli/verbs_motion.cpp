@@ -1,0 +1,123 @@
+#include "client/cli/json.hpp"
+#include "client/cli/verbs.hpp"
+
+namespace seeker::cli {
+namespace {
+
+constexpr Duration kCommandPeriod = std::chrono::milliseconds(100);
+constexpr Duration kCommandLife = std::chrono::milliseconds(300);
+
+/// {"ok":true} or a sentence.
+ExitCode done(const Context& context, std::string_view sentence) {
+  if (context.json) {
+    *context.out << Json().begin_object().field("ok", true).field("message", sentence).end_object().str() << '\n';
+  } else {
+    say(context, sentence);
+  }
+  return ExitCode::kOk;
+}
+
+VerbResult finish(const Context& context, const Status& status, std::string_view sentence) {
+  if (!status) {
+    return tl::unexpected<Error>(status.error());
+  }
+  return done(context, sentence);
+}
+
+/// The lease while it lives; given back at the end, also after Ctrl-C.
+class Lease {
+ public:
+  static Result<std::unique_ptr<Lease>> acquire(const Context& context, bool take_over) {
+    const auto action = take_over ? api::LeaseAction::kTakeOver : api::LeaseAction::kAcquire;
+    const Result<api::LeaseState> state = ask<api::LeaseState>(
+        context, [&](api::Reply<api::LeaseState> reply) { context.robot->command_lease(action, std::move(reply)); });
+    if (!state) {
+      return tl::unexpected<Error>(state.error());
+    }
+    return std::unique_ptr<Lease>(new Lease(context, state->epoch));
+  }
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+  ~Lease() {
+    Context calm = context_;
+    calm.interrupted = [] { return false; };
+    const Result<api::LeaseState> released = ask<api::LeaseState>(calm, [&](api::Reply<api::LeaseState> reply) {
+      calm.robot->command_lease(api::LeaseAction::kRelease, std::move(reply));
+    });
+    if (!released) {
+      say(context_, "the lease could not be given back: " + released.error().message);
+    }
+  }
+  [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
+
+ private:
+  Lease(const Context& context, std::uint64_t epoch) : context_(context), epoch_(epoch) {}
+
+  const Context& context_;
+  std::uint64_t epoch_;
+};
+
+Status send_velocity(const Context& context, const Twist2& velocity, std::uint64_t epoch) {
+  return ask<void>(context, [&](api::Reply<void> reply) {
+    context.robot->drive({velocity, kCommandLife, epoch}, std::move(reply));
+  });
+}
+
+}  // namespace
+
+VerbResult stop(const Context& context) {
+  return finish(context, ask<void>(context, &api::RobotApi::stop), "stopped: mission and motion are ended");
+}
+
+VerbResult estop(const Context& context, const EstopVerb& verb) {
+  const Status status =
+      ask<void>(context, [&](api::Reply<void> reply) { context.robot->set_estop(!verb.release, std::move(reply)); });
+  return finish(
+      context, status,
+      verb.release ? "the emergency stop is released" : "emergency stop: latched until seeker estop --release");
+}
+
+VerbResult command_mission(const Context& context, api::MissionCommand command) {
+  const Status status =
+      ask<void>(context, [&](api::Reply<void> reply) { context.robot->command_mission(command, std::move(reply)); });
+  return finish(context, status,
+                command == api::MissionCommand::kPause ? "paused; go on with seeker resume" : "resumed");
+}
+
+Status drive_for(const Context& context, const Twist2& velocity, Duration duration, bool take_over) {
+  const auto lease = Lease::acquire(context, take_over);
+  if (!lease) {
+    return tl::unexpected<Error>(lease.error());
+  }
+  const auto start = std::chrono::steady_clock::now();
+  for (auto next = start; next < start + duration; next += kCommandPeriod) {
+    if (const Status sent = send_velocity(context, velocity, (*lease)->epoch()); !sent) {
+      return sent;
+    }
+    if (!sleep_for(context, next + kCommandPeriod - std::chrono::steady_clock::now())) {
+      break;
+    }
+  }
+  // Standing still is commanded, not waited for.
+  Context calm = context;
+  calm.interrupted = [] { return false; };
+  const Status stopped = send_velocity(calm, {}, (*lease)->epoch());
+  if (context.interrupted()) {
+    return fail(Errc::kCancelled, "interrupted; the robot was told to stand still");
+  }
+  return stopped;
+}
+
+VerbResult drive(const Context& context, const DriveVerb& verb) {
+  if (verb.v_m_s && verb.omega_rad_s) {
+    const Twist2 velocity{*verb.v_m_s, *verb.omega_rad_s};
+    return finish(context, drive_for(context, velocity, seconds(verb.for_s), verb.take_over), "drove and stopped");
+  }
+  const auto lease = Lease::acquire(context, verb.take_over);
+  if (!lease) {
+    return tl::unexpected<Error>(lease.error());
+  }
+  return finish(context, drive_by_keyboard(context, (*lease)->epoch()), "the robot stands");
+}
+
+}  // namespace seeker::cli

@@ -1,0 +1,213 @@
+#include <iomanip>
+
+#include "client/cli/scene.hpp"
+#include "client/cli/values.hpp"
+#include "client/cli/verbs.hpp"
+#include "common/image/png.hpp"
+
+namespace seeker::cli {
+namespace {
+
+/// "name       value" on a line of its own.
+void row(const Context& context, const std::string& name, const std::string& value) {
+  constexpr int kColumn = 12;
+  *context.out << std::left << std::setw(kColumn) << name << value << '\n';
+}
+
+/// Red where something is wrong, when the terminal shows colours.
+std::string alarm(const Context& context, const std::string& text) {
+  return context.colour ? "\x1b[31m" + text + "\x1b[0m" : text;
+}
+
+void print_status(const Context& context, const api::RobotInfo& info, const api::RobotStatus& s) {
+  row(context, "robot", info.robot_id + " (version " + info.software_version + ")");
+  row(context, "time", fixed("%.1f s", to_seconds(s.stamp)));
+  row(context, "pose",
+      text_of(s.pose.map_T_base) + fixed(" \xC2\xB1 %.2f m", sigma_m(s.pose.covariance.topLeftCorner<2, 2>())) + ", " +
+          std::string(to_string(s.pose.quality)) + (s.pose.cause.empty() ? "" : ": " + s.pose.cause));
+  row(context, "velocity", fixed("%.2f m/s, ", s.velocity.v_m_s) + fixed("%.2f rad/s", s.velocity.omega_rad_s));
+  if (s.battery_v) {
+    row(context, "battery", fixed("%.1f V", *s.battery_v));
+  }
+  row(context, "motors",
+      s.estop ? alarm(context, "EMERGENCY STOP latched; seeker estop --release")
+              : (s.motors_armed ? "armed" : "not armed"));
+  row(context, "lease", s.lease.owner.empty() ? "nobody" : s.lease.owner);
+  if (!s.safety.empty()) {
+    row(context, "safety", s.safety);
+  }
+  if (s.mission) {
+    api::Update update;
+    update.payload = *s.mission;
+    const api::MissionStatus& m = *s.mission;
+    row(context, "mission", m.kind + " " + m.id + " " + std::string(to_string(m.state)));
+    row(context, "",
+        m.end ? std::string(to_string(m.end->outcome)) + ": " + m.end->cause
+              : fixed("%.0f %% ", 100.0 * m.progress) + m.phase + ": " + m.activity);
+    row(context, "if alone", std::string(to_string(m.link_policy)));
+  } else {
+    row(context, "mission", "none");
+  }
+  for (const api::Fault& fault : s.faults) {
+    row(context, "fault", alarm(context, fault.component + ": " + fault.message) + "; " + fault.remedy);
+  }
+}
+
+}  // namespace
+
+VerbResult show_status(const Context& context) {
+  const Result<api::RobotInfo> info = ask<api::RobotInfo>(context, &api::RobotApi::get_info);
+  if (!info) {
+    return tl::unexpected<Error>(info.error());
+  }
+  const Result<api::RobotStatus> status = ask<api::RobotStatus>(context, &api::RobotApi::get_status);
+  if (!status) {
+    return tl::unexpected<Error>(status.error());
+  }
+  if (context.json) {
+    Json json;
+    json.begin_object().field("robot_id", info->robot_id).field("software_version", info->software_version);
+    write_list(json, "capabilities", info->capabilities);
+    json.field("robot_radius_m", info->robot_radius_m).field("realtime", info->realtime).key("status");
+    write_json(json, *status);
+    *context.out << json.end_object().str() << '\n';
+  } else {
+    print_status(context, *info, *status);
+  }
+  return ExitCode::kOk;
+}
+
+VerbResult show_components(const Context& context, const ComponentsVerb& verb) {
+  if (!verb.restart.empty()) {
+    const Status ok = ask<void>(
+        context, [&](api::Reply<void> reply) { context.robot->restart_component(verb.restart, std::move(reply)); });
+    if (!ok) {
+      return tl::unexpected<Error>(ok.error());
+    }
+    say(context, "restarted " + verb.restart + "; motion stays disarmed until it is armed again");
+  }
+  const auto components = ask<std::vector<api::ComponentInfo>>(context, &api::RobotApi::list_components);
+  if (!components) {
+    return tl::unexpected<Error>(components.error());
+  }
+  if (context.json) {
+    Json json;
+    json.begin_object();
+    write_list(json, "components", *components);
+    *context.out << json.end_object().str() << '\n';
+    return ExitCode::kOk;
+  }
+  for (const api::ComponentInfo& c : *components) {
+    const std::string state(to_string(c.state));
+    *context.out << std::left << std::setw(16) << c.name << std::setw(12) << c.kind << std::setw(14) << c.type
+                 << std::setw(9) << (c.state == api::ComponentState::kError ? alarm(context, state) : state)
+                 << fixed("%6.1f Hz", c.rate_hz) << (c.last_error.empty() ? "" : "  " + c.last_error) << '\n';
+  }
+  return ExitCode::kOk;
+}
+
+VerbResult show_detections(const Context& context) {
+  const auto detections = ask<std::vector<api::Detection>>(context, &api::RobotApi::get_detections);
+  if (!detections) {
+    return tl::unexpected<Error>(detections.error());
+  }
+  if (context.json) {
+    Json json;
+    json.begin_object();
+    write_list(json, "detections", *detections);
+    *context.out << json.end_object().str() << '\n';
+    return ExitCode::kOk;
+  }
+  for (const api::Detection& detection : *detections) {
+    *context.out << text_of(detection) << '\n';
+  }
+  if (detections->empty()) {
+    say(context, "nothing was found yet");
+  }
+  return ExitCode::kOk;
+}
+
+VerbResult show_grid(const Context& context, const GridVerb& verb) {
+  const Result<api::GridReport> grid = ask<api::GridReport>(context, &api::RobotApi::get_grid);
+  if (!grid) {
+    return tl::unexpected<Error>(grid.error());
+  }
+  if (!verb.evidence.empty()) {
+    const Result<image::MapScene> scene = fetch_scene(context);
+    if (!scene) {
+      return tl::unexpected<Error>(scene.error());
+    }
+    const Result<Image> picture = image::draw_map(*scene);
+    if (!picture) {
+      return tl::unexpected<Error>(picture.error());
+    }
+    if (const Status ok = save_picture(verb.evidence, *picture); !ok) {
+      return tl::unexpected<Error>(ok.error());
+    }
+    say(context, "wrote " + verb.evidence);
+  }
+  if (context.json) {
+    *context.out << to_json(*grid) << '\n';
+    return ExitCode::kOk;
+  }
+  const api::GridLists& lists = grid->lists;
+  row(context, "cells",
+      std::to_string(lists.searched.size()) + " searched, " + std::to_string(lists.unsearched.size()) + " to search, " +
+          std::to_string(lists.unreachable.size()) + " unreachable" + fixed(", side %.2f m", lists.cell_size_m));
+  row(context, "covered", text_of(grid->evidence.summary));
+  row(context, "gaps", std::to_string(grid->evidence.gaps.size()));
+  for (const api::Gap& gap : grid->evidence.gaps) {
+    row(context, "", text_of(gap));
+  }
+  for (const Point2& cell : lists.unreachable) {
+    row(context, "unreachable", text_of(cell));
+  }
+  return ExitCode::kOk;
+}
+
+VerbResult grab_image(const Context& context, const CameraGrabVerb& verb) {
+  const Result<api::ImageFrame> frame = ask<api::ImageFrame>(
+      context, [&](api::Reply<api::ImageFrame> reply) { context.robot->grab_image(verb.camera, std::move(reply)); });
+  if (!frame) {
+    return tl::unexpected<Error>(frame.error());
+  }
+  const std::string file = verb.out.empty() ? verb.camera + ".png" : verb.out;
+  const Image& picture = frame->frame.image;
+  if (const Status ok = save_picture(file, picture); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  if (context.json) {
+    Json json;
+    json.begin_object()
+        .field("file", file)
+        .field("camera", frame->camera)
+        .field("stamp_s", to_seconds(frame->frame.stamp))
+        .field("width_px", picture.width_px())
+        .field("height_px", picture.height_px());
+    *context.out << json.end_object().str() << '\n';
+  } else {
+    *context.out << file << '\n';
+  }
+  return ExitCode::kOk;
+}
+
+VerbResult export_map(const Context& context, const MapExportVerb& verb) {
+  const auto files = export_map(context, verb.name);
+  if (!files) {
+    return tl::unexpected<Error>(files.error());
+  }
+  Json json;
+  json.begin_object().key("files").begin_array();
+  for (const std::filesystem::path& file : *files) {
+    json.value(file.string());
+    if (!context.json) {
+      *context.out << file.string() << '\n';
+    }
+  }
+  if (context.json) {
+    *context.out << json.end_array().end_object().str() << '\n';
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace seeker::cli
