@@ -31,6 +31,9 @@ class MissionRun {
   /// Errors: the robot's refusal, kTimeout, kLinkLost.
   [[nodiscard]] static Result<MissionRun> start(const Context& context, const api::MissionRequest& request);
 
+  /// Wall time since the start.
+  [[nodiscard]] Duration elapsed() const { return std::chrono::steady_clock::now() - started_; }
+
   /// Shows progress until the end. Ctrl-C and the wall limit ask the robot to stop the mission first.
   [[nodiscard]] Result<MissionReport> follow(const Context& context, const FollowLimits& limits);
 

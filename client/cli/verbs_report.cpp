@@ -37,8 +37,6 @@ void print_status(const Context& context, const api::RobotInfo& info, const api:
     row(context, "safety", s.safety);
   }
   if (s.mission) {
-    api::Update update;
-    update.payload = *s.mission;
     const api::MissionStatus& m = *s.mission;
     row(context, "mission", m.kind + " " + m.id + " " + std::string(to_string(m.state)));
     row(context, "",

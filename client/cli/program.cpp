@@ -1,0 +1,175 @@
+#include "client/cli/program.hpp"
+
+#include "client/cli/json.hpp"
+#include "client/cli/run_script.hpp"
+#include "client/cli/targets.hpp"
+#include "client/cli/verbs.hpp"
+
+#ifndef SEEKER_VERSION
+#define SEEKER_VERSION "0.1.0"
+#endif
+
+namespace seeker::cli {
+namespace {
+
+/// Carries one command out: what needs no robot first, then the connection, then the verb.
+class Dispatch {
+ public:
+  Dispatch(const Process& process, const Connector& connect, const GlobalOptions& global) : connect_(connect) {
+    context_.out = process.out;
+    context_.err = process.err;
+    context_.json = global.json;
+    context_.quiet = global.quiet;
+    context_.verbose = global.verbose;
+    context_.out_is_tty = process.out_is_tty;
+    context_.err_is_tty = process.err_is_tty;
+    context_.colour = process.out_is_tty && !process.no_colour;
+    context_.interrupted = process.interrupted;
+    if (global.timeout_s) {
+      context_.timeout = seconds(*global.timeout_s);
+    }
+    robot_ = global.robot;
+  }
+
+  [[nodiscard]] const Context& context() const { return context_; }
+
+  VerbResult operator()(const StatusVerb&) {
+    return with_robot([&] { return show_status(context_); });
+  }
+  VerbResult operator()(const WatchVerb& verb) {
+    return with_robot([&] { return watch(context_, verb); }, true);
+  }
+  VerbResult operator()(const SearchVerb& verb) {
+    const Result<api::MissionRequest> request = make_request(verb);
+    return request ? with_robot([&] { return search(context_, *request, verb); }, true)
+                   : VerbResult(tl::unexpected<Error>(request.error()));
+  }
+  VerbResult operator()(const GotoVerb& verb) {
+    const Result<api::MissionRequest> request = make_request(verb);
+    return request ? with_robot([&] { return go(context_, *request, verb); }, true)
+                   : VerbResult(tl::unexpected<Error>(request.error()));
+  }
+  VerbResult operator()(const DriveVerb& verb) {
+    return with_robot([&] { return drive(context_, verb); });
+  }
+  VerbResult operator()(const StopVerb&) {
+    return with_robot([&] { return stop(context_); });
+  }
+  VerbResult operator()(const EstopVerb& verb) {
+    return with_robot([&] { return estop(context_, verb); });
+  }
+  VerbResult operator()(const PauseVerb&) {
+    return with_robot([&] { return command_mission(context_, api::MissionCommand::kPause); });
+  }
+  VerbResult operator()(const ResumeVerb&) {
+    return with_robot([&] { return command_mission(context_, api::MissionCommand::kResume); });
+  }
+  VerbResult operator()(const MapExportVerb& verb) {
+    return with_robot([&] { return export_map(context_, verb); });
+  }
+  VerbResult operator()(const GridVerb& verb) {
+    return with_robot([&] { return show_grid(context_, verb); });
+  }
+  VerbResult operator()(const DetectionsVerb&) {
+    return with_robot([&] { return show_detections(context_); });
+  }
+  VerbResult operator()(const CameraGrabVerb& verb) {
+    return with_robot([&] { return grab_image(context_, verb); });
+  }
+  VerbResult operator()(const ComponentsVerb& verb) {
+    return with_robot([&] { return show_components(context_, verb); });
+  }
+  VerbResult operator()(const RunVerb& verb) {
+    const std::filesystem::path file(verb.file);
+    const std::vector<std::filesystem::path> folders = target_folders(verb.target_folders);
+    const Result<Script> script = load_script(file);
+    if (!script) {
+      return tl::unexpected<Error>(script.error());
+    }
+    if (const Status ok = check_missions(*script, file.parent_path(), folders); !ok) {
+      return fail_with_context(verb.file, ok.error());
+    }
+    if (verb.check) {
+      say(context_, verb.file + " is sound: " + std::to_string(script->steps.size()) + " steps");
+      return ExitCode::kOk;
+    }
+    return with_robot([&] { return run_script(context_, *script, file.parent_path(), folders); }, true);
+  }
+  VerbResult operator()(const CompletionVerb& verb) const {
+    const Result<std::string> script = completion_script(verb.shell);
+    if (!script) {
+      return tl::unexpected<Error>(script.error());
+    }
+    *context_.out << *script;
+    return ExitCode::kOk;
+  }
+  VerbResult operator()(const VersionVerb&) const {
+    const std::string protocol = std::to_string(api::kProtocolMajor) + "." + std::to_string(api::kProtocolMinor);
+    if (context_.json) {
+      *context_.out
+          << Json().begin_object().field("version", SEEKER_VERSION).field("protocol", protocol).end_object().str()
+          << '\n';
+    } else {
+      *context_.out << "seeker " SEEKER_VERSION ", protocol " << protocol << '\n';
+    }
+    return ExitCode::kOk;
+  }
+
+ private:
+  template <class Run>
+  VerbResult with_robot(Run run, bool reconnect = false) {
+    // A long verb's --timeout is for its whole; connecting has the usual time then.
+    Result<Connection> connection =
+        connect_({robot_, reconnect ? std::optional<Duration>() : context_.timeout, reconnect});
+    if (!connection) {
+      return tl::unexpected<Error>(connection.error());
+    }
+    context_.robot = connection->robot;
+    context_.client_name = connection->client_name;
+    context_.link_error = connection->link_error;
+    return run();
+  }
+
+  const Connector& connect_;
+  Context context_;
+  std::string robot_;
+};
+
+ExitCode report(const Context& context, const Error& error) {
+  if (context.err_is_tty) {
+    *context.err << "\r\x1b[K";
+  }
+  *context.err << "seeker: " << error.message << '\n' << std::flush;
+  if (context.json) {
+    Json json;
+    json.begin_object().key("error").begin_object();
+    json.field("code", to_string(error.code)).field("message", error.message);
+    json.field("exit_code", static_cast<int>(exit_code(error.code))).end_object().end_object();
+    *context.out << json.str() << '\n' << std::flush;
+  }
+  return exit_code(error.code);
+}
+
+}  // namespace
+
+ExitCode run_program(const std::vector<std::string>& arguments, const Process& process, const Connector& connect) {
+  const ParsedCommandLine parsed = parse_command_line(arguments);
+  *process.out << parsed.out << std::flush;
+  *process.err << parsed.err << std::flush;
+  if (!parsed.command) {
+    return parsed.exit_code;
+  }
+  Dispatch dispatch(process, connect, parsed.command->global);
+  const VerbResult result = std::visit(dispatch, parsed.command->verb);
+  if (!result) {
+    return report(dispatch.context(), result.error());
+  }
+  process.out->flush();
+  if (!process.out->good()) {
+    *process.err << "seeker: stdout cannot be written\n";
+    return ExitCode::kFailed;
+  }
+  return *result;
+}
+
+}  // namespace seeker::cli

@@ -1,0 +1,48 @@
+/// \file
+/// The whole program but its process: parsing, connecting, one verb, the exit code.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "client/cli/command_line.hpp"
+#include "client/cli/context.hpp"
+
+namespace seeker::cli {
+
+/// A robot that answers, with what its connection knows.
+struct Connection {
+  std::shared_ptr<api::RobotApi> robot;
+  std::string client_name = "seeker";
+  std::function<std::optional<Error>()> link_error = [] { return std::optional<Error>(); };
+};
+
+struct ConnectRequest {
+  std::string robot;                ///< HOST[:PORT]
+  std::optional<Duration> timeout;  ///< of the connection
+  bool reconnect = false;           ///< the verb lives long: a broken connection is made again
+};
+using Connector = std::function<Result<Connection>(const ConnectRequest&)>;
+
+/// What the process lends to the program.
+struct Process {
+  std::ostream* out = nullptr;
+  std::ostream* err = nullptr;
+  bool out_is_tty = false;
+  bool err_is_tty = false;
+  bool no_colour = false;  ///< NO_COLOR is set
+  std::function<bool()> interrupted = [] { return false; };
+};
+
+/// Runs one command line (without the program's name).
+[[nodiscard]] ExitCode run_program(const std::vector<std::string>& arguments, const Process& process,
+                                   const Connector& connect);
+
+/// Connects over the network (connect.cpp).
+[[nodiscard]] Result<Connection> connect_robot(const ConnectRequest& request);
+
+}  // namespace seeker::cli

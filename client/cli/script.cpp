@@ -1,0 +1,287 @@
+#include "client/cli/script.hpp"
+
+#include "client/cli/targets.hpp"
+#include "common/config/yaml.hpp"
+#include "common/core/angle.hpp"
+
+namespace seeker::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const config::Choices<api::SearchMode> kModes{{"paper", api::SearchMode::kPaper}, {"plan", api::SearchMode::kPlan}};
+const config::Choices<api::OnFound> kOnFound{
+    {"stop", api::OnFound::kStop}, {"approach", api::OnFound::kApproach}, {"continue", api::OnFound::kContinue}};
+const config::Choices<api::LinkPolicy> kPolicies{{"stop", api::LinkPolicy::kStop},
+                                                 {"finish-step", api::LinkPolicy::kFinishStep},
+                                                 {"continue", api::LinkPolicy::kContinue},
+                                                 {"return", api::LinkPolicy::kReturn}};
+
+/// Outcomes and error codes as they may stand in an expectation.
+const std::vector<std::string>& outcome_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names{""};
+    for (int n = 0; n <= static_cast<int>(api::Outcome::kFault); ++n) {
+      names.emplace_back(to_string(static_cast<api::Outcome>(n)));
+    }
+    return names;
+  }();
+  return kNames;
+}
+
+const std::vector<std::string>& error_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names{""};
+    for (int n = 0; n <= static_cast<int>(Errc::kInternal); ++n) {
+      names.emplace_back(to_string(static_cast<Errc>(n)));
+    }
+    return names;
+  }();
+  return kNames;
+}
+
+void name_of(config::Fields& f, std::string_view key, std::string& value, const std::vector<std::string>& names) {
+  config::Choices<std::string> choices;
+  for (const std::string& name : names) {
+    choices.emplace_back(name, name);
+  }
+  f.choice(key, value, choices);
+}
+
+/// "300s" and the like.
+void duration(config::Fields& f, std::string_view key, std::optional<Duration>& value) {
+  std::string text;
+  f.field(key, text);
+  if (!f.has(key)) {
+    return;
+  }
+  const Result<Duration> parsed = parse_duration(text);
+  f.check(key, parsed.has_value(), parsed ? "" : parsed.error().message);
+  if (parsed) {
+    value = *parsed;
+  }
+}
+
+void polygon(config::Fields& f, std::string_view key, Polygon& value) {
+  f.field(key, value);
+  if (f.has(key)) {
+    const Status ok = validate_polygon(value);
+    f.check(key, ok.has_value(), ok ? "" : ok.error().message);
+  }
+}
+
+/// An item of keep_out.
+struct Area {
+  Polygon corners;
+};
+void describe(config::Fields& f, Area& area) {
+  f.require("corners");
+  polygon(f, "corners", area.corners);
+}
+
+void areas(config::Fields& f, std::vector<Polygon>& keep_out) {
+  std::vector<Area> list;
+  f.list("keep_out", list);
+  for (Area& area : list) {
+    keep_out.push_back(std::move(area.corners));
+  }
+}
+
+/// What all missions of a script share.
+void describe_mission(config::Fields& f, Step& step) {
+  f.field("background", step.background);
+  f.choice("link_policy", step.link_policy, kPolicies);
+  duration(f, "time_limit", step.time_limit);
+}
+
+struct SearchSection {
+  SearchStep search;
+  Step step;
+};
+void describe(config::Fields& f, SearchSection& s) {
+  f.require("targets");
+  f.field("targets", s.search.targets);
+  f.check("targets", !s.search.targets.empty() && s.search.targets.size() <= api::kMaxTargets, "name 1 to 16 targets");
+  name_of(f, "recogniser", s.search.recogniser, {"", "template", "features"});
+  f.choice("mode", s.search.mode, kModes);
+  f.choice("on_found", s.search.on_found, kOnFound);
+  if (f.has("bound")) {
+    s.search.bound.emplace();
+  }
+  Polygon bound;
+  polygon(f, "bound", s.search.bound ? *s.search.bound : bound);
+  areas(f, s.search.keep_out);
+  f.field("gaps_only", s.search.gaps_only);
+  describe_mission(f, s.step);
+}
+
+struct GotoSection {
+  GotoStep go;
+  Step step;
+};
+void describe(config::Fields& f, GotoSection& s) {
+  f.require("waypoints");
+  f.field("waypoints", s.go.waypoints);
+  f.check("waypoints", !s.go.waypoints.empty(), "give at least one point [x, y]");
+  double heading_rad = 0.0;
+  f.angle_deg("heading_deg", heading_rad);
+  if (f.has("heading_deg")) {
+    s.go.heading_rad = wrap_angle(heading_rad);
+  }
+  areas(f, s.go.keep_out);
+  describe_mission(f, s.step);
+}
+
+struct ReturnSection {
+  Step step;
+};
+void describe(config::Fields& f, ReturnSection& s) { describe_mission(f, s.step); }
+
+struct DriveSection {
+  DriveStep drive;
+};
+void describe(config::Fields& f, DriveSection& s) {
+  f.field("v_m_s", s.drive.velocity.v_m_s);
+  f.angle_deg("omega_deg_s", s.drive.velocity.omega_rad_s);
+  std::optional<Duration> time;
+  duration(f, "for", time);
+  constexpr double kLongest_s = 600.0;
+  f.check("for", !time || to_seconds(*time) <= kLongest_s, "at most 600s");
+  s.drive.duration = time.value_or(s.drive.duration);
+}
+
+struct EstopSection {
+  EstopStep estop;
+};
+void describe(config::Fields& f, EstopSection& s) { f.field("release", s.estop.release); }
+
+struct EmptySection {};
+void describe(config::Fields& /*f*/, EmptySection& /*section*/) {}
+
+struct ExpectSection {
+  Expectation expect;
+};
+void describe(config::Fields& f, ExpectSection& s) {
+  name_of(f, "outcome", s.expect.outcome, outcome_names());
+  duration(f, "within", s.expect.within);
+  name_of(f, "error", s.expect.error, error_names());
+  f.field("found", s.expect.found);
+  f.optional_field("covered", s.expect.covered);
+  f.check("covered", !s.expect.covered || (*s.expect.covered >= 0.0 && *s.expect.covered <= 1.0),
+          "must be a share from 0 to 1");
+}
+
+/// A step while it is read.
+struct StepItem {
+  Step step;
+};
+
+/// Reads the section `key` when it is there and counts it.
+template <class Section, class Take>
+void action(config::Fields& f, std::string_view key, Step& step, int& count, Take take) {
+  std::optional<Section> section;
+  f.optional_section(key, section);
+  if (section) {
+    ++count;
+    step.kind = key;
+    take(*section);
+  }
+}
+
+/// Copies what a mission's section read into the step.
+void keep_mission(Step& step, const Step& read) {
+  step.background = read.background;
+  step.link_policy = read.link_policy;
+  step.time_limit = read.time_limit;
+}
+
+void describe_missions(config::Fields& f, Step& step, int& count) {
+  action<SearchSection>(f, "search", step, count, [&](SearchSection& s) {
+    step.action = s.search;
+    keep_mission(step, s.step);
+  });
+  action<GotoSection>(f, "goto", step, count, [&](GotoSection& s) {
+    step.action = s.go;
+    keep_mission(step, s.step);
+  });
+  action<ReturnSection>(f, "return", step, count, [&](ReturnSection& s) {
+    step.action = ReturnStep{};
+    keep_mission(step, s.step);
+  });
+  action<EmptySection>(f, "await", step, count, [&](EmptySection&) { step.action = AwaitStep{}; });
+}
+
+void describe(config::Fields& f, StepItem& item) {
+  Step& step = item.step;
+  int count = 0;
+  describe_missions(f, step, count);
+  action<DriveSection>(f, "drive", step, count, [&](DriveSection& s) { step.action = s.drive; });
+  action<EmptySection>(f, "pause", step, count,
+                       [&](EmptySection&) { step.action = CommandStep{api::MissionCommand::kPause}; });
+  action<EmptySection>(f, "resume", step, count,
+                       [&](EmptySection&) { step.action = CommandStep{api::MissionCommand::kResume}; });
+  action<EmptySection>(f, "stop", step, count,
+                       [&](EmptySection&) { step.action = CommandStep{api::MissionCommand::kStop}; });
+  action<EstopSection>(f, "estop", step, count, [&](EstopSection& s) { step.action = s.estop; });
+  std::optional<Duration> wait;
+  duration(f, "wait", wait);
+  std::string export_name;
+  f.field("map_export", export_name);
+  if (f.has("wait")) {
+    ++count;
+    step.kind = "wait";
+    step.action = WaitStep{wait.value_or(Duration::zero())};
+  }
+  if (f.has("map_export")) {
+    ++count;
+    step.kind = "map_export";
+    step.action = ExportStep{export_name};
+    f.check("map_export", !export_name.empty(), "name the files without extension");
+  }
+  ExpectSection expect;
+  f.section("expect", expect);
+  step.expect = expect.expect;
+  f.check(
+      "expect", count == 1,
+      "a step does exactly one of search, goto, return, await, wait, drive, pause, resume, stop, estop, map_export");
+}
+
+struct ScriptFile {
+  std::string name;
+  std::vector<StepItem> steps;
+};
+void describe(config::Fields& f, ScriptFile& script) {
+  f.field("name", script.name);
+  f.require("steps");
+  f.list("steps", script.steps);
+  f.check("steps", !script.steps.empty() && script.steps.size() <= kMaxSteps, "must have 1 to 1000 steps");
+}
+
+}  // namespace
+
+Result<Script> parse_script(std::string_view text, const std::string& name) {
+  const Result<config::Document> document = config::Document::parse(text, name);
+  if (!document) {
+    return tl::unexpected<Error>(document.error());
+  }
+  ScriptFile file;
+  if (const Status ok = document->read(file); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  Script script;
+  script.name = file.name.empty() ? fs::path(name).stem().string() : file.name;
+  for (StepItem& item : file.steps) {
+    script.steps.push_back(std::move(item.step));
+  }
+  return script;
+}
+
+Result<Script> load_script(const fs::path& path) {
+  const Result<std::string> text = config::read_text_file(path);
+  if (!text) {
+    return tl::unexpected<Error>(text.error());
+  }
+  return parse_script(*text, path.string());
+}
+
+}  // namespace seeker::cli

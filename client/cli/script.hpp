@@ -1,0 +1,91 @@
+/// \file
+/// Mission scripts: steps with expectations, so that a script is a test (format in docs/client.md).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/api/mission.hpp"
+#include "common/core/polygon.hpp"
+#include "common/core/pose2.hpp"
+
+namespace seeker::cli {
+
+struct SearchStep {
+  std::vector<std::string> targets;  ///< as for `seeker search --target`; files relative to the script
+  std::string recogniser;            ///< empty: as the targets' files say
+  api::SearchMode mode = api::SearchMode::kPlan;
+  api::OnFound on_found = api::OnFound::kApproach;
+  std::optional<Polygon> bound;
+  std::vector<Polygon> keep_out;
+  bool gaps_only = false;
+};
+struct GotoStep {
+  std::vector<Point2> waypoints;
+  std::optional<double> heading_rad;
+  std::vector<Polygon> keep_out;
+};
+struct ReturnStep {};
+/// Waits for the end of a mission that an earlier step started in the background.
+struct AwaitStep {};
+struct WaitStep {
+  Duration wall = Duration::zero();
+};
+struct DriveStep {
+  Twist2 velocity;
+  Duration duration = std::chrono::seconds(1);
+};
+struct CommandStep {
+  api::MissionCommand command = api::MissionCommand::kPause;
+};
+struct EstopStep {
+  bool release = false;
+};
+struct ExportStep {
+  std::string name;
+};
+
+using StepAction =
+    std::variant<SearchStep, GotoStep, ReturnStep, AwaitStep, WaitStep, DriveStep, CommandStep, EstopStep, ExportStep>;
+
+/// What must hold after a step. Empty fields are not looked at.
+struct Expectation {
+  std::string outcome;             ///< of the mission, e.g. TARGET_FOUND
+  std::optional<Duration> within;  ///< robot time of the mission; it is stopped when it takes longer
+  std::string error;               ///< the step must fail with this code, e.g. refused
+  std::vector<std::string> found;  ///< names of targets among the detections
+  std::optional<double> covered;   ///< least share of the reachable floor, 0..1
+};
+
+struct Step {
+  std::string kind;  ///< "search", "goto", ... as in the file
+  StepAction action;
+  bool background = false;  ///< of a mission: go on with the next step while it runs
+  api::LinkPolicy link_policy = api::LinkPolicy::kStop;
+  std::optional<Duration> time_limit;
+  Expectation expect;
+};
+
+struct Script {
+  std::string name;
+  std::vector<Step> steps;
+};
+
+inline constexpr std::size_t kMaxSteps = 1000;
+
+/// Reads a script; errors name file, line and path. Targets' files are not opened (see check_targets()).
+[[nodiscard]] Result<Script> parse_script(std::string_view text, const std::string& name);
+[[nodiscard]] Result<Script> load_script(const std::filesystem::path& path);
+
+/// The mission of a search, goto or return step with its targets loaded.
+[[nodiscard]] Result<api::MissionRequest> make_request(const Step& step, const std::filesystem::path& script_folder,
+                                                       const std::vector<std::filesystem::path>& target_folders);
+/// Loads every target and validates every mission; the error names the step.
+[[nodiscard]] Status check_missions(const Script& script, const std::filesystem::path& script_folder,
+                                    const std::vector<std::filesystem::path>& target_folders);
+
+}  // namespace seeker::cli

@@ -1,0 +1,63 @@
+#include "client/cli/mission_run.hpp"
+#include "client/cli/script.hpp"
+#include "client/cli/targets.hpp"
+
+namespace seeker::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A target's file in a script is relative to the script; a name is looked up as on the command line.
+std::string target_path(const std::string& target, const fs::path& script_folder) {
+  const bool is_file = fs::path(target).has_extension() || target.find('/') != std::string::npos;
+  return is_file && fs::path(target).is_relative() ? (script_folder / target).string() : target;
+}
+
+}  // namespace
+
+Result<api::MissionRequest> make_request(const Step& step, const fs::path& script_folder,
+                                         const std::vector<fs::path>& target_folders) {
+  api::MissionRequest request;
+  request.id = make_mission_id(step.kind);
+  request.link_policy = step.link_policy;
+  request.time_limit = step.time_limit;
+  if (const auto* search = std::get_if<SearchStep>(&step.action)) {
+    api::SearchMission mission;
+    TargetDefaults defaults;
+    defaults.recogniser = search->recogniser;
+    for (const std::string& name : search->targets) {
+      Result<api::TargetSpec> target = load_target(target_path(name, script_folder), defaults, target_folders);
+      if (!target) {
+        return tl::unexpected<Error>(target.error());
+      }
+      mission.targets.push_back(std::move(*target));
+    }
+    mission.mode = search->mode;
+    mission.on_found = search->on_found;
+    mission.bound = search->bound;
+    mission.keep_out = search->keep_out;
+    mission.gaps_only = search->gaps_only;
+    request.task = std::move(mission);
+  } else if (const auto* go = std::get_if<GotoStep>(&step.action)) {
+    request.task = api::GotoMission{go->waypoints, go->heading_rad, go->keep_out};
+  } else {
+    request.task = api::ReturnMission{};
+  }
+  if (const Status ok = api::validate(request); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  return request;
+}
+
+Status check_missions(const Script& script, const fs::path& script_folder,
+                      const std::vector<fs::path>& target_folders) {
+  for (std::size_t i = 0; i < script.steps.size(); ++i) {
+    const Result<api::MissionRequest> request = make_request(script.steps[i], script_folder, target_folders);
+    if (!request) {
+      return fail_with_context("step " + std::to_string(i + 1) + " (" + script.steps[i].kind + ")", request.error());
+    }
+  }
+  return {};
+}
+
+}  // namespace seeker::cli
