@@ -52,6 +52,12 @@ Result<api::MissionRequest> make_request(const Step& step, const fs::path& scrip
 Status check_missions(const Script& script, const fs::path& script_folder,
                       const std::vector<fs::path>& target_folders) {
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
+    const StepAction& action = script.steps[i].action;
+    const bool is_mission = std::holds_alternative<SearchStep>(action) || std::holds_alternative<GotoStep>(action) ||
+                            std::holds_alternative<ReturnStep>(action);
+    if (!is_mission) {
+      continue;
+    }
     const Result<api::MissionRequest> request = make_request(script.steps[i], script_folder, target_folders);
     if (!request) {
       return fail_with_context("step " + std::to_string(i + 1) + " (" + script.steps[i].kind + ")", request.error());

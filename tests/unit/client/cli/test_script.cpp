@@ -1,0 +1,123 @@
+#include "client/cli/script.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "client/cli/run_script.hpp"
+#include "tests/unit/client/cli/cli_fixture.hpp"
+
+namespace seeker::cli {
+namespace {
+
+std::string error_of(const std::string& text) {
+  const Result<Script> script = parse_script(text, "m.yaml");
+  return script ? "" : script.error().message;
+}
+
+TEST(Script, StepsKeepTheirValues) {
+  const auto script = parse_script(
+      "name: night\n"
+      "steps:\n"
+      "  - search: {targets: [ring], on_found: stop, bound: [[0, 0], [4, 0], [4, 4]], background: true, link_policy: "
+      "return}\n"
+      "  - wait: 2s\n"
+      "  - pause: {}\n"
+      "  - resume: {}\n"
+      "  - await: {}\n"
+      "    expect: {outcome: TARGET_FOUND, within: 5min, found: [ring], covered: 0.5}\n"
+      "  - drive: {v_m_s: 0.1, omega_deg_s: 90, for: 500ms}\n"
+      "  - estop: {release: true}\n"
+      "  - map_export: out/night\n",
+      "m.yaml");
+  ASSERT_TRUE(script) << script.error().message;
+  ASSERT_EQ(script->steps.size(), 8U);
+  EXPECT_TRUE(script->steps[0].background);
+  EXPECT_EQ(script->steps[0].link_policy, api::LinkPolicy::kReturn);
+  EXPECT_EQ(std::get<SearchStep>(script->steps[0].action).bound->size(), 3U);
+  EXPECT_EQ(*script->steps[4].expect.within, seconds(300));
+  EXPECT_NEAR(std::get<DriveStep>(script->steps[5].action).velocity.omega_rad_s, 1.5708, 1e-4);
+}
+
+TEST(Script, ErrorsNameFileLineAndPath) {
+  EXPECT_NE(error_of("steps:\n  - search: {targts: [ring]}\n").find("m.yaml:2: steps[0].search"), std::string::npos);
+  EXPECT_NE(error_of("steps:\n  - wait: soon\n").find("m.yaml:2: steps[0].wait: 'soon' is no duration"),
+            std::string::npos);
+  EXPECT_NE(
+      error_of("steps:\n  - return: {}\n    expect: {outcome: FOUND}\n").find("m.yaml:3: steps[0].expect.outcome"),
+      std::string::npos);
+  EXPECT_NE(error_of("steps:\n  - return: {}\n    pause: {}\n").find("exactly one"), std::string::npos);
+  EXPECT_NE(error_of("steps:\n  - expect: {}\n").find("exactly one"), std::string::npos);
+  EXPECT_NE(error_of("steps: []\n").find("1 to 1000"), std::string::npos);
+  EXPECT_NE(error_of("name: x\n").find("steps: is missing"), std::string::npos);
+  EXPECT_NE(error_of("steps:\n  - goto: {waypoints: [[0, 0]], keep_out: [{corners: [[0,0],[2,2],[2,0],[0,2]]}]}\n")
+                .find("crosses itself"),
+            std::string::npos);
+}
+
+TEST(Script, ShippedMissionsAreSound) {
+  const std::filesystem::path folder = testing::source_file("config/missions");
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto script = load_script(entry.path());
+    ASSERT_TRUE(script) << script.error().message;
+    const Status ok = check_missions(*script, folder, {testing::source_file("config/targets")});
+    EXPECT_TRUE(ok) << ok.error().message;
+    ++count;
+  }
+  EXPECT_GE(count, 3);
+}
+
+class RunScript : public ::testing::Test, public CliFixture {
+ protected:
+  VerbResult play(const std::string& text, const std::function<void()>& during = {}) {
+    const auto script = parse_script(text, "m.yaml");
+    EXPECT_TRUE(script) << script.error().message;
+    Context context;
+    context.robot = host->open({"seeker-test", api::Role::kOperator});
+    context.out = &out;
+    context.err = &err;
+    context.json = true;
+    std::thread helper;
+    if (during) {
+      helper = std::thread(during);
+    }
+    const VerbResult result = run_script(context, *script, ".", {testing::source_file("config/targets")});
+    if (helper.joinable()) {
+      helper.join();
+    }
+    return result;
+  }
+  std::ostringstream out;
+  std::ostringstream err;
+};
+
+TEST_F(RunScript, PassesWhenEveryExpectationHolds) {
+  const auto result = play(
+      "steps:\n  - goto: {waypoints: [[1, 1]]}\n    expect: {outcome: COMPLETE, within: 60s, covered: 0.9}\n"
+      "  - estop: {}\n  - estop: {release: true}\n  - pause: {}\n    expect: {error: not_found}\n",
+      [&] { end_mission(api::Outcome::kComplete); });
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(*result, ExitCode::kOk) << out.str();
+  EXPECT_TRUE(is_json(out.str()));
+}
+
+TEST_F(RunScript, FailsAtTheFirstExpectationThatDoesNotHold) {
+  const auto result = play("steps:\n  - goto: {waypoints: [[1, 1]]}\n    expect: {within: 30s}\n  - estop: {}\n",
+                           [&] { end_mission(api::Outcome::kComplete, 31.0); });
+  ASSERT_TRUE(result);
+  EXPECT_EQ(*result, ExitCode::kFailed);
+  EXPECT_NE(out.str().find("expected at most 30.0 s"), std::string::npos) << out.str();
+  EXPECT_FALSE(host->values().estop);
+}
+
+TEST_F(RunScript, BackgroundMissionIsAwaited) {
+  const auto result = play(
+      "steps:\n  - goto: {waypoints: [[1, 1]], background: true}\n  - pause: {}\n  - resume: {}\n  - stop: {}\n"
+      "  - await: {}\n    expect: {outcome: OPERATOR}\n");
+  ASSERT_TRUE(result);
+  EXPECT_EQ(*result, ExitCode::kOk) << out.str();
+}
+
+}  // namespace
+}  // namespace seeker::cli

@@ -1,0 +1,257 @@
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "client/cli/targets.hpp"
+#include "common/image/pgm.hpp"
+#include "common/image/png.hpp"
+#include "tests/unit/client/cli/cli_fixture.hpp"
+
+namespace seeker::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Verbs : public ::testing::Test, public CliFixture {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) / ("seeker_cli_" + std::to_string(::getpid()) + "_" +
+                                                ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    Image picture(32, 32, 1);
+    for (int v = 0; v < 32; ++v) {
+      for (int u = 0; u < 32; ++u) {
+        *picture.at(u, v) = static_cast<std::uint8_t>((u / 4 + v / 4) % 2 == 0 ? 20 : 230);
+      }
+    }
+    ASSERT_TRUE(image::write_png(folder_ / "board.png", picture));
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+
+  fs::path folder_;
+};
+
+TEST_F(Verbs, ReportsAreOneJsonDocumentWithTheDocumentedKeys) {
+  const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> cases{
+      {{"status"}, {"robot_id", "status", "pose", "quality", "estop", "faults", "mission"}},
+      {{"components"}, {"components", "state", "rate_hz"}},
+      {{"detections"}, {"detections", "target", "position", "sigma_m", "range_source"}},
+      {{"grid"}, {"searched", "unsearched", "unreachable", "coverage", "gaps"}},
+      {{"stop"}, {"ok", "message"}},
+      {{"version"}, {"version", "protocol"}},
+      {{"camera", "grab", "--out", path("view.png")}, {"file", "width_px"}},
+      {{"map", "export", path("map")}, {"files"}},
+  };
+  for (const auto& [verb, keys] : cases) {
+    std::vector<std::string> arguments = verb;
+    arguments.emplace_back("--json");
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.code, 0) << verb[0] << ran.err;
+    EXPECT_TRUE(is_json(ran.out)) << ran.out;
+    for (const std::string& key : keys) {
+      EXPECT_NE(ran.out.find("\"" + key + "\":"), std::string::npos) << verb[0] << " " << key << " in " << ran.out;
+    }
+  }
+}
+
+TEST_F(Verbs, EveryErrorClassHasItsExitCodeAndOneSentence) {
+  const std::vector<std::pair<Errc, int>> codes{
+      {Errc::kInternal, 1},    {Errc::kNotFound, 1},   {Errc::kInvalidArgument, 2}, {Errc::kRefused, 3},
+      {Errc::kBusy, 3},        {Errc::kNotReady, 3},   {Errc::kLinkLost, 4},        {Errc::kTimeout, 5},
+      {Errc::kCancelled, 130}, {Errc::kUnreachable, 3}};
+  for (const auto& [error, code] : codes) {
+    host->edit([&, e = error](testing::FakeRobotValues& v) { v.failure = Error{e, "the cause; the remedy"}; });
+    const Ran ran = run({"status", "--json"});
+    EXPECT_EQ(ran.code, code) << to_string(error);
+    EXPECT_EQ(ran.err, "seeker: the cause; the remedy\n");
+    EXPECT_TRUE(is_json(ran.out));
+    EXPECT_NE(ran.out.find("\"code\":\"" + std::string(to_string(error)) + "\""), std::string::npos);
+  }
+}
+
+TEST_F(Verbs, NoLinkIsFourAndNoAnswerIsFive) {
+  connect_error = Error{Errc::kLinkLost, "nobody answers at 127.0.0.1:1"};
+  EXPECT_EQ(run({"status"}).code, 4);
+  connect_error.reset();
+  host->hold_replies(true);
+  EXPECT_EQ(run({"status", "--timeout", "0.1"}).code, 5);
+  host->release_replies();
+}
+
+TEST_F(Verbs, UsageErrorsAreFoundWithoutARobot) {
+  connect_error = Error{Errc::kLinkLost, "must not be tried"};
+  EXPECT_EQ(run({"goto", "3;4"}).code, 2);
+  EXPECT_EQ(run({"goto"}).code, 2);
+  EXPECT_EQ(run({"search", "-t", path("board.png"), "--bound", "0,0 2,2 2,0 0,2"}).code, 2);
+  const Ran ran = run({"search", "-t", "nobody-knows-it", "--targets", folder_.string()});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_NE(ran.err.find("there is no target 'nobody-knows-it'"), std::string::npos);
+}
+
+TEST_F(Verbs, SearchReportsTheEndAndItsExitCode) {
+  const std::vector<std::pair<api::Outcome, int>> outcomes{{api::Outcome::kTargetFound, 0},
+                                                           {api::Outcome::kNotFoundAreaCovered, 6},
+                                                           {api::Outcome::kTimeLimit, 5},
+                                                           {api::Outcome::kFault, 1}};
+  for (const auto& [outcome, code] : outcomes) {
+    const Ran ran = run({"search", "-t", path("board.png"), "--json"}, [&, o = outcome] { end_mission(o); });
+    EXPECT_EQ(ran.code, code) << ran.err;
+    EXPECT_TRUE(is_json(ran.out)) << ran.out;
+    for (const char* key : {"mission", "outcome", "cause", "remedy", "detections", "coverage", "gaps", "path_length_m",
+                            "robot_time_s", "wall_time_s", "exit_code"}) {
+      EXPECT_NE(ran.out.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
+    }
+    EXPECT_NE(ran.out.find("\"robot_time_s\":42,"), std::string::npos);
+  }
+  EXPECT_EQ(host->values().missions.size(), 4U);
+}
+
+TEST_F(Verbs, SearchSendsWhatTheUserAskedFor) {
+  write("board.yaml",
+        "name: chess-board\npicture: board.png\nwidth_m: 0.6\nheight_m: 0.5\ndepth_m: 0.1\nrecogniser: features\n");
+  const Ran ran = run({"search",      "-t",           "board",    "--targets",     folder_.string(), "--mode",
+                       "paper",       "--on-found",   "continue", "--bound",       "0,0 4,0 4,3",    "--keep-out",
+                       "1,1 2,1 2,2", "--time-limit", "60",       "--link-policy", "return",         "--gaps-only",
+                       "--detach",    "--id",         "my-search"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.out, "my-search\n");
+  const auto missions = host->values().missions;
+  ASSERT_EQ(missions.size(), 1U);
+  const auto& search = std::get<api::SearchMission>(missions[0].task);
+  EXPECT_EQ(search.targets[0].name, "chess-board");
+  EXPECT_DOUBLE_EQ(search.targets[0].width_m, 0.6);
+  EXPECT_DOUBLE_EQ(search.targets[0].depth_m, 0.1);
+  EXPECT_EQ(search.targets[0].recogniser, api::RecogniserKind::kFeatures);
+  EXPECT_EQ(search.mode, api::SearchMode::kPaper);
+  EXPECT_EQ(search.on_found, api::OnFound::kContinue);
+  EXPECT_EQ(search.bound->size(), 3U);
+  EXPECT_EQ(search.keep_out.size(), 1U);
+  EXPECT_TRUE(search.gaps_only);
+  EXPECT_EQ(missions[0].link_policy, api::LinkPolicy::kReturn);
+  EXPECT_EQ(*missions[0].time_limit, seconds(60));
+}
+
+TEST_F(Verbs, TargetFileErrorsNameFileAndLine) {
+  write("bad.yaml", "picture: board.png\nwidth: 0.6\n");
+  const Ran ran = run({"search", "-t", path("bad.yaml")});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("bad.yaml:2: width: unknown key"), std::string::npos) << ran.err;
+}
+
+TEST_F(Verbs, CtrlCStopsTheMissionAndIs130) {
+  const Ran ran = run({"search", "-t", path("board.png")}, [&] {
+    while (host->values().missions.empty()) {
+      std::this_thread::yield();
+    }
+    interrupted = true;
+  });
+  EXPECT_EQ(ran.code, 130);
+  EXPECT_NE(ran.err.find("asking the robot to stop mission"), std::string::npos);
+  const auto mission = host->values().mission;
+  ASSERT_TRUE(mission && mission->end);
+  EXPECT_EQ(mission->end->outcome, api::Outcome::kOperator);
+}
+
+TEST_F(Verbs, SearchThatDoesNotEndInTimeIsStoppedAndIsFive) {
+  const Ran ran = run({"search", "-t", path("board.png"), "--timeout", "0.2"});
+  EXPECT_EQ(ran.code, 5);
+  EXPECT_TRUE(host->values().mission->end.has_value());
+}
+
+TEST_F(Verbs, SecondMissionWhileOneRunsIsRefused) {
+  EXPECT_EQ(run({"goto", "1,1", "--detach"}).code, 0);
+  const Ran ran = run({"goto", "2,2", "--detach"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_NE(ran.err.find("stop it first"), std::string::npos);
+  EXPECT_EQ(run({"pause"}).code, 0);
+  EXPECT_EQ(run({"resume"}).code, 0);
+  EXPECT_EQ(run({"stop"}).code, 0);
+}
+
+TEST_F(Verbs, DriveSendsPerishableCommandsUnderALeaseAndGivesItBack) {
+  const Ran ran = run({"drive", "0.2", "-0.1", "--for", "0.35"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const auto values = host->values();
+  ASSERT_GE(values.drives.size(), 3U);
+  EXPECT_EQ(values.drives.front().velocity, (Twist2{0.2, -0.1}));
+  EXPECT_EQ(values.drives.front().ttl, std::chrono::milliseconds(300));
+  EXPECT_EQ(values.drives.back().velocity, Twist2{});
+  EXPECT_TRUE(values.lease.owner.empty());
+}
+
+TEST_F(Verbs, DriveIsRefusedWhileAnotherHoldsTheLease) {
+  host->edit([](testing::FakeRobotValues& v) { v.lease = {"somebody", 7, ""}; });
+  EXPECT_EQ(run({"drive", "0.2", "0"}).code, 3);
+  EXPECT_TRUE(host->values().drives.empty());
+  EXPECT_EQ(run({"drive", "0.2", "0", "--for", "0.1", "--take-over"}).code, 0);
+}
+
+TEST_F(Verbs, MapExportWritesFilesThatCanBeReadBack) {
+  const Ran ran = run({"map", "export", path("out/office")});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const auto pgm = image::read_pgm(path("out/office.pgm"));
+  ASSERT_TRUE(pgm);
+  EXPECT_EQ(pgm->width_px(), 128);
+  EXPECT_TRUE(fs::exists(path("out/office.yaml")));
+  const auto picture = image::read_png(path("out/office.png"));
+  ASSERT_TRUE(picture);
+  EXPECT_GT(picture->width_px(), 1000);
+}
+
+TEST_F(Verbs, MapOfTilesFarApartIsRefusedInsteadOfFillingTheMemory) {
+  host->edit([](testing::FakeRobotValues& v) { v.tiles.tiles[0].index = {2'000'000'000, -2'000'000'000}; });
+  const Ran ran = run({"map", "export", path("far")});
+  EXPECT_NE(ran.code, 0);
+  EXPECT_NE(ran.err.find("far apart"), std::string::npos);
+}
+
+TEST_F(Verbs, WatchPrintsJsonLinesUntilItsTime) {
+  std::atomic<bool> done{false};
+  const Ran ran = run({"watch", "--json", "--topics", "status,event", "--timeout", "0.5"}, [&] {
+    for (int n = 0; n < 20; ++n) {
+      host->publish(api::Topic::kEvent, robot_time_s(n), api::Event{1, robot_time_s(n), {}, "", {}, "kind", "te\"xt"});
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    done = true;
+  });
+  EXPECT_EQ(ran.code, 0);
+  std::istringstream lines(ran.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    EXPECT_TRUE(is_json(line)) << line;
+    EXPECT_EQ(line.rfind("{\"topic\":\"event\",\"sequence\":", 0), 0U);
+  }
+  EXPECT_GT(count, 5);
+}
+
+TEST_F(Verbs, KeyboardWithoutATerminalSaysWhatToDo) {
+  ASSERT_NE(::freopen("/dev/null", "r", stdin), nullptr);
+  const Ran ran = run({"drive"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("terminal"), std::string::npos);
+  EXPECT_TRUE(host->values().lease.owner.empty());
+}
+
+TEST(Arguments, DurationsPointsAndPolygons) {
+  EXPECT_EQ(*parse_duration("300s"), seconds(300));
+  EXPECT_EQ(*parse_duration("2.5min"), seconds(150));
+  EXPECT_EQ(*parse_duration("200ms"), seconds(0.2));
+  EXPECT_EQ(*parse_duration("7"), seconds(7));
+  for (const char* bad : {"", "s", "-3s", "nan", "1e99h", "3 apples"}) {
+    EXPECT_FALSE(parse_duration(bad)) << bad;
+  }
+  EXPECT_EQ(*parse_point("-1.5,2"), Point2(-1.5, 2));
+  EXPECT_FALSE(parse_point("1,2,3"));
+  EXPECT_FALSE(parse_point("inf,0"));
+  EXPECT_EQ(parse_polygon("0,0 1,0 1,1")->size(), 3U);
+  EXPECT_FALSE(parse_polygon("@/no/such/file"));
+}
+
+}  // namespace
+}  // namespace seeker::cli
