@@ -1,5 +1,5 @@
 /// \file
-/// The planner's inference in our own arithmetic, several hundred times faster than the general engine: it fills
+/// The planner's inference in our own arithmetic, many times faster than the general engine: it fills
 /// control tables. A test proves it equal to FuzzyPlanner; bench_fuzzy measures both.
 #pragma once
 

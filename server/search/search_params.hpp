@@ -35,20 +35,20 @@ struct PaperParams {
 /// Coverage over the map (strategies plan, spiral, frontier).
 struct PlanParams {
   double cell_m = 0.8;
-  double replan_period_s = 2.0;          ///< cost map and goals are refreshed this often while driving
-  double map_period_s = 1.0;             ///< shortest time between two cost maps
-  double look_spacing_m = 0.8;           ///< travelled distance after which a picture is taken on the way
-  bool look_while_moving = true;         ///< false: stop for the pictures on the way, too
-  double cell_target_probability = 0.6;  ///< evidence a cell should reach, above the certificate's threshold
-  double min_gain_cells = 3.0;           ///< expected new evidence (cells x probability) that is worth a drive
-  double frontier_bonus_cells = 12.0;    ///< worth of an unknown border in the same unit
-  double travel_offset_m = 1.0;          ///< gain / (cost + offset): keeps near crumbs from winning
-  double min_frontier_m = 0.4;           ///< shorter borders are noise
-  double frontier_reach_m = 0.5;         ///< a goal so near to a frontier observes it
-  int max_failures = 2;                  ///< failed drives to a goal before it is unreachable
-  double goal_time_s = 120.0;            ///< longest drive to one goal
-  double failed_radius_m = 0.4;          ///< goals so near to an unreachable place are not tried
-  double min_look_spacing_m = 0.3;       ///< a look from nearer than this to an earlier one teaches nothing
+  double replan_period_s = 2.0;           ///< cost map and goals are refreshed this often while driving
+  double map_period_s = 1.0;              ///< shortest time between two cost maps
+  double look_spacing_m = 0.8;            ///< travelled distance after which a picture is taken on the way
+  bool look_while_moving = true;          ///< false: stop for the pictures on the way, too
+  double cell_target_probability = 0.55;  ///< evidence a cell should reach, above the certificate's threshold
+  double min_gain_cells = 6.0;            ///< expected new evidence (cells x probability) that is worth a drive
+  double frontier_bonus_cells = 12.0;     ///< worth of an unknown border in the same unit
+  double travel_offset_m = 1.0;           ///< gain / (cost + offset): keeps near crumbs from winning
+  double min_frontier_m = 0.4;            ///< shorter borders are noise
+  double frontier_reach_m = 0.5;          ///< a goal so near to a frontier observes it
+  int max_failures = 2;                   ///< failed drives to a goal before it is unreachable
+  double goal_time_s = 120.0;             ///< longest drive to one goal
+  double failed_radius_m = 0.4;           ///< goals so near to an unreachable place are not tried
+  double min_look_spacing_m = 0.3;        ///< a look from nearer than this to an earlier one teaches nothing
   nav::CostMapParams cost;
   nav::FollowerParams follower;
 };
