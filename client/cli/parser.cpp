@@ -212,12 +212,30 @@ CommandTree tree_of(const CLI::App& app) {
   return tree;
 }
 
+/// The first word that could be a verb and is none; CLI11 would only say that one is missing.
+std::optional<std::string> unknown_verb(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front().starts_with('-')) {
+    return std::nullopt;
+  }
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (sub->get_name() == arguments.front()) {
+      return std::nullopt;
+    }
+  }
+  return arguments.front();
+}
+
 }  // namespace
 
 ParsedCommandLine parse_command_line(const std::vector<std::string>& arguments) {
   Parse parse;
   build(parse);
   ParsedCommandLine result;
+  if (const auto verb = unknown_verb(parse.app, arguments)) {
+    result.exit_code = ExitCode::kUsage;
+    result.err = "there is no verb '" + *verb + "'; seeker --help lists them\n";
+    return result;
+  }
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
   try {
     parse.app.parse(reversed);
