@@ -50,12 +50,13 @@ std::vector<pb::TopicReply> StreamSender::subscribe(std::uint64_t id, const std:
   return replies;
 }
 
-void StreamSender::offer(api::Topic topic, const SharedBody& body) {
+void StreamSender::offer(api::Topic topic, std::uint64_t sequence, const SharedBody& body) {
   for (auto& [id, subscription] : subscriptions_) {
     for (TopicState& state : subscription.topics) {
       if (state.request.topic == topic) {
-        state.dropped += state.slot ? 1 : 0;
+        state.dropped += state.sent_sequence == 0 && state.slot ? 1 : 0;
         state.slot = body;
+        state.slot_sequence = sequence;
       }
     }
   }
@@ -105,6 +106,10 @@ std::optional<OutFrame> StreamSender::next_of(std::uint64_t id, TopicState& stat
     } else {
       body = std::move(state.slot);
       state.slot.reset();
+      if (body) {
+        state.dropped += state.sent_sequence == 0 ? 0 : state.slot_sequence - state.sent_sequence - 1;
+        state.sent_sequence = state.slot_sequence;
+      }
     }
     // The rest of a large tile update follows at once; the rate counts whole updates.
     if (body && state.request.max_rate_hz > 0.0 && state.tiles.empty()) {

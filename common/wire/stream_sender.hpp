@@ -43,8 +43,9 @@ class StreamSender {
   [[nodiscard]] std::size_t subscriptions() const { return subscriptions_.size(); }
   [[nodiscard]] bool has(std::uint64_t id) const { return subscriptions_.count(id) > 0; }
 
-  /// A new item of a LATEST topic other than tiles.
-  void offer(api::Topic topic, const SharedBody& body);
+  /// A new item of a LATEST topic other than tiles. Steps in the sequence are items that were overtaken before they
+  /// came here; they count as dropped too.
+  void offer(api::Topic topic, std::uint64_t sequence, const SharedBody& body);
   void offer_tiles(const EncodedTiles& tiles);
 
   /// The next frame that may be sent now; RELIABLE and LATEST take turns.
@@ -60,6 +61,8 @@ class StreamSender {
     std::uint64_t position = 0;       ///< RELIABLE: sequence of the item sent last
     std::uint64_t known_missing = 0;  ///< RELIABLE: items gone before the subscription began
     SharedBody slot;                  ///< LATEST
+    std::uint64_t slot_sequence = 0;
+    std::uint64_t sent_sequence = 0;  ///< LATEST: 0: nothing was sent yet
     std::uint64_t dropped = 0;
     WallTime not_before{};
     TilesHead tiles_head;

@@ -323,7 +323,7 @@ class Server::Impl {
       return;
     }
     for (const auto& session : sessions_) {
-      session->offer(update.topic, body);
+      session->offer(update.topic, update.sequence, body);
     }
   }
 

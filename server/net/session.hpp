@@ -45,7 +45,9 @@ class Session : public std::enable_shared_from_this<Session> {
   /// Says why and closes; harmless when repeated.
   void end(const wire::Ending& ending);
 
-  void offer(api::Topic topic, const wire::SharedBody& body) { streams_.offer(topic, body); }
+  void offer(api::Topic topic, std::uint64_t sequence, const wire::SharedBody& body) {
+    streams_.offer(topic, sequence, body);
+  }
   void offer_tiles(const wire::EncodedTiles& tiles) { streams_.offer_tiles(tiles); }
   /// New items may wait: write, or end when the client is too far behind.
   void wake();

@@ -1,0 +1,172 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "common/wire/convert.hpp"
+#include "common/wire/envelope.hpp"
+#include "tests/unit/common/wire/generators.hpp"
+
+namespace seeker::wire {
+namespace {
+
+using testing::ValueMaker;
+
+/// Through bytes and back.
+template <class M, class T>
+void expect_round_trip(const T& value) {
+  M message;
+  ASSERT_TRUE(message.ParseFromString(to_message<M>(value).SerializeAsString()));
+  const Result<T> back = from_message<T>(message);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(*back, value);
+}
+
+RC_GTEST_PROP(Convert, EveryValueComesBackUnchanged, (std::uint64_t seed)) {
+  ValueMaker make(seed);
+  expect_round_trip<pb::LaserScan>(make.scan());
+  expect_round_trip<pb::SonarScan>(make.sonar());
+  expect_round_trip<pb::Image>(make.image());
+  expect_round_trip<pb::ImageFrame>(make.frame());
+  expect_round_trip<pb::TileUpdate>(make.tiles());
+  expect_round_trip<pb::Detection>(make.detection());
+  expect_round_trip<pb::GridReport>(make.grid());
+  expect_round_trip<pb::MissionRequest>(make.mission());
+  expect_round_trip<pb::MissionStatus>(make.mission_status());
+  expect_round_trip<pb::RobotStatus>(make.status());
+  expect_round_trip<pb::RobotInfo>(make.info());
+  expect_round_trip<pb::ComponentInfo>(make.component());
+  expect_round_trip<pb::LeaseState>(make.lease());
+  expect_round_trip<pb::Event>(make.event());
+  expect_round_trip<pb::DriveCommand>(make.drive());
+  RC_ASSERT(!::testing::Test::HasFailure());
+}
+
+RC_GTEST_PROP(Convert, AnUpdateEncodedOnceIsReadByEveryReceiver, (std::uint64_t seed)) {
+  ValueMaker make(seed);
+  api::Update update;
+  update.topic = make.one_of(api::Topic::kDetection);
+  update.sequence = seed + 1;
+  update.stamp = make.time();
+  update.payload = make.payload(update.topic);
+  const SharedBody body = encode_body(update);
+  for (const std::uint64_t dropped : {std::uint64_t{0}, seed}) {
+    const OutFrame frame = stream_frame(body, 17, dropped);
+    FrameDecoder decoder;
+    RC_ASSERT(decoder.feed(frame.head + *frame.body + frame.tail).has_value());
+    const auto envelope = parse_envelope(*decoder.next());
+    RC_ASSERT(envelope.has_value());
+    RC_ASSERT(envelope->stream_update().subscription_id() == 17U);
+    const auto back = from_message<api::Update>(envelope->stream_update());
+    RC_ASSERT(back.has_value());
+    RC_ASSERT(back->payload == update.payload);
+    RC_ASSERT(back->dropped == dropped);
+    RC_ASSERT(back->stamp == update.stamp);
+  }
+}
+
+RC_GTEST_PROP(Convert, TilesEncodedOneByOneAreOneUpdate, (std::uint64_t seed)) {
+  ValueMaker make(seed);
+  const api::TileUpdate tiles = make.tiles();
+  std::vector<SharedBody> entries;
+  for (const OccupancyTile& tile : tiles.tiles) {
+    entries.push_back(encode_tile(tile));
+  }
+  pb::StreamUpdate message;
+  RC_ASSERT(message.ParseFromString(*join_tiles({5, robot_time_s(2.0), tiles.revision, tiles.map_epoch}, entries)));
+  const auto back = from_message<api::Update>(message);
+  RC_ASSERT(back.has_value());
+  RC_ASSERT(back->payload == api::Payload(tiles));
+}
+
+RC_GTEST_PROP(Convert, AnyBytesBecomeValidText, (std::string bytes)) {
+  pb::Event event;
+  event.set_text(clean_text(bytes));
+  RC_ASSERT(event.ParseFromString(event.SerializeAsString()));
+}
+
+TEST(Convert, LongTextIsCutAtACharacter) {
+  EXPECT_EQ(clean_text("aé", 2), "a");
+  EXPECT_EQ(clean_text("a\xff"
+                       "b"),
+            "a?b");
+}
+
+/// What is refused, and the field that the error names.
+template <class T, class M>
+void expect_refused(const M& message, const std::string& field, Errc code) {
+  const Result<T> value = from_message<T>(message);
+  ASSERT_FALSE(value) << field;
+  EXPECT_EQ(value.error().code, code) << value.error().message;
+  EXPECT_NE(value.error().message.find("'" + field + "'"), std::string::npos) << value.error().message;
+}
+
+TEST(Convert, RefusalsNameTheField) {
+  ValueMaker make(1);
+  auto status = to_message<pb::RobotStatus>(make.status());
+  status.mutable_pose()->mutable_map_t_base()->set_y_m(std::numeric_limits<double>::quiet_NaN());
+  expect_refused<api::RobotStatus>(status, "pose.map_t_base.y_m", Errc::kInvalidArgument);
+  status = to_message<pb::RobotStatus>(make.status());
+  status.clear_velocity();
+  expect_refused<api::RobotStatus>(status, "velocity", Errc::kInvalidArgument);
+  status = to_message<pb::RobotStatus>(make.status());
+  status.mutable_pose()->set_quality(static_cast<pb::LocalisationQuality>(99));
+  expect_refused<api::RobotStatus>(status, "pose.quality", Errc::kInvalidArgument);
+  auto event = to_message<pb::Event>(make.event());
+  event.set_severity(pb::SEVERITY_UNSPECIFIED);
+  expect_refused<api::Event>(event, "severity", Errc::kInvalidArgument);
+  event = to_message<pb::Event>(make.event());
+  event.set_text(std::string(kMaxTextBytes + 1, 'x'));
+  expect_refused<api::Event>(event, "text", Errc::kTooLarge);
+  pb::DriveCommand drive = to_message<pb::DriveCommand>(make.drive());
+  drive.set_ttl_ns(2'000'000'000);
+  expect_refused<api::DriveCommand>(drive, "ttl_ns", Errc::kInvalidArgument);
+  pb::MissionRequest nothing;
+  nothing.set_id("m");
+  expect_refused<api::MissionRequest>(nothing, "task", Errc::kInvalidArgument);
+}
+
+TEST(Convert, SizesAreBoundedBeforeMemoryIsSpent) {
+  pb::Image image;
+  image.set_width_px(8192);
+  image.set_height_px(8192);
+  image.set_channels(3);
+  image.set_encoding(pb::Image::ENCODING_ZSTD);
+  expect_refused<Image>(image, "data", Errc::kTooLarge);
+  image.set_width_px(100'000);
+  expect_refused<Image>(image, "width_px", Errc::kTooLarge);
+  pb::LaserScan scan = to_message<pb::LaserScan>(ValueMaker(3).scan());
+  scan.mutable_ranges_m()->Resize(static_cast<int>(kMaxScanBeams) + 1, 1.0F);
+  expect_refused<LaserScan>(scan, "ranges_m", Errc::kTooLarge);
+  pb::TileUpdate tiles;
+  for (std::size_t k = 0; k <= kMaxTilesPerUpdate; ++k) {
+    tiles.add_tiles();
+  }
+  expect_refused<api::TileUpdate>(tiles, "tiles", Errc::kTooLarge);
+}
+
+TEST(Convert, ATileMustUnpackToExactlyItsCells) {
+  pb::TileUpdate update = to_message<pb::TileUpdate>(api::TileUpdate{1, 0, {OccupancyTile{}}});
+  update.mutable_tiles(0)->mutable_cells_zstd()->pop_back();
+  expect_refused<api::TileUpdate>(update, "tiles[0].cells_zstd", Errc::kCorrupt);
+}
+
+TEST(Convert, AFrameOfCountlessTinyMessagesIsRefusedBeforeTheyAreBuilt) {
+  pb::Envelope envelope;
+  auto* targets = envelope.mutable_request()->mutable_start_mission()->mutable_mission()->mutable_search();
+  for (std::size_t k = 0; k <= kMaxMessagesPerFrame; ++k) {
+    targets->add_targets();
+  }
+  const auto parsed = parse_envelope(envelope.SerializeAsString());
+  ASSERT_FALSE(parsed);
+  EXPECT_EQ(parsed.error().code, Errc::kTooLarge);
+}
+
+TEST(Convert, BytesThatAreNoEnvelopeAreRefused) {
+  for (const std::string& bytes : {std::string(), std::string("\xff\xff\xff"), std::string("\x2a\x7f", 2)}) {
+    EXPECT_FALSE(parse_envelope(bytes));
+  }
+}
+
+}  // namespace
+}  // namespace seeker::wire

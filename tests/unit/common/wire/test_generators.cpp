@@ -1,0 +1,211 @@
+#include "tests/unit/common/wire/generators.hpp"
+
+namespace seeker::testing {
+
+LaserScan ValueMaker::scan() {
+  LaserScan s;
+  s.stamp = time();
+  s.angle_min_rad = number();
+  s.angle_step_rad = flag() ? 0.01 : -0.01;
+  s.range_min_m = number();
+  s.range_max_m = number();
+  s.base_T_laser = pose();
+  s.ranges_m.resize(static_cast<std::size_t>(count(30)));
+  for (float& range : s.ranges_m) {
+    range = flag() ? static_cast<float>(rng_.uniform() * 30.0) : kNoReturn;
+  }
+  s.quality.assign(flag() ? s.ranges_m.size() : 0, 9);
+  return s;
+}
+
+SonarScan ValueMaker::sonar() {
+  SonarScan s{time(), number(), number(), {}};
+  for (int k = count(16); k > 0; --k) {
+    s.readings.push_back({pose(), flag() ? 1.5F : kNoReturn});
+  }
+  return s;
+}
+
+OccupancyTile ValueMaker::tile() {
+  OccupancyTile t;
+  t.index = {count(100) - 50, count(100) - 50};
+  t.revision = rng_.bits();
+  const bool noisy = flag();
+  for (auto& cell : t.cells) {
+    cell = noisy ? static_cast<std::uint8_t>(rng_.below(256)) : kUnknownCell;
+  }
+  return t;
+}
+
+api::TileUpdate ValueMaker::tiles() {
+  api::TileUpdate u{rng_.bits(), static_cast<std::uint32_t>(rng_.below(1000)), {}};
+  for (int k = count(3); k > 0; --k) {
+    u.tiles.push_back(tile());
+  }
+  return u;
+}
+
+api::Detection ValueMaker::detection() {
+  api::Detection d;
+  d.id = rng_.bits();
+  d.target = text();
+  d.stamp = time();
+  d.u_px = number();
+  d.v_px = number();
+  d.score = rng_.uniform();
+  d.map_T_base = pose();
+  d.bearing_base_rad = number();
+  d.bearing_map_rad = number();
+  if (flag()) {
+    d.position = point();
+  }
+  const double xy = number();
+  d.position_covariance << number(), xy, xy, number();
+  d.range_source = one_of(api::RangeSource::kTriangulation);
+  d.sightings = count(50);
+  d.map_epoch = static_cast<std::uint32_t>(count(9));
+  return d;
+}
+
+api::CoverageSummary ValueMaker::coverage() { return {number(), number(), number(), number(), count(9)}; }
+
+api::GridReport ValueMaker::grid() {
+  api::GridReport g;
+  g.lists = {rng_.uniform(), points(), points(), points(), count(9), count(9)};
+  g.evidence.probability = Grid<std::uint8_t>({point(), 0.1 + rng_.uniform()}, count(20), count(20), 254);
+  for (int k = count(3); k > 0; --k) {
+    g.evidence.gaps.push_back({point(), number(), text()});
+  }
+  g.evidence.summary = coverage();
+  g.evidence.map_epoch = static_cast<std::uint32_t>(count(9));
+  g.map_epoch = static_cast<std::uint32_t>(count(9));
+  return g;
+}
+
+api::MissionRequest ValueMaker::mission() {
+  api::MissionRequest m;
+  m.id = "m-" + std::to_string(count(99));
+  m.link_policy = one_of(api::LinkPolicy::kReturn);
+  if (flag()) {
+    m.time_limit = Duration(count(1'000'000));
+  }
+  switch (count(2)) {
+    case 0: {
+      api::SearchMission search;
+      for (int k = count(3); k > 0; --k) {
+        search.targets.push_back(
+            {text(), image(), number(), number(), number(), one_of(api::RecogniserKind::kFeatures)});
+      }
+      search.mode = one_of(api::SearchMode::kPlan);
+      search.on_found = one_of(api::OnFound::kContinue);
+      if (flag()) {
+        search.bound = points();
+      }
+      search.keep_out = {points(), points()};
+      search.gaps_only = flag();
+      m.task = search;
+      break;
+    }
+    case 1: {
+      api::GotoMission go{points(), {}, {points()}};
+      if (flag()) {
+        go.final_heading_rad = number();
+      }
+      m.task = go;
+      break;
+    }
+    default: m.task = api::ReturnMission{};
+  }
+  return m;
+}
+
+api::MissionStatus ValueMaker::mission_status() {
+  api::MissionStatus m;
+  m.id = text();
+  m.kind = text();
+  m.state = one_of(api::MissionState::kEnded);
+  m.phase = text();
+  m.activity = text();
+  m.progress = rng_.uniform();
+  m.started = time();
+  m.updated = time();
+  m.path_length_m = number();
+  m.cells_searched = count(99);
+  m.cells_unsearched = count(99);
+  if (flag()) {
+    m.coverage = coverage();
+  }
+  m.planned_path = points();
+  m.link_policy = one_of(api::LinkPolicy::kReturn);
+  if (m.state == api::MissionState::kEnded) {
+    m.end = api::MissionEnd{one_of(api::Outcome::kFault), text(), text(), points()};
+  }
+  return m;
+}
+
+PoseEstimate ValueMaker::estimate() {
+  PoseEstimate e;
+  e.stamp = time();
+  e.map_T_base = pose();
+  const Matrix3 any = Matrix3::NullaryExpr([this](auto) { return number(); });
+  e.covariance = any + any.transpose().eval();
+  e.quality = one_of(LocalisationQuality::kLost);
+  e.cause = text();
+  e.map_epoch = static_cast<std::uint32_t>(count(9));
+  return e;
+}
+
+api::RobotStatus ValueMaker::status() {
+  api::RobotStatus s;
+  s.stamp = time();
+  s.pose = estimate();
+  s.odom_T_base = pose();
+  s.velocity = {number(), number()};
+  if (flag()) {
+    s.battery_v = number();
+  }
+  s.estop = flag();
+  s.motors_armed = flag();
+  s.lease = lease();
+  if (flag()) {
+    s.mission = mission_status();
+  }
+  for (int k = count(3); k > 0; --k) {
+    s.faults.push_back({text(), text(), one_of(api::Severity::kCritical), time(), text(), text()});
+  }
+  s.safety = text();
+  s.clock_speed = number();
+  s.map_revision = rng_.bits();
+  return s;
+}
+
+api::RobotInfo ValueMaker::info() { return {"r2", text(), 1, 7, {"search", "goto"}, rng_.uniform(), flag()}; }
+
+api::ComponentInfo ValueMaker::component() {
+  return {text(), text(), text(), one_of(api::ComponentState::kError), number(), text()};
+}
+
+api::Event ValueMaker::event() {
+  api::Event e{rng_.bits(), time(), {}, text(), one_of(api::Severity::kCritical), text(), text()};
+  if (flag()) {
+    e.mission_time = Duration(count(1000));
+  }
+  return e;
+}
+
+api::Payload ValueMaker::payload(api::Topic topic) {
+  switch (topic) {
+    case api::Topic::kStatus: return status();
+    case api::Topic::kScan: return scan();
+    case api::Topic::kSonar: return sonar();
+    case api::Topic::kTiles: return tiles();
+    case api::Topic::kGrid: return grid();
+    case api::Topic::kImage: return frame();
+    case api::Topic::kMission: return mission_status();
+    case api::Topic::kEvent: return event();
+    case api::Topic::kDetection: return detection();
+  }
+  return status();
+}
+
+}  // namespace seeker::testing
