@@ -21,6 +21,7 @@ FaceGrid::FaceGrid(const Point2& min_corner, const Point2& max_corner, std::vect
   origin_ = low - Point2::Constant(kMargin_m);
   const Point2 side = high - low + Point2::Constant(2.0 * kMargin_m);
   cell_m_ = std::max(kCell_m, side.maxCoeff() / kMaxCells);
+  cells_per_m_ = 1.0 / cell_m_;
   columns_ = std::max(1, static_cast<int>(std::ceil(side.x() / cell_m_)));
   rows_ = std::max(1, static_cast<int>(std::ceil(side.y() / cell_m_)));
 

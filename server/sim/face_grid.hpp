@@ -53,10 +53,10 @@ class FaceGrid {
 
  private:
   [[nodiscard]] int column(double x) const {
-    return std::clamp(static_cast<int>((x - origin_.x()) / cell_m_), 0, columns_ - 1);
+    return std::clamp(static_cast<int>((x - origin_.x()) * cells_per_m_), 0, columns_ - 1);
   }
   [[nodiscard]] int row(double y) const {
-    return std::clamp(static_cast<int>((y - origin_.y()) / cell_m_), 0, rows_ - 1);
+    return std::clamp(static_cast<int>((y - origin_.y()) * cells_per_m_), 0, rows_ - 1);
   }
   [[nodiscard]] std::span<const std::uint32_t> cell(int i, int j) const {
     const auto at = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
@@ -67,6 +67,7 @@ class FaceGrid {
   std::vector<Segment> segments_;
   Point2 origin_ = Point2::Zero();
   double cell_m_ = 0.5;
+  double cells_per_m_ = 2.0;
   int columns_ = 1;
   int rows_ = 1;
   std::vector<std::uint32_t> starts_{0, 0};  ///< first item of each cell, row by row

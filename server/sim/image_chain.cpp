@@ -19,15 +19,14 @@ float side_weight(double sigma_px) {
 }  // namespace
 
 ImageChain::ImageChain(const OmniModel& model)
-    : width_px_(model.width_px),
-      height_px_(model.height_px),
-      side_weight_(side_weight(model.blur_sigma_px)),
-      sigma_(static_cast<float>(model.noise_sigma)),
-      shot_(static_cast<float>(model.shot_noise)) {
+    : width_px_(model.width_px), height_px_(model.height_px), side_weight_(side_weight(model.blur_sigma_px)) {
   Rng rng(kNoiseSeed);
   unit_noise_.resize(kNoiseTable);
   for (float& value : unit_noise_) {
     value = static_cast<float>(rng.normal(1.0));
+  }
+  for (std::size_t grey = 0; grey < sigma_of_.size(); ++grey) {
+    sigma_of_[grey] = static_cast<float>(model.noise_sigma + model.shot_noise * std::sqrt(static_cast<double>(grey)));
   }
   const std::size_t size = static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_);
   rows_.resize(size);
@@ -67,7 +66,7 @@ Image ImageChain::expose(const std::vector<float>& light, Rng& rng) {
     std::size_t at = static_cast<std::size_t>(rng.below(kNoiseTable));
     for (std::size_t u = 0; u < width; ++u) {
       const float value = blurred_[v * width + u];
-      const float sigma = sigma_ + shot_ * std::sqrt(value);
+      const float sigma = sigma_of_[static_cast<std::size_t>(std::min(value, kWhite))];
       const float grey = value + sigma * unit_noise_[at];
       at = (at + 1) & (kNoiseTable - 1);
       image.data()[v * width + u] = static_cast<std::uint8_t>(std::clamp(grey + 0.5F, 0.0F, kWhite));

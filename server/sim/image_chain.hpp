@@ -2,6 +2,7 @@
 /// From light to grey values: blur of the lens, noise of the sensor, 8 bits.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/core/image.hpp"
@@ -22,9 +23,8 @@ class ImageChain {
 
   int width_px_;
   int height_px_;
-  float side_weight_;  ///< of each neighbour in the 3-tap blur
-  float sigma_;
-  float shot_;
+  float side_weight_;                  ///< of each neighbour in the 3-tap blur
+  std::array<float, 256> sigma_of_{};  ///< noise of each grey value
   std::vector<float> unit_noise_;  ///< standard normal numbers: drawing each afresh would take longer than the picture
   std::vector<float> rows_;
   std::vector<float> blurred_;

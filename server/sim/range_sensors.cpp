@@ -8,10 +8,10 @@ namespace {
 
 /// Probability that a return is lost on a surface seen under this incidence.
 double grazing_loss(const LidarModel& model, double cos_incidence) {
-  const double incidence = std::acos(std::min(1.0, cos_incidence));
-  if (incidence <= model.grazing_rad) {
+  if (cos_incidence >= std::cos(model.grazing_rad)) {
     return 0.0;
   }
+  const double incidence = std::acos(cos_incidence);
   const double span = model.grazing_certain_rad - model.grazing_rad;
   return span > 0.0 ? std::min(1.0, (incidence - model.grazing_rad) / span) : 1.0;
 }

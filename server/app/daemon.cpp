@@ -1,0 +1,121 @@
+#include "server/app/daemon.hpp"
+
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+
+#include "common/log/log.hpp"
+#include "server/app/device_factory.hpp"
+#include "server/app/robot.hpp"
+#include "server/app/robot_options.hpp"
+#include "server/net/server.hpp"
+#include "server/store/atomic_file.hpp"
+
+namespace seeker::app {
+namespace {
+
+constexpr int kExitConfig = 78;  // sysexits EX_CONFIG
+constexpr const char* kPart = "seekerd";
+
+/// SIGTERM and SIGINT as something one can wait for. They are blocked in every thread made afterwards.
+class TerminationSignals {
+ public:
+  TerminationSignals() {
+    sigemptyset(&set_);
+    sigaddset(&set_, SIGTERM);
+    sigaddset(&set_, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);
+    fd_ = signalfd(-1, &set_, SFD_CLOEXEC);
+  }
+  TerminationSignals(const TerminationSignals&) = delete;
+  TerminationSignals& operator=(const TerminationSignals&) = delete;
+  ~TerminationSignals() { close(fd_); }
+
+  /// True when a signal came within the time.
+  [[nodiscard]] bool wait(std::chrono::milliseconds limit) const {
+    pollfd entry{.fd = fd_, .events = POLLIN, .revents = 0};
+    return poll(&entry, 1, static_cast<int>(limit.count())) > 0;
+  }
+
+ private:
+  sigset_t set_{};
+  int fd_ = -1;
+};
+
+int config_error(const Error& error) {
+  log::error(kPart, error.message);
+  return kExitConfig;
+}
+
+int serve(const DaemonArguments& arguments, const RobotOptions& options, Assembly assembly) {
+  const TerminationSignals signals;
+  Robot robot(
+      {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
+      options.loop, std::move(assembly.parts));
+  server_net::ServerParams params = options.server;
+  params.port = arguments.port.value_or(params.port);
+  params.robot_now = [&robot] { return robot.now(); };
+  server_net::Server server(robot, params);
+  robot.start(options.driver == DriverType::kReplay && options.replay.wait_for_client);
+  const Result<std::uint16_t> port = server.start();
+  if (!port) {
+    log::error(kPart, port.error().message);
+    return EXIT_FAILURE;
+  }
+  log::info(kPart, options.robot_id + " listens on " + params.address + ":" + std::to_string(*port));
+  if (!arguments.port_file.empty()) {
+    if (const Status written = store::write_file_atomically(arguments.port_file, std::to_string(*port) + "\n");
+        !written) {
+      log::error(kPart, written.error().message);
+      return EXIT_FAILURE;
+    }
+  }
+  constexpr std::chrono::milliseconds kPoll{200};
+  while (!signals.wait(kPoll)) {
+    if (options.replay.exit_at_end && robot.ended()) {
+      log::info(kPart, "the log has ended");
+      break;
+    }
+  }
+  log::info(kPart, "stopping: motion first, then the sessions");
+  robot.stop();
+  server.stop();
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+std::filesystem::path default_state_folder() {
+  if (const char* folder = std::getenv("STATE_DIRECTORY"); folder != nullptr && *folder != '\0') {
+    return folder;
+  }
+  if (const char* folder = std::getenv("XDG_STATE_HOME"); folder != nullptr && *folder != '\0') {
+    return std::filesystem::path(folder) / "seeker";
+  }
+  const char* home = std::getenv("HOME");
+  return std::filesystem::path(home != nullptr ? home : ".") / ".local/state/seeker";
+}
+
+int run_daemon(const DaemonArguments& arguments) {
+  log::set_level(log::parse_level(arguments.log_level));
+  const Result<RobotOptions> options = load_robot_options(arguments.config, arguments.overrides);
+  if (!options) {
+    return config_error(options.error());
+  }
+  if (arguments.print_config) {
+    std::cout << config::print(*options);
+    return EXIT_SUCCESS;
+  }
+  Result<Assembly> assembly = assemble(*options);
+  if (!assembly) {
+    return config_error(assembly.error());
+  }
+  return serve(arguments, *options, std::move(*assembly));
+}
+
+}  // namespace seeker::app

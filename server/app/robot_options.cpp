@@ -1,0 +1,150 @@
+#include "server/app/robot_options.hpp"
+
+#include "server/options/nav_options.hpp"
+#include "server/options/search_options.hpp"
+#include "server/options/sim_options.hpp"
+#include "server/options/slam_options.hpp"
+#include "server/options/vision_options.hpp"
+
+// None of these may stand in an unnamed namespace: argument-dependent look-up would not find them from Fields.
+
+namespace seeker::drivers {
+void describe(config::Fields& f, SimDeviceParams& params) {
+  f.seconds("base_period_s", params.base_period);
+  f.seconds("lidar_period_s", params.lidar_period);
+  f.seconds("sonar_period_s", params.sonar_period);
+  f.seconds("command_timeout_s", params.command_timeout);
+}
+
+void describe(config::Fields& f, ReplayParams& params) {
+  f.angle_deg("angle_min_deg", params.angle_min_rad);
+  f.angle_deg("angle_step_deg", params.angle_step_rad);
+  f.field("range_min_m", params.range_min_m);
+  f.field("range_max_m", params.range_max_m);
+  f.field("base_T_laser", params.base_T_laser);
+}
+
+}  // namespace seeker::drivers
+
+namespace seeker::search {
+void describe(config::Fields& f, ControlTableParams& params) {
+  f.field("distances_m", params.distances_m);
+  f.field("target_step_deg", params.target_step_deg);
+}
+
+}  // namespace seeker::search
+
+namespace seeker::server_net {
+void describe(config::Fields& f, ServerParams& params) {
+  f.field("address", params.address);
+  int port = params.port;
+  f.field("port", port);
+  constexpr int kHighestPort = 65535;
+  const bool valid = port >= 0 && port <= kHighestPort;
+  f.check("port", valid, "must be from 0 to 65535");
+  params.port = valid ? static_cast<std::uint16_t>(port) : params.port;
+  f.seconds("heartbeat_s", params.heartbeat);
+  f.seconds("lost_after_s", params.lost_after);
+}
+
+}  // namespace seeker::server_net
+
+namespace seeker::app {
+void describe(config::Fields& f, SafetyParams& params) {
+  f.field("max_v_m_s", params.max_v_m_s);
+  f.angle_deg("max_omega_deg_s", params.max_omega_rad_s);
+  f.section("clearance", params.clearance);
+  f.field("sonar_stop_range_m", params.sonar_stop_range_m);
+  f.field("sonar_slack_m", params.sonar_slack_m);
+}
+
+void describe(config::Fields& f, MissionParams& params) {
+  f.seconds("link_grace_s", params.link_grace);
+  f.seconds("fault_grace_s", params.fault_grace);
+  f.seconds("lost_grace_s", params.lost_grace);
+  f.seconds("report_period_s", params.report_period);
+}
+
+void describe(config::Fields& f, LoopParams& params) {
+  f.seconds("period_s", params.period);
+  f.check("period_s", params.period > Duration::zero(), "must be above 0");
+  f.seconds("base_timeout_s", params.base_timeout);
+  f.seconds("lidar_timeout_s", params.lidar_timeout);
+  f.seconds("sonar_timeout_s", params.sonar_timeout);
+  f.seconds("tile_period_s", params.tile_period);
+  f.seconds("grid_period_s", params.grid_period);
+  f.field("trajectory_spacing_m", params.trajectory_spacing_m);
+  f.section("safety", params.safety);
+  f.section("mission", params.mission);
+}
+
+void describe(config::Fields& f, GotoParams& params) {
+  f.section("cost_map", params.cost_map);
+  f.section("planner", params.planner);
+  f.section("follower", params.follower);
+  f.seconds("replan_period_s", params.replan_period);
+  f.field("max_failures", params.max_failures);
+}
+
+void describe(config::Fields& f, SimSettings& settings) {
+  f.field("world", settings.world);
+  f.field("seed", settings.seed);
+  f.field("speed", settings.speed);
+  f.field("start", settings.start);
+  f.field("random_target", settings.random_target);
+  f.field("people", settings.people);
+  f.section("robot", settings.robot);
+  f.section("devices", settings.devices);
+}
+
+void describe(config::Fields& f, ReplaySettings& settings) {
+  f.field("log", settings.log);
+  f.field("speed", settings.speed);
+  f.field("wait_for_client", settings.wait_for_client);
+  f.field("exit_at_end", settings.exit_at_end);
+  f.section("laser", settings.params);
+}
+
+void describe(config::Fields& f, SearchBehaviourParams& params) {
+  f.section("coverage", params.search);
+  f.section("recogniser", params.recogniser);
+}
+
+void describe(config::Fields& f, RobotOptions& options) {
+  f.field("robot_id", options.robot_id);
+  f.choice("driver", options.driver,
+           config::Choices<DriverType>{{"sim", DriverType::kSim}, {"replay", DriverType::kReplay}});
+  f.field("robot_radius_m", options.robot_radius_m);
+  f.section("sim", options.sim);
+  f.section("replay", options.replay);
+  f.section("loop", options.loop);
+  f.choice("estimator", options.estimator,
+           config::Choices<EstimatorType>{{"odometry", EstimatorType::kOdometry},
+                                          {"scan_match", EstimatorType::kScanMatch}});
+  f.section("tracking", options.tracking);
+  f.section("occupancy", options.occupancy);
+  f.section("goto", options.go);
+  f.section("search", options.search);
+  f.section("control_table", options.control_table);
+  f.section("server", options.server);
+}
+
+Result<RobotOptions> load_robot_options(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  RobotOptions options;
+  if (const Status ok = config::load_file(file, options, overrides); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  options.folder = file.parent_path();
+  return options;
+}
+
+std::filesystem::path resolve(const RobotOptions& options, const std::string& path) {
+  const std::filesystem::path written(path);
+  if (written.is_absolute()) {
+    return written;
+  }
+  const std::filesystem::path beside = options.folder / written;
+  return std::filesystem::exists(beside) ? beside : written;
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,68 @@
+/// \file
+/// Everything a robot file may say: one tree that mirrors the parameter structs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/config/yaml.hpp"
+#include "server/app/goto_behaviour.hpp"
+#include "server/app/robot_loop.hpp"
+#include "server/app/search_behaviour.hpp"
+#include "server/drivers/replay/replay.hpp"
+#include "server/drivers/sim/sim_devices.hpp"
+#include "server/net/server.hpp"
+#include "server/sim/robot_model.hpp"
+#include "server/slam/scan_map_tracker.hpp"
+
+namespace seeker::app {
+
+enum class DriverType : std::uint8_t { kSim, kReplay };
+
+struct SimSettings {
+  std::string world = "../worlds/demo.yaml";  ///< relative to the robot file, else to the working directory
+  std::uint64_t seed = 1;
+  double speed = 0.0;          ///< robot seconds per wall second; 0: as fast as possible
+  std::uint64_t start = 0;     ///< which of the world's start poses
+  bool random_target = false;  ///< put the world's first target at a place drawn from the seed
+  bool people = false;         ///< people walk
+  sim::RobotModel robot;
+  drivers::SimDeviceParams devices;
+};
+
+struct ReplaySettings {
+  std::string log;              ///< CARMEN log, plain or .gz
+  double speed = 1.0;           ///< 0: as fast as possible
+  bool wait_for_client = true;  ///< the log starts when the first client has connected
+  bool exit_at_end = false;
+  drivers::ReplayParams params;
+};
+
+struct RobotOptions {
+  std::string robot_id = "seeker-1";
+  DriverType driver = DriverType::kSim;
+  double robot_radius_m = 0.26;
+  SimSettings sim;
+  ReplaySettings replay;
+  LoopParams loop;
+  EstimatorType estimator = EstimatorType::kScanMatch;
+  slam::ScanMapParams tracking;  ///< its `odometry` part also drives pure dead reckoning
+  nav::OccupancyParams occupancy;
+  GotoParams go;
+  SearchBehaviourParams search;
+  search::ControlTableParams control_table;
+  server_net::ServerParams server;
+  std::filesystem::path folder;  ///< of the robot file; not a field
+};
+
+void describe(config::Fields& f, RobotOptions& options);
+
+/// Reads a robot file; `overrides` are "key.path=value".
+[[nodiscard]] Result<RobotOptions> load_robot_options(const std::filesystem::path& file,
+                                                      const std::vector<std::string>& overrides = {});
+
+/// A path written in a robot file: absolute, relative to the file's folder, or relative to the working directory.
+[[nodiscard]] std::filesystem::path resolve(const RobotOptions& options, const std::string& path);
+
+}  // namespace seeker::app

@@ -1,0 +1,74 @@
+#include "server/options/slam_options.hpp"
+
+namespace seeker::slam {
+
+void describe(config::Fields& f, OdometryParams& params) {
+  f.field("along_sigma_m_per_sqrt_m", params.along_sigma_m_per_sqrt_m);
+  f.field("across_sigma_m_per_sqrt_m", params.across_sigma_m_per_sqrt_m);
+  f.field("theta_sigma_rad_per_sqrt_m", params.theta_sigma_rad_per_sqrt_m);
+  f.angle_deg("theta_sigma_rad_per_sqrt_deg", params.theta_sigma_rad_per_sqrt_rad);
+  f.field("jump_m", params.jump_m);
+  f.field("jump_speed_m_s", params.jump_speed_m_s);
+  f.angle_deg("jump_deg", params.jump_rad);
+  f.angle_deg("jump_speed_deg_s", params.jump_speed_rad_s);
+  f.field("jump_sigma_m", params.jump_sigma_m);
+  f.angle_deg("jump_sigma_deg", params.jump_sigma_rad);
+}
+
+void describe(config::Fields& f, NormalParams& params) {
+  f.field("neighbours", params.neighbours);
+  f.field("radius_m", params.radius_m);
+  f.field("spacings", params.spacings);
+  f.field("min_points", params.min_points);
+  f.field("max_thickness_ratio", params.max_thickness_ratio);
+}
+
+void describe(config::Fields& f, MatchParams& params) {
+  f.field("max_iterations", params.max_iterations);
+  f.field("first_gate_m", params.first_gate_m);
+  f.field("last_gate_m", params.last_gate_m);
+  f.field("gate_shrink", params.gate_shrink);
+  f.field("min_normal_cosine", params.min_normal_cosine);
+  f.field("huber_m", params.huber_m);
+  f.field("inlier_m", params.inlier_m);
+  f.field("stop_m", params.stop_m);
+  f.angle_deg("stop_deg", params.stop_rad);
+  f.field("min_pairs", params.min_pairs);
+  f.field("degenerate_ratio", params.degenerate_ratio);
+  f.field("sigma_floor_m", params.sigma_floor_m);
+  f.field("covariance_inflation", params.covariance_inflation);
+  f.field("search_m", params.search_m);
+  f.angle_deg("search_deg", params.search_rad);
+  f.field("search_step_m", params.search_step_m);
+  f.angle_deg("search_step_deg", params.search_step_rad);
+  f.field("search_points", params.search_points);
+}
+
+void describe(config::Fields& f, ScanMapParams& params) {
+  f.section("odometry", params.odometry);
+  f.section("normals", params.normals);
+  f.section("match", params.match);
+  f.field("match_points", params.match_points);
+  f.field("keyframe_points", params.keyframe_points);
+  f.field("min_move_m", params.min_move_m);
+  f.angle_deg("min_turn_deg", params.min_turn_rad);
+  f.field("keyframe_distance_m", params.keyframe_distance_m);
+  f.angle_deg("keyframe_turn_deg", params.keyframe_turn_rad);
+  f.field("local_keyframes", params.local_keyframes);
+  f.field("local_range_m", params.local_range_m);
+  f.field("rebuild_m", params.rebuild_m);
+  f.angle_deg("rebuild_deg", params.rebuild_rad);
+  f.field("max_keyframes", params.max_keyframes);
+  f.field("good_ratio", params.good_ratio);
+  f.field("accept_ratio", params.accept_ratio);
+  f.field("gap_m", params.gap_m);
+  f.angle_deg("gap_deg", params.gap_rad);
+  f.field("new_space_ratio", params.new_space_ratio);
+  f.field("lost_after", params.lost_after);
+  f.field("max_correction_m", params.max_correction_m);
+  f.angle_deg("max_correction_deg", params.max_correction_rad);
+  f.field("map_sigma_m", params.map_sigma_m);
+  f.angle_deg("map_sigma_deg", params.map_sigma_rad);
+}
+
+}  // namespace seeker::slam

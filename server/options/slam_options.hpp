@@ -1,0 +1,15 @@
+/// \file
+/// YAML fields of pose tracking.
+#pragma once
+
+#include "common/config/fields.hpp"
+#include "server/slam/scan_map_tracker.hpp"
+
+namespace seeker::slam {
+
+void describe(config::Fields& f, OdometryParams& params);
+void describe(config::Fields& f, NormalParams& params);
+void describe(config::Fields& f, MatchParams& params);
+void describe(config::Fields& f, ScanMapParams& params);
+
+}  // namespace seeker::slam
