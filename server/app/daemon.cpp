@@ -54,9 +54,20 @@ int config_error(const Error& error) {
 
 int serve(const DaemonArguments& arguments, const RobotOptions& options, Assembly assembly) {
   const TerminationSignals signals;
+  const std::filesystem::path state = arguments.state.empty() ? default_state_folder() : arguments.state;
+  Result<std::unique_ptr<Journal>> journal = Journal::open(state / options.robot_id);
+  if (!journal) {
+    log::error(kPart, journal.error().message);
+    return EXIT_FAILURE;
+  }
+  if ((*journal)->unfinished()) {
+    log::warning(kPart,
+                 "mission '" + (*journal)->unfinished()->id +
+                     "' was cut off by a crash; 'seeker resume' starts it again, the robot stays disarmed until then");
+  }
   Robot robot(
       {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
-      options.loop, std::move(assembly.parts));
+      options.loop, std::move(assembly.parts), std::move(*journal));
   server_net::ServerParams params = options.server;
   params.port = arguments.port.value_or(params.port);
   params.robot_now = [&robot] { return robot.now(); };

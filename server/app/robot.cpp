@@ -113,10 +113,50 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   std::string client_;
 };
 
-Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts)
-    : identity_(std::move(identity)), loop_(params, std::move(parts), hub_), mailbox_(kMailboxCapacity) {}
+Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal)
+    : identity_(std::move(identity)),
+      loop_(params, std::move(parts), hub_),
+      mailbox_(kMailboxCapacity),
+      journal_(std::move(journal)) {
+  if (journal_) {
+    keep_journal();
+  }
+}
 
-Robot::~Robot() { stop(); }
+Robot::~Robot() {
+  stop();
+  if (journal_) {
+    journal_->set_on_error(nullptr);
+  }
+}
+
+void Robot::keep_journal() {
+  loop_.missions().continue_detection_ids(journal_->highest_detection_id());
+  loop_.offer_unfinished(journal_->unfinished());
+  loop_.on_mission_started = [this](const api::MissionRequest& request) {
+    journal_->mission_started(request, loop_.now());
+  };
+  loop_.on_mission = [this](const api::MissionStatus& status) { journal_->mission(status); };
+  loop_.on_event = [this](const api::Event& event) {
+    if (!event.mission.empty()) {
+      journal_->event(event);
+    }
+  };
+  loop_.on_detection = [this](const api::Detection& detection) {
+    const auto& mission = loop_.missions().last();
+    journal_->detection(detection, mission ? mission->id : std::string());
+  };
+  journal_->set_on_error([this](const Error& error) {
+    static_cast<void>(mailbox_.post([this, error] {
+      loop_.report_fault({.id = "journal-failed",
+                          .component = "journal",
+                          .severity = api::Severity::kWarning,
+                          .onset = loop_.now(),
+                          .message = "the journal cannot be written: " + error.message,
+                          .remedy = "free space on the disk of the state folder; missions go on without a journal"});
+    }));
+  });
+}
 
 void Robot::start(bool wait_for_client) {
   loop_.start();

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "common/api/robot_api.hpp"
+#include "server/app/journal.hpp"
 #include "server/app/mailbox.hpp"
 #include "server/app/robot_loop.hpp"
 
@@ -21,7 +22,8 @@ struct RobotIdentity {
 /// Owns loop, mailbox and thread. RobotApi calls from any thread become tasks of the loop's thread.
 class Robot final : public api::RobotHost {
  public:
-  Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts);
+  /// `journal` may be null: nothing is kept over a restart then.
+  Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal = nullptr);
   ~Robot() override;
 
   /// Starts the components, then the thread. With `wait_for_client` a replay begins with the first session.
@@ -42,6 +44,7 @@ class Robot final : public api::RobotHost {
  private:
   class Session;
 
+  void keep_journal();
   void run(bool wait_for_client);
   [[nodiscard]] api::RobotInfo info() const;
 
@@ -49,6 +52,7 @@ class Robot final : public api::RobotHost {
   UpdateHub hub_;
   RobotLoop loop_;
   Mailbox mailbox_;
+  std::unique_ptr<Journal> journal_;
   std::thread thread_;
   std::atomic<bool> client_seen_{false};
   std::atomic<bool> ended_{false};

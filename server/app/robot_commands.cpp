@@ -13,6 +13,10 @@ Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& reque
   Result<api::MissionId> id = missions_.start(request, client, situation());
   if (id) {
     authority_.arm();
+    unfinished_.reset();
+    if (on_mission_started) {
+      on_mission_started(request);
+    }
   }
   return id;
 }
@@ -21,6 +25,10 @@ Status RobotLoop::command_mission(api::MissionCommand command) {
   const bool resume = command == api::MissionCommand::kResume;
   if (resume && authority_.estop()) {
     return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
+  }
+  if (resume && !missions_.present() && unfinished_) {
+    const Result<api::MissionId> again = start_mission(api::MissionRequest(*unfinished_), "resumed");
+    return again ? Status() : Status(tl::unexpected<Error>(again.error()));
   }
   const Status done = missions_.command(command, now());
   if (done && resume) {
@@ -109,6 +117,10 @@ void RobotLoop::client_lost(const std::string& client, const std::string& why, W
   log("link-lost", "'" + client + "': " + why, api::Severity::kWarning);
   authority_.forget(client);
   missions_.client_lost(client, wall_now);
+}
+
+void RobotLoop::report_fault(const api::Fault& fault) {
+  raise(fault.id, fault.component, fault.message, fault.remedy, fault.severity);
 }
 
 void RobotLoop::client_back(const std::string& client) { missions_.client_back(client); }

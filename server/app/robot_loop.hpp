@@ -88,11 +88,16 @@ class RobotLoop {
   void client_back(const std::string& client);
   /// The client left on purpose: its lease is free, its mission goes on.
   void client_closed(const std::string& client);
+  /// The mission that a crash cut off: `resume` starts it again while no other has been started.
+  void offer_unfinished(std::optional<api::MissionRequest> request) { unfinished_ = std::move(request); }
+  /// A fault from outside the loop's own parts (the journal).
+  void report_fault(const api::Fault& fault);
   /// Everything a new subscriber needs is published in the next pass.
   void republish() { republish_ = true; }
 
   /// Called with every event, before it is published (journal, tests).
   std::function<void(const api::Event&)> on_event;
+  std::function<void(const api::MissionRequest&)> on_mission_started;
   std::function<void(const api::MissionStatus&)> on_mission;
   std::function<void(const api::Detection&)> on_detection;
 
@@ -142,6 +147,7 @@ class RobotLoop {
   bool motors_on_ = false;
   bool ended_ = false;
   bool republish_ = false;
+  std::optional<api::MissionRequest> unfinished_;
   std::vector<Pose2> trajectory_;
   std::uint64_t event_sequence_ = 0;
   std::uint64_t published_revision_ = 0;

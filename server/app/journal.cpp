@@ -1,0 +1,173 @@
+#include "server/app/journal.hpp"
+
+#include <utility>
+
+#include "common/wire/convert.hpp"
+
+namespace seeker::app {
+namespace {
+
+/// Waiting writes; a disk that is this far behind is not coming back soon.
+constexpr std::size_t kMaxWaiting = 10'000;
+
+std::int64_t ns(RobotTime time) { return time.time_since_epoch().count(); }
+
+store::Blob to_blob(const google::protobuf::MessageLite& message) {
+  store::Blob blob(message.ByteSizeLong());
+  message.SerializeWithCachedSizesToArray(blob.data());
+  return blob;
+}
+
+/// A request as it was stored; nothing where it cannot be read any more.
+std::optional<api::MissionRequest> parse_request(const store::Blob& blob) {
+  wire::pb::MissionRequest message;
+  if (!message.ParseFromArray(blob.data(), static_cast<int>(blob.size()))) {
+    return std::nullopt;
+  }
+  wire::Check check;
+  api::MissionRequest request;
+  wire::read(message, request, check);
+  if (!check.ok() || !api::validate(request)) {
+    return std::nullopt;
+  }
+  return request;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Journal>> Journal::open(const std::filesystem::path& folder) {
+  Result<store::Store> store = store::Store::open(folder);
+  if (!store) {
+    return tl::unexpected<Error>(store.error());
+  }
+  auto journal = std::unique_ptr<Journal>(new Journal(std::move(*store)));
+  const Result<std::uint64_t> highest = journal->store_.highest_detection_id();
+  if (!highest) {
+    return tl::unexpected<Error>(highest.error());
+  }
+  journal->highest_detection_id_ = *highest;
+  journal->close_unfinished();
+  journal->thread_ = std::thread([raw = journal.get()] { raw->work(); });
+  return journal;
+}
+
+Journal::Journal(store::Store store) : store_(std::move(store)) {}
+
+Journal::~Journal() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void Journal::close_unfinished() {
+  const Result<std::optional<store::UnfinishedMission>> found = store_.unfinished_mission();
+  if (!found || !found->has_value()) {
+    return;
+  }
+  const store::MissionRecord& mission = (*found)->mission;
+  unfinished_ = parse_request(mission.request);
+  // Its record is closed either way: a resumed mission begins a record of its own.
+  static_cast<void>(store_.end_mission(
+      mission.id,
+      {.ended_ns = mission.started_ns, .outcome = "FAULT", .cause = "the program was killed", .remedy = ""}));
+}
+
+void Journal::set_on_error(std::function<void(const Error&)> on_error) {
+  const std::lock_guard lock(mutex_);
+  on_error_ = std::move(on_error);
+}
+
+std::uint64_t Journal::dropped() const {
+  const std::lock_guard lock(mutex_);
+  return dropped_;
+}
+
+void Journal::enqueue(Write write) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (queue_.size() >= kMaxWaiting) {
+      queue_.pop_front();
+      ++dropped_;
+    }
+    queue_.push_back(std::move(write));
+  }
+  wake_.notify_one();
+}
+
+void Journal::mission_started(const api::MissionRequest& request, RobotTime now) {
+  enqueue([request, now](store::Store& store) {
+    wire::pb::MissionRequest message;
+    wire::write(request, &message);
+    return store.begin_mission({.id = request.id,
+                                .kind = std::string(api::task_name(request.task)),
+                                .request = to_blob(message),
+                                .started_ns = ns(now),
+                                .end = std::nullopt});
+  });
+}
+
+void Journal::mission(const api::MissionStatus& status) {
+  if (!status.end) {
+    return;
+  }
+  enqueue([id = status.id, end = *status.end, now = status.updated](store::Store& store) {
+    return store.end_mission(id, {.ended_ns = ns(now),
+                                  .outcome = std::string(to_string(end.outcome)),
+                                  .cause = end.cause,
+                                  .remedy = end.remedy});
+  });
+}
+
+void Journal::event(const api::Event& event) {
+  enqueue([event](store::Store& store) {
+    store::EventRecord record;
+    record.mission = event.mission;
+    record.sequence = event.sequence;
+    record.robot_time_ns = ns(event.stamp);
+    if (event.mission_time) {
+      record.mission_time_ns = event.mission_time->count();
+    }
+    record.severity = to_string(event.severity);
+    record.kind = event.kind;
+    record.text = event.text;
+    return store.record_event(record);
+  });
+}
+
+void Journal::detection(const api::Detection& detection, const std::string& mission) {
+  enqueue([detection, mission](store::Store& store) {
+    wire::pb::Detection message;
+    wire::write(detection, &message);
+    return store.save_detection({.id = detection.id,
+                                 .mission = mission,
+                                 .target = detection.target,
+                                 .stamp_ns = ns(detection.stamp),
+                                 .data = to_blob(message)});
+  });
+}
+
+void Journal::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait(lock, [this] { return quit_ || !queue_.empty(); });
+    if (queue_.empty()) {
+      return;
+    }
+    const Write write = std::move(queue_.front());
+    queue_.pop_front();
+    lock.unlock();
+    const Status written = write(store_);
+    lock.lock();
+    if (!written && told_ != written.error().code && on_error_) {
+      told_ = written.error().code;
+      on_error_(written.error());
+    }
+  }
+}
+
+}  // namespace seeker::app

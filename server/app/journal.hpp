@@ -1,0 +1,65 @@
+/// \file
+/// Writes what happens to the store, on its own thread: the disk never delays the loop.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "common/api/robot_state.hpp"
+#include "server/store/store.hpp"
+
+namespace seeker::app {
+
+/// Missions, their events and detections in order. When the disk cannot follow, the oldest waiting entry is dropped and
+/// counted; errors are told once per kind of error.
+class Journal {
+ public:
+  /// Opens the store. Errors as Store::open().
+  [[nodiscard]] static Result<std::unique_ptr<Journal>> open(const std::filesystem::path& folder);
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+  /// Writes what is waiting, then ends the thread.
+  ~Journal();
+
+  /// The mission that was running when the program was killed; nothing after an orderly end.
+  [[nodiscard]] const std::optional<api::MissionRequest>& unfinished() const { return unfinished_; }
+  [[nodiscard]] std::uint64_t highest_detection_id() const { return highest_detection_id_; }
+
+  void mission_started(const api::MissionRequest& request, RobotTime now);
+  void mission(const api::MissionStatus& status);
+  void event(const api::Event& event);
+  void detection(const api::Detection& detection, const std::string& mission);
+  /// Called on the journal's thread with the sentence of a failed write.
+  void set_on_error(std::function<void(const Error&)> on_error);
+  [[nodiscard]] std::uint64_t dropped() const;
+
+ private:
+  using Write = std::function<Status(store::Store&)>;
+
+  explicit Journal(store::Store store);
+  void enqueue(Write write);
+  void work();
+  void close_unfinished();
+
+  store::Store store_;
+  std::optional<api::MissionRequest> unfinished_;
+  std::uint64_t highest_detection_id_ = 0;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Write> queue_;
+  std::function<void(const Error&)> on_error_;
+  std::optional<Errc> told_;
+  std::uint64_t dropped_ = 0;
+  bool quit_ = false;
+  std::thread thread_;
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,215 @@
+// Server and client as two processes over real sockets.
+
+#include <csignal>
+#include <future>
+#include <mutex>
+
+#include <gtest/gtest.h>
+
+#include "common/rpc/robot_client.hpp"
+#include "common/rpc/wait.hpp"
+#include "tests/support/data.hpp"
+#include "tests/support/process.hpp"
+
+namespace seeker::testing {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr seconds kStart{60};
+constexpr seconds kCall{20};
+
+/// seekerd on a free port with a state folder of its own.
+class Daemon {
+ public:
+  explicit Daemon(std::vector<std::string> extra = {}, std::filesystem::path folder = fresh_folder("daemon"))
+      : folder_(std::move(folder)) {
+    const std::filesystem::path port_file = folder_ / "port";
+    std::filesystem::remove(port_file);
+    std::vector<std::string> arguments{
+        "--config",       source_file("config/robots/sim.yaml"), "--port", "0", "--port-file", port_file, "--state",
+        folder_ / "state"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    process.emplace(program("seekerd"), arguments, folder_ / "log");
+    const std::optional<std::string> text = wait_for_file(port_file, kStart);
+    port = text ? *text : "";
+    EXPECT_TRUE(text) << process->output();
+  }
+
+  [[nodiscard]] std::string address() const { return "127.0.0.1:" + port; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+  std::optional<ChildProcess> process;
+  std::string port;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// One call of the command line; its exit code.
+int seeker(const Daemon& daemon, std::vector<std::string> arguments, std::string* output = nullptr,
+           seconds limit = seconds(300)) {
+  arguments.insert(arguments.end(), {"--robot", daemon.address()});
+  ChildProcess client(program("seeker"), arguments, fresh_folder("client") / "out");
+  const std::optional<int> code = client.wait(limit);
+  if (output != nullptr) {
+    *output = client.output();
+  }
+  EXPECT_TRUE(code) << "the client did not end: " << client.output();
+  return code.value_or(-1);
+}
+
+std::shared_ptr<rpc::RobotClient> connect(const Daemon& daemon, const std::string& name) {
+  const Result<rpc::Endpoint> endpoint = rpc::parse_endpoint(daemon.address());
+  rpc::ClientParams params;
+  params.client_name = name;
+  Result<std::shared_ptr<rpc::RobotClient>> client = rpc::RobotClient::connect(endpoint.value(), params);
+  EXPECT_TRUE(client) << client.error().message;
+  return client.value();
+}
+
+std::string target_file() { return source_file("config/targets/cross.yaml"); }
+
+TEST(Processes, SearchOverTheWireFindsTheTargetAndSavesThePicture) {
+  const Daemon daemon;
+  std::string output;
+  const std::string prefix = daemon.folder() / "map";
+  EXPECT_EQ(seeker(daemon, {"search", "--target", target_file(), "--save", prefix}, &output), 0) << output;
+  EXPECT_NE(output.find("TARGET_FOUND"), std::string::npos) << output;
+  EXPECT_TRUE(std::filesystem::exists(prefix + ".png"));
+  EXPECT_EQ(seeker(daemon, {"map", "export", daemon.folder() / "office"}, &output), 0) << output;
+  for (const char* ending : {".pgm", ".yaml", ".png"}) {
+    EXPECT_TRUE(std::filesystem::exists(daemon.folder() / ("office" + std::string(ending)))) << ending;
+  }
+}
+
+TEST(Processes, EveryReportVerbAnswersWithJson) {
+  const Daemon daemon;
+  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
+           {"status"}, {"components"}, {"detections"}, {"camera", "grab", "--out", daemon.folder() / "view.png"}}) {
+    std::vector<std::string> arguments = verb;
+    arguments.emplace_back("--json");
+    std::string output;
+    EXPECT_EQ(seeker(daemon, arguments, &output), 0) << verb.front() << ": " << output;
+    EXPECT_TRUE(output.starts_with('{') || output.starts_with('[')) << output;
+  }
+}
+
+TEST(Processes, RefusalsHaveTheirExitCodes) {
+  const Daemon daemon;
+  EXPECT_EQ(seeker(daemon, {"no-such-verb"}), 2);
+  EXPECT_EQ(seeker(daemon, {"estop"}), 0);
+  std::string output;
+  EXPECT_EQ(seeker(daemon, {"search", "--target", target_file()}, &output), 3) << output;
+  EXPECT_NE(output.find("estop --release"), std::string::npos) << output;
+  EXPECT_EQ(seeker(daemon, {"estop", "--release"}), 0);
+  EXPECT_EQ(seeker(daemon, {"drive", "0.2", "0", "--for", "1"}, &output), 3) << output;
+  ChildProcess nobody(program("seeker"), {"status", "--robot", "127.0.0.1:1", "--timeout", "2"},
+                      daemon.folder() / "nobody");
+  EXPECT_EQ(nobody.wait(seconds(30)), 4);
+}
+
+TEST(Processes, ClientKilledInTheMissionLetsItsLinkPolicyDecide) {
+  // Slow enough that the mission outlives the grace of 5 s, fast enough for a test.
+  const Daemon daemon({"--set", "sim.speed=4", "--set", "loop.mission.link_grace_s=1"});
+  const auto watcher = connect(daemon, "watcher");
+  std::promise<api::MissionStatus> ended;
+  std::once_flag once;
+  auto subscription = watcher->subscribe({{.topic = api::Topic::kMission}}, [&](const api::UpdatePtr& update) {
+    const auto& status = std::get<api::MissionStatus>(update->payload);
+    if (status.end) {
+      std::call_once(once, [&] { ended.set_value(status); });
+    }
+  });
+  ASSERT_TRUE(subscription);
+  ChildProcess client(program("seeker"),
+                      {"search", "--target", target_file(), "--link-policy", "stop", "--robot", daemon.address()},
+                      daemon.folder() / "victim");
+  const auto running = [&] {
+    const Result<api::RobotStatus> status =
+        rpc::wait<api::RobotStatus>([&](auto reply) { watcher->get_status(std::move(reply)); }, kCall);
+    return status && status->mission && status->mission->path_length_m > 0.1;
+  };
+  while (!running()) {
+  }
+  client.send(SIGKILL);
+  auto future = ended.get_future();
+  ASSERT_EQ(future.wait_for(seconds(60)), std::future_status::ready);
+  EXPECT_EQ(future.get().end->outcome, api::Outcome::kLinkLost);
+}
+
+TEST(Processes, ServerKilledInTheMissionOffersItAgainAndStaysDisarmed) {
+  const std::filesystem::path folder = fresh_folder("crash");
+  {
+    Daemon daemon({"--set", "sim.speed=2"}, folder);
+    EXPECT_EQ(seeker(daemon, {"search", "--target", target_file(), "--detach"}), 0);
+    std::string output;
+    while (output.find("RUNNING") == std::string::npos) {
+      seeker(daemon, {"status", "--json"}, &output);
+    }
+    daemon.process->send(SIGKILL);
+    EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
+  }
+  Daemon again({}, folder);
+  const auto client = connect(again, "operator");
+  const Result<api::RobotStatus> status =
+      rpc::wait<api::RobotStatus>([&](auto reply) { client->get_status(std::move(reply)); }, kCall);
+  ASSERT_TRUE(status);
+  EXPECT_FALSE(status->motors_armed);
+  EXPECT_FALSE(status->mission.has_value());
+  const Status resumed = rpc::wait<void>(
+      [&](auto reply) { client->command_mission(api::MissionCommand::kResume, std::move(reply)); }, kCall);
+  EXPECT_TRUE(resumed) << resumed.error().message;
+}
+
+TEST(Processes, TerminationIsOrderlyAndWrongConfigurationHasItsOwnCode) {
+  Daemon daemon;
+  daemon.process->send(SIGTERM);
+  EXPECT_EQ(daemon.process->wait(seconds(20)), 0) << daemon.process->output();
+  ChildProcess wrong(program("seekerd"), {"--config", source_file("config/robots/sim.yaml"), "--set", "sim.sped=1"},
+                     daemon.folder() / "wrong");
+  EXPECT_EQ(wrong.wait(seconds(20)), 78);
+  EXPECT_NE(wrong.output().find("sim.sped"), std::string::npos) << wrong.output();
+}
+
+TEST(Processes, ReplayOfARecordedLogReachesItsEndWithAClientAttached) {
+  SEEKER_REQUIRE_DATA(log, "lidar/p3dx/trace0.clf.gz");
+  const std::filesystem::path folder = fresh_folder("replay");
+  ChildProcess server(program("seekerd"), {"--config",    source_file("config/robots/replay.yaml"),
+                                           "--port",      "0",
+                                           "--port-file", folder / "port",
+                                           "--state",     folder / "state",
+                                           "--set",       "replay.log=" + log.string(),
+                                           "--set",       "replay.speed=0",
+                                           "--set",       "replay.laser.angle_min_deg=-135",
+                                           "--set",       "replay.laser.angle_step_deg=0.351562",
+                                           "--set",       "replay.laser.range_max_m=5.6",
+                                           "--set",       "replay.laser.base_T_laser=[0.135, 0, 0]"},
+                      folder / "log");
+  const std::optional<std::string> port = wait_for_file(folder / "port", kStart);
+  ASSERT_TRUE(port) << server.output();
+  rpc::ClientParams params;
+  params.client_name = "viewer";
+  auto client = rpc::RobotClient::connect({"127.0.0.1", static_cast<std::uint16_t>(std::stoi(*port))}, params);
+  ASSERT_TRUE(client) << client.error().message;
+  std::promise<std::string> ended;
+  auto subscription =
+      (*client)->subscribe({{.topic = api::Topic::kEvent, .resume_after = 0}, {.topic = api::Topic::kScan}},
+                           [&](const api::UpdatePtr& update) {
+                             if (const auto* event = std::get_if<api::Event>(&update->payload);
+                                 event != nullptr && event->kind == "source-ended") {
+                               ended.set_value(event->text);
+                             }
+                           });
+  ASSERT_TRUE(subscription);
+  auto future = ended.get_future();
+  ASSERT_EQ(future.wait_for(seconds(120)), std::future_status::ready) << server.output();
+  EXPECT_NE(future.get().find("958"), std::string::npos) << "the summary tells how many scans were read";
+  const Result<api::TileUpdate> tiles =
+      rpc::wait<api::TileUpdate>([&](auto reply) { (*client)->get_tiles(0, std::move(reply)); }, kCall);
+  ASSERT_TRUE(tiles);
+  EXPECT_GT(tiles->tiles.size(), 10U);
+}
+
+}  // namespace
+}  // namespace seeker::testing

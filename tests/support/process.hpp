@@ -1,0 +1,44 @@
+/// \file
+/// A program of ours as a child process.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace seeker::testing {
+
+/// Runs until it ends or is killed; killed by the destructor. Output goes to a file.
+class ChildProcess {
+ public:
+  /// `arguments` without the program itself. Aborts when the program cannot be started.
+  ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+               std::filesystem::path output);
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+  ~ChildProcess();
+
+  void send(int signal) const;
+  /// Exit code (128 + signal where one ended it); nothing when it still runs after `limit`.
+  [[nodiscard]] std::optional<int> wait(std::chrono::seconds limit);
+  /// What it has printed so far, both streams.
+  [[nodiscard]] std::string output() const;
+
+ private:
+  pid_t pid_ = -1;
+  std::optional<int> code_;
+  std::filesystem::path output_;
+};
+
+/// A program of this build, e.g. "seekerd".
+[[nodiscard]] std::filesystem::path program(const std::string& name);
+/// The text of a file once it is there and not empty; nothing after `limit`.
+[[nodiscard]] std::optional<std::string> wait_for_file(const std::filesystem::path& path, std::chrono::seconds limit);
+/// A new empty folder below the test's temporary folder.
+[[nodiscard]] std::filesystem::path fresh_folder(const std::string& name);
+
+}  // namespace seeker::testing

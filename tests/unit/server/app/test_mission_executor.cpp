@@ -1,0 +1,185 @@
+#include "server/app/mission_executor.hpp"
+
+#include <gtest/gtest.h>
+
+namespace seeker::app {
+namespace {
+
+using std::chrono::seconds;
+
+/// A behaviour whose next decision the test writes.
+struct Script {
+  Decision next;
+  int steps = 0;
+  int resumed = 0;
+};
+
+class ScriptedBehaviour final : public Behaviour {
+ public:
+  explicit ScriptedBehaviour(std::shared_ptr<Script> script) : script_(std::move(script)) {}
+  Decision step(const Situation& /*situation*/) override {
+    ++script_->steps;
+    return script_->next;
+  }
+  void resumed(RobotTime /*now*/) override { ++script_->resumed; }
+
+ private:
+  std::shared_ptr<Script> script_;
+};
+
+class MissionExecutorTest : public ::testing::Test {
+ protected:
+  MissionExecutorTest()
+      : executor(
+            {},
+            [this](const api::MissionTask& task, const Situation& /*situation*/) -> Result<std::unique_ptr<Behaviour>> {
+              made.emplace_back(api::task_name(task));
+              return std::unique_ptr<Behaviour>(std::make_unique<ScriptedBehaviour>(script));
+            },
+            {.event = [this](const api::Event& event) { events.push_back(event); },
+             .status = [](const api::MissionStatus& /*status*/) {},
+             .detection = [](const api::Detection& /*detection*/) {}}) {
+    situation.pose.quality = LocalisationQuality::kLocalised;
+  }
+
+  static api::MissionRequest request(const std::string& id, api::LinkPolicy policy = api::LinkPolicy::kStop) {
+    api::MissionRequest r;
+    r.id = id;
+    r.task = api::GotoMission{.waypoints = {Point2(1, 0)}, .final_heading_rad = std::nullopt, .keep_out = {}};
+    r.link_policy = policy;
+    return r;
+  }
+
+  Decision tick(double dt_s = 0.1, const api::Fault* blocking = nullptr) {
+    situation.now += seeker::seconds(dt_s);
+    wall += std::chrono::milliseconds(100);
+    return executor.step(situation, blocking, wall);
+  }
+
+  api::MissionEnd end() const { return executor.last()->end.value_or(api::MissionEnd{}); }
+
+  std::shared_ptr<Script> script = std::make_shared<Script>();
+  std::vector<std::string> made;
+  std::vector<api::Event> events;
+  Situation situation;
+  WallTime wall;
+  MissionExecutor executor;
+};
+
+TEST_F(MissionExecutorTest, SecondMissionIsBusyTheSameIdIsAccepted) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  EXPECT_TRUE(executor.start(request("one"), "anna", situation));
+  const Result<api::MissionId> second = executor.start(request("two"), "ben", situation);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::kBusy);
+  EXPECT_EQ(made.size(), 1U);
+}
+
+TEST_F(MissionExecutorTest, BehaviourEndsTheMissionWithItsOutcome) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  script->next.end =
+      api::MissionEnd{.outcome = api::Outcome::kComplete, .cause = "done", .remedy = "", .unreachable = {}};
+  static_cast<void>(tick());
+  EXPECT_FALSE(executor.present());
+  EXPECT_EQ(end().outcome, api::Outcome::kComplete);
+  EXPECT_EQ(events.back().kind, "mission-ended");
+  EXPECT_EQ(events.back().mission_time, Duration(std::chrono::milliseconds(100)));
+}
+
+TEST_F(MissionExecutorTest, PauseHoldsTheBehaviourAndResumeTellsIt) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  script->next.command = {0.3, 0.0};
+  ASSERT_TRUE(executor.command(api::MissionCommand::kPause, situation.now));
+  EXPECT_EQ(tick().command, Twist2{});
+  EXPECT_EQ(script->steps, 0);
+  ASSERT_TRUE(executor.command(api::MissionCommand::kResume, situation.now));
+  EXPECT_EQ(script->resumed, 1);
+  EXPECT_EQ(tick().command, (Twist2{0.3, 0.0}));
+}
+
+TEST_F(MissionExecutorTest, LostClientStopsTheMissionAfterTheGrace) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  executor.client_lost("anna", wall);
+  static_cast<void>(tick());
+  EXPECT_TRUE(executor.present());
+  wall += seconds(6);
+  static_cast<void>(tick());
+  EXPECT_EQ(end().outcome, api::Outcome::kLinkLost);
+}
+
+TEST_F(MissionExecutorTest, ClientThatComesBackInTimeKeepsItsMission) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  executor.client_lost("anna", wall);
+  wall += seconds(3);
+  executor.client_back("anna");
+  wall += seconds(10);
+  static_cast<void>(tick());
+  EXPECT_TRUE(executor.present());
+}
+
+TEST_F(MissionExecutorTest, PoliciesContinueFinishStepAndReturn) {
+  ASSERT_TRUE(executor.start(request("go-on", api::LinkPolicy::kContinue), "anna", situation));
+  executor.client_lost("anna", wall);
+  wall += seconds(6);
+  static_cast<void>(tick());
+  EXPECT_TRUE(executor.present());
+  executor.end(api::Outcome::kOperator, "test", "", situation.now);
+
+  ASSERT_TRUE(executor.start(request("finish", api::LinkPolicy::kFinishStep), "anna", situation));
+  executor.client_lost("anna", wall);
+  wall += seconds(6);
+  static_cast<void>(tick());
+  EXPECT_TRUE(executor.present());
+  script->next.step_done = true;
+  static_cast<void>(tick());
+  EXPECT_EQ(end().outcome, api::Outcome::kLinkLost);
+
+  script->next = {};
+  ASSERT_TRUE(executor.start(request("home", api::LinkPolicy::kReturn), "anna", situation));
+  executor.client_lost("anna", wall);
+  wall += seconds(6);
+  static_cast<void>(tick());
+  EXPECT_EQ(made.back(), "return");
+  script->next.end =
+      api::MissionEnd{.outcome = api::Outcome::kComplete, .cause = "home", .remedy = "", .unreachable = {}};
+  static_cast<void>(tick());
+  EXPECT_EQ(end().outcome, api::Outcome::kLinkLost) << "coming home does not make the mission a success";
+}
+
+TEST_F(MissionExecutorTest, BlockingFaultHoldsThenEndsTheMissionWithTheRemedy) {
+  const api::Fault fault{.id = "sonar-silent",
+                         .component = "sonar",
+                         .severity = api::Severity::kError,
+                         .onset = {},
+                         .message = "the sonar has been silent",
+                         .remedy = "check its cable"};
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  static_cast<void>(tick(0.1, &fault));
+  EXPECT_EQ(script->steps, 0);
+  EXPECT_TRUE(executor.present());
+  static_cast<void>(tick(11.0, &fault));
+  EXPECT_EQ(end().outcome, api::Outcome::kFault);
+  EXPECT_EQ(end().remedy, "check its cable");
+}
+
+TEST_F(MissionExecutorTest, LostPoseEndsTheMissionAfterTheGrace) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  situation.pose.quality = LocalisationQuality::kLost;
+  situation.pose.cause = "the scan does not fit the map";
+  static_cast<void>(tick());
+  static_cast<void>(tick(11.0));
+  EXPECT_EQ(end().outcome, api::Outcome::kLost);
+}
+
+TEST_F(MissionExecutorTest, TimeLimitEndsTheMission) {
+  api::MissionRequest limited = request("one");
+  limited.time_limit = seconds(5);
+  ASSERT_TRUE(executor.start(limited, "anna", situation));
+  static_cast<void>(tick(4.0));
+  EXPECT_TRUE(executor.present());
+  static_cast<void>(tick(2.0));
+  EXPECT_EQ(end().outcome, api::Outcome::kTimeLimit);
+}
+
+}  // namespace
+}  // namespace seeker::app

@@ -1,0 +1,80 @@
+#include "server/app/safety_supervisor.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace seeker::app {
+namespace {
+
+constexpr Twist2 kForward{0.4, 0.0};
+
+LaserScan wall_ahead(double range_m) {
+  LaserScan scan;
+  scan.angle_min_rad = -0.5;
+  scan.angle_step_rad = 0.01;
+  scan.range_max_m = 8.0;
+  for (int i = 0; i <= 100; ++i) {
+    scan.ranges_m.push_back(static_cast<float>(range_m / std::cos(scan.angle_rad(static_cast<std::size_t>(i)))));
+  }
+  return scan;
+}
+
+SonarScan echo_ahead(float range_m) {
+  SonarScan sonar;
+  sonar.range_max_m = 5.0;
+  sonar.cone_half_angle_rad = 0.26;
+  sonar.readings = {{Pose2{0.15, 0.0, 0.0}, range_m}};
+  return sonar;
+}
+
+TEST(SafetySupervisor, FreeWayIsLeftAlone) {
+  const LaserScan scan = wall_ahead(6.0);
+  const SafetyVerdict verdict = supervise({.wanted = kForward, .armed = true, .scan = &scan}, {});
+  EXPECT_EQ(verdict.allowed, kForward);
+  EXPECT_TRUE(verdict.reason.empty());
+}
+
+TEST(SafetySupervisor, WallAheadStopsTheRobotButLetsItTurn) {
+  const LaserScan scan = wall_ahead(0.27);
+  const SafetyVerdict verdict = supervise({.wanted = kForward, .armed = true, .scan = &scan}, {});
+  EXPECT_DOUBLE_EQ(verdict.allowed.v_m_s, 0.0);
+  EXPECT_FALSE(verdict.reason.empty());
+  const Twist2 turn{0.0, 0.5};
+  EXPECT_EQ(supervise({.wanted = turn, .armed = true, .scan = &scan}, {}).allowed, turn);
+}
+
+TEST(SafetySupervisor, LowObstacleSeenBySonarAloneStopsTheRobot) {
+  const LaserScan scan = wall_ahead(6.0);
+  const SonarScan sonar = echo_ahead(0.15F);
+  const SafetyVerdict verdict = supervise({.wanted = kForward, .armed = true, .scan = &scan, .sonar = &sonar}, {});
+  EXPECT_LT(verdict.allowed.v_m_s, 0.05);
+}
+
+TEST(SafetySupervisor, EchoThatTheLidarExplainsAddsNoPoint) {
+  const LaserScan scan = wall_ahead(0.75);
+  const SonarScan sonar = echo_ahead(0.60F);
+  EXPECT_EQ(obstacle_points(&scan, &sonar, {}).size(), points_in_base(scan).size());
+}
+
+TEST(SafetySupervisor, EstopFaultAndDisarmedMeanZeroWithTheReason) {
+  const api::Fault fault{.id = "sonar-silent",
+                         .component = "sonar",
+                         .severity = api::Severity::kError,
+                         .onset = {},
+                         .message = "the sonar has been silent",
+                         .remedy = ""};
+  EXPECT_EQ(supervise({.wanted = kForward, .armed = true, .estop = true}, {}).allowed, Twist2{});
+  const SafetyVerdict blocked = supervise({.wanted = kForward, .armed = true, .blocking = &fault}, {});
+  EXPECT_EQ(blocked.allowed, Twist2{});
+  EXPECT_EQ(blocked.reason, fault.message);
+  EXPECT_EQ(supervise({.wanted = kForward}, {}).allowed, Twist2{});
+}
+
+TEST(SafetySupervisor, NanNeverReachesTheBase) {
+  const SafetyVerdict verdict = supervise({.wanted = {std::nan(""), 0.0}, .armed = true}, {});
+  EXPECT_EQ(verdict.allowed, Twist2{});
+}
+
+}  // namespace
+}  // namespace seeker::app
