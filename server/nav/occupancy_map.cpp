@@ -77,6 +77,28 @@ bool usable(const LaserScan& scan, std::size_t beam) {
   return (scan.quality.empty() || scan.quality[beam] != 0) && scan.ranges_m[beam] >= scan.range_min_m;
 }
 
+/// How far each beam without return clears: never past the nearer of the returns on both sides of its run. A beam may
+/// have got lost on a dark or grazed wall, and the wall goes on from its neighbours.
+std::vector<double> no_return_clearances(const LaserScan& scan, double limit_m) {
+  std::vector<double> clear_m(scan.ranges_m.size(), limit_m);
+  const auto sweep = [&](std::size_t beam, double& bound_m) {
+    const double range_m = scan.ranges_m[beam];
+    if (usable(scan, beam) && range_m <= scan.range_max_m) {
+      bound_m = range_m - kEndMargin_m;
+    }
+    clear_m[beam] = std::min(clear_m[beam], bound_m);
+  };
+  double bound_m = limit_m;
+  for (std::size_t beam = 0; beam < clear_m.size(); ++beam) {
+    sweep(beam, bound_m);
+  }
+  bound_m = limit_m;
+  for (std::size_t beam = clear_m.size(); beam > 0; --beam) {
+    sweep(beam - 1, bound_m);
+  }
+  return clear_m;
+}
+
 }  // namespace
 
 OccupancyMap::OccupancyMap(const OccupancyParams& params) : params_(params) {
@@ -176,13 +198,15 @@ void OccupancyMap::write_hits(const LaserScan& scan, const Pose2& map_T_laser) {
 }
 
 void OccupancyMap::clear_beams(const LaserScan& scan, const Pose2& map_T_laser) {
+  const std::vector<double> silent_m =
+      no_return_clearances(scan, std::min(params_.no_return_clear_m, scan.range_max_m));
   for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
     const double range_m = scan.ranges_m[beam];
     if (!usable(scan, beam)) {
       continue;
     }
-    const double clear_m = range_m <= scan.range_max_m ? std::min(range_m - kEndMargin_m, params_.max_range_m)
-                                                       : std::min(params_.no_return_clear_m, scan.range_max_m);
+    const double clear_m =
+        range_m <= scan.range_max_m ? std::min(range_m - kEndMargin_m, params_.max_range_m) : silent_m[beam];
     if (clear_m > 0.0) {
       clear_ray(map_T_laser.translation(), map_T_laser * on_beam(clear_m, scan.angle_rad(beam)), miss_);
     }

@@ -66,6 +66,17 @@ TEST(OccupancyMap, ABeamWithoutReturnClearsOnlyUpToTheConfiguredRange) {
   EXPECT_EQ(untouched.tile_count(), 0U);
 }
 
+TEST(OccupancyMap, ALostBeamClearsNoFartherThanTheReturnsBesideIt) {
+  LaserScan scan = one_beam(2.0F);
+  scan.ranges_m = {2.0F, kNoReturn, kNoReturn, 1.5F};
+  OccupancyMap map;
+  ASSERT_TRUE(map.integrate(scan, kOrigin));
+  EXPECT_LT(map.probability_at({1.3, 0.04}).value(), 0.5);
+  for (double x = 1.7; x < 4.0; x += 0.05) {
+    EXPECT_FALSE(map.probability_at({x, 0.025 + 0.015 * x})) << "behind the wall at x = " << x;
+  }
+}
+
 TEST(OccupancyMap, TilesSinceARevisionAreOnlyTheChangedOnes) {
   OccupancyMap map;
   EXPECT_EQ(map.revision(), 0U);
