@@ -1,0 +1,332 @@
+#include "server/lab/search_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/config/yaml.hpp"
+#include "common/core/angle.hpp"
+#include "server/app/device_factory.hpp"
+#include "server/app/robot_loop.hpp"
+#include "server/app/update_hub.hpp"
+#include "server/lab/cell_visits.hpp"
+#include "server/options/target_options.hpp"
+#include "server/options/world_options.hpp"
+#include "server/sim/placement.hpp"
+
+namespace seeker::lab {
+namespace {
+
+constexpr const char* kClient = "seeker-lab";
+constexpr double kNearTarget_m = 1.0;        ///< a detection farther from every target is a false one
+constexpr double kNearBearing_deg = 10.0;    ///< the same for one that knows a direction only
+constexpr double kTruePathSpacing_m = 0.05;  ///< of the path kept for pictures
+
+/// Where the robot really was at every step.
+struct TrueStep {
+  RobotTime stamp;
+  Pose2 world_T_base;
+};
+
+const Pose2& true_pose_at(const std::vector<TrueStep>& steps, RobotTime stamp) {
+  const auto later = std::lower_bound(steps.begin(), steps.end(), stamp,
+                                      [](const TrueStep& step, RobotTime t) { return step.stamp < t; });
+  return later == steps.end() ? steps.back().world_T_base : later->world_T_base;
+}
+
+FindScore score_of(const api::Detection& detection, const sim::GroundTruth& truth, const std::vector<TrueStep>& steps) {
+  FindScore score;
+  score.target = detection.target;
+  score.robot_time_s = to_seconds(detection.stamp);
+  score.bearing_map_deg = rad_to_deg(detection.bearing_map_rad);
+  score.u_px = detection.u_px;
+  score.v_px = detection.v_px;
+  score.score = detection.score;
+  score.range_source = to_string(detection.range_source);
+  if (detection.position) {
+    const Eigen::SelfAdjointEigenSolver<Matrix2> solver(detection.position_covariance, Eigen::EigenvaluesOnly);
+    score.position_sigma_m = std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+  }
+  const Pose2 map_T_base = inverse(truth.world_T_start) * true_pose_at(steps, detection.stamp);
+  for (const sim::TargetTruth& target : truth.targets) {
+    if (target.name != detection.target) {
+      continue;
+    }
+    const Point2 p_map = inverse(truth.world_T_start) * target.world_T_target.translation();
+    const Point2 way = p_map - map_T_base.translation();
+    score.range_m = way.norm();
+    score.bearing_error_deg =
+        rad_to_deg(std::abs(wrap_angle(detection.bearing_map_rad - std::atan2(way.y(), way.x()))));
+    if (detection.position) {
+      score.position_error_m = (*detection.position - p_map).norm();
+    }
+  }
+  return score;
+}
+
+bool is_true(const FindScore& score) {
+  return score.position_error_m ? *score.position_error_m <= kNearTarget_m
+                                : score.range_m > 0.0 && score.bearing_error_deg <= kNearBearing_deg;
+}
+
+/// Watches a loop from outside while it runs.
+class Observer {
+ public:
+  Observer(app::RobotLoop& loop, const sim::Simulation& simulation) : loop_(loop), simulation_(simulation) {
+    loop.on_event = [this](const api::Event& event) { take(event); };
+    loop.on_detection = [this](const api::Detection& detection) { take(detection); };
+  }
+
+  /// Before every pass of the loop.
+  void look() {
+    const sim::GroundTruth truth = simulation_.truth();
+    steps_.push_back({loop_.now(), truth.world_T_base});
+    path_length_m_ = truth.path_length_m;
+    visits_.add(truth.world_T_base.translation());
+    if (path_.empty() || distance_m(path_.back(), truth.world_T_base) >= kTruePathSpacing_m) {
+      path_.push_back(truth.world_T_base);
+    }
+    const Pose2 map_T_base = inverse(truth.world_T_start) * truth.world_T_base;
+    const Pose2 believed = loop_.status().pose.map_T_base;
+    error_m_ = distance_m(map_T_base, believed);
+    error_rad_ = std::abs(wrap_angle(map_T_base.theta_rad - believed.theta_rad));
+    max_error_m_ = std::max(max_error_m_, error_m_);
+  }
+
+  void fill(RunRecord& record) {
+    RunResult& result = record.result;
+    const sim::GroundTruth truth = simulation_.truth();
+    result.path_length_m = truth.path_length_m;
+    result.target_path_m = find_path_m_.value_or(truth.path_length_m);
+    result.cells_visited = visits_.visited();
+    result.cells_repeated = visits_.repeated();
+    result.contacts = truth.contacts;
+    result.min_clearance_m = truth.min_clearance_m;
+    result.localisation_error_m = error_m_;
+    result.localisation_error_deg = rad_to_deg(error_rad_);
+    result.max_localisation_error_m = max_error_m_;
+    result.first_find = first_;
+    result.events = static_cast<int>(events_.size());
+    result.event_hash = hash_.hex();
+    record.events = std::move(events_);
+    record.true_path = std::move(path_);
+    record.truth = truth;
+  }
+
+  [[nodiscard]] FindScore score(const api::Detection& detection) const {
+    FindScore score = score_of(detection, simulation_.truth(), steps_);
+    const auto& grid = loop_.missions().grid();
+    score.cells_searched = grid ? static_cast<int>(grid->lists.searched.size()) : 0;
+    return score;
+  }
+
+ private:
+  void take(const api::Event& event) {
+    if (event.mission.empty()) {
+      return;  // links and sessions are no part of a mission's log
+    }
+    hash_.add(event.kind);
+    hash_.add(event.text);
+    hash_.add(to_string(event.severity));
+    hash_.add(event.mission_time ? std::to_string(event.mission_time->count()) : "");
+    events_.push_back(event);
+  }
+
+  void take(const api::Detection& detection) {
+    if (!first_) {
+      first_ = score(detection);
+      find_path_m_ = path_length_m_;
+    }
+  }
+
+  app::RobotLoop& loop_;
+  const sim::Simulation& simulation_;
+  std::vector<TrueStep> steps_;
+  std::vector<Pose2> path_;
+  std::vector<api::Event> events_;
+  TextHash hash_;
+  CellVisits visits_;
+  std::optional<FindScore> first_;
+  std::optional<double> find_path_m_;
+  double path_length_m_ = 0.0;
+  double error_m_ = 0.0;
+  double error_rad_ = 0.0;
+  double max_error_m_ = 0.0;
+};
+
+void fill_mission(RunRecord& record, const app::RobotLoop& loop, const Observer& observer) {
+  RunResult& result = record.result;
+  if (loop.missions().last()) {
+    record.status = *loop.missions().last();
+  }
+  const api::MissionEnd end = record.status.end.value_or(api::MissionEnd{});
+  result.outcome = to_string(end.outcome);
+  result.cause = end.cause;
+  record.detections = loop.missions().detections();
+  for (const api::Detection& detection : record.detections) {
+    const FindScore score = observer.score(detection);
+    if (is_true(score)) {
+      result.last_find = score;
+    } else {
+      ++result.false_finds;
+    }
+  }
+  result.found = end.outcome == api::Outcome::kTargetFound && result.last_find.has_value();
+  record.grid = loop.missions().grid();
+  record.occupancy = loop.map().snapshot();
+  record.trajectory = loop.trajectory();
+}
+
+void fill_coverage(RunRecord& record) {
+  if (!record.grid) {
+    return;
+  }
+  RunResult& result = record.result;
+  const api::GridLists& lists = record.grid->lists;
+  const api::CoverageSummary& summary = record.grid->evidence.summary;
+  result.cells_searched = static_cast<int>(lists.searched.size());
+  result.cells_unsearched = static_cast<int>(lists.unsearched.size());
+  result.cells_unreachable = static_cast<int>(lists.unreachable.size());
+  result.reachable_area_m2 = summary.reachable_area_m2;
+  result.true_reachable_area_m2 = sim::reachable_area_m2(record.world, record.robot_radius_m);
+  result.covered_share = summary.reachable_area_m2 > 0.0 ? summary.covered_area_m2 / summary.reachable_area_m2 : 0.0;
+  result.covered_true_share =
+      result.true_reachable_area_m2 > 0.0 ? summary.covered_area_m2 / result.true_reachable_area_m2 : 0.0;
+  result.mean_probability = summary.mean_probability;
+  result.gaps = summary.gaps;
+}
+
+Result<api::MissionRequest> request_of(const RunSpec& spec, const sim::World& world) {
+  const Result<api::TargetSpec> target = target_of(world, spec);
+  if (!target) {
+    return tl::unexpected<Error>(target.error());
+  }
+  api::SearchMission search;
+  search.targets = {*target};
+  search.mode = spec.strategy == search::Strategy::kPaper ? api::SearchMode::kPaper : api::SearchMode::kPlan;
+  search.on_found = spec.on_found;
+  api::MissionRequest request;
+  request.id = "seed-" + std::to_string(spec.seed);
+  request.task = std::move(search);
+  request.time_limit = seconds(spec.time_limit_s);
+  return request;
+}
+
+/// The world's file and the one it is based on.
+Status add_world(TextHash& hash, const std::filesystem::path& file) {
+  const Result<std::string> text = config::read_text_file(file);
+  if (!text) {
+    return tl::unexpected<Error>(text.error());
+  }
+  const Result<options::WorldFile> world = options::parse_world(*text, file.string());
+  if (!world) {
+    return tl::unexpected<Error>(world.error());
+  }
+  hash.add(*text);
+  return world->base.empty() ? Status() : add_world(hash, file.parent_path() / world->base);
+}
+
+}  // namespace
+
+Result<app::RobotOptions> options_of(const RunSpec& spec) {
+  std::vector<std::string> overrides = spec.overrides;
+  overrides.push_back("sim.world=" + std::filesystem::absolute(spec.world_file).string());
+  overrides.push_back("sim.seed=" + std::to_string(spec.seed));
+  overrides.push_back(std::string("sim.random_target=") + (spec.random_target ? "true" : "false"));
+  overrides.emplace_back("sim.speed=0");
+  Result<app::RobotOptions> options = app::load_robot_options(spec.robot_file, overrides);
+  if (options) {
+    if (options->driver != app::DriverType::kSim) {
+      return fail(Errc::kInvalidArgument, spec.robot_file.string() + ": experiments need 'driver: sim'");
+    }
+    options->search.strategy = spec.strategy;
+  }
+  return options;
+}
+
+Result<std::string> settings_of(const RunSpec& spec) {
+  RunSpec neutral = spec;
+  neutral.seed = 0;
+  Result<app::RobotOptions> options = options_of(neutral);
+  if (!options) {
+    return tl::unexpected<Error>(options.error());
+  }
+  options->sim.world = spec.world_file.filename().string();
+  TextHash hash;
+  hash.add(config::print(*options));
+  if (const Status ok = add_world(hash, spec.world_file); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  hash.add(to_string(spec.strategy));
+  hash.add(to_string(spec.on_found));
+  hash.add(std::to_string(spec.time_limit_s));
+  return hash.hex();
+}
+
+Result<api::TargetSpec> target_of(const sim::World& world, const RunSpec& spec) {
+  const std::string name = world.targets.empty() ? "cross" : world.targets.front().name;
+  const std::filesystem::path folder =
+      spec.target_folder.empty() ? std::filesystem::absolute(spec.world_file).parent_path().parent_path() / "targets"
+                                 : spec.target_folder;
+  const std::filesystem::path file = folder / (name + ".yaml");
+  Result<options::TargetDescription> target = options::load_target(file);
+  if (!target) {
+    return tl::unexpected<Error>(target.error());
+  }
+  return api::TargetSpec{.name = target->file.name,
+                         .picture = std::move(target->picture),
+                         .width_m = target->file.width_m,
+                         .height_m = target->file.height_m,
+                         .depth_m = target->file.depth_m,
+                         .recogniser = target->file.recogniser == to_string(api::RecogniserKind::kFeatures)
+                                           ? api::RecogniserKind::kFeatures
+                                           : api::RecogniserKind::kTemplate};
+}
+
+Result<RunRecord> run_search(const RunSpec& spec) {
+  const Result<app::RobotOptions> options = options_of(spec);
+  if (!options) {
+    return tl::unexpected<Error>(options.error());
+  }
+  Result<app::Assembly> assembly = app::assemble(*options);
+  if (!assembly) {
+    return tl::unexpected<Error>(assembly.error());
+  }
+  const std::shared_ptr<sim::Simulation> simulation = assembly->simulation;
+  RunRecord record;
+  record.world = simulation->world();
+  record.robot_radius_m = options->sim.robot.radius_m;
+  const Result<api::MissionRequest> request = request_of(spec, record.world);
+  if (!request) {
+    return tl::unexpected<Error>(request.error());
+  }
+
+  app::UpdateHub hub;
+  app::RobotLoop loop(options->loop, std::move(assembly->parts), hub);
+  Observer observer(loop, *simulation);
+  const auto started = std::chrono::steady_clock::now();
+  loop.start();
+  if (const Result<api::MissionId> id = loop.start_mission(*request, kClient); !id) {
+    return fail_with_context("the mission was refused", id.error());
+  }
+  while (loop.missions().present()) {
+    observer.look();
+    loop.tick(started);  // the wall clock decides about links only, and there is none
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+
+  RunResult& result = record.result;
+  result.world = record.world.name;
+  result.strategy = to_string(spec.strategy);
+  result.seed = spec.seed;
+  result.robot_time_s = to_seconds(loop.now());
+  result.wall_time_s = wall.count();
+  observer.fill(record);
+  fill_mission(record, loop, observer);
+  fill_coverage(record);
+  return record;
+}
+
+}  // namespace seeker::lab

@@ -1,0 +1,183 @@
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "common/image/files.hpp"
+#include "common/image/png.hpp"
+#include "server/lab/experiment.hpp"
+#include "server/lab/reproduce.hpp"
+#include "server/lab/summary.hpp"
+#include "server/lab/verbs.hpp"
+
+namespace seeker::lab {
+namespace {
+
+const std::map<std::string, search::Strategy> kStrategies = {{"paper", search::Strategy::kPaper},
+                                                             {"plan", search::Strategy::kPlan},
+                                                             {"spiral", search::Strategy::kSpiral},
+                                                             {"frontier", search::Strategy::kFrontier}};
+const std::map<std::string, api::OnFound> kOnFound = {
+    {"stop", api::OnFound::kStop}, {"approach", api::OnFound::kApproach}, {"continue", api::OnFound::kContinue}};
+
+/// Options of `search` and `compare`.
+struct SearchOptions {
+  CommonOptions common;
+  std::vector<std::string> worlds;
+  std::vector<std::string> strategies;
+  std::string on_found = "approach";
+  double time_limit_s = 3600.0;
+  bool random_target = false;
+  bool no_target = false;
+  bool pictures = false;
+};
+
+void add_search_options(CLI::App& verb, SearchOptions& o) {
+  add_common(verb, o.common);
+  verb.add_option("--world", o.worlds, "World file, or the name of one in worlds/ (repeatable)");
+  verb.add_option("--strategy", o.strategies, "How the robot searches (repeatable)")
+      ->check(CLI::IsMember({"paper", "plan", "spiral", "frontier"}));
+  verb.add_option("--on-found", o.on_found, "What the robot does with a target")
+      ->check(CLI::IsMember({"stop", "approach", "continue"}))
+      ->capture_default_str();
+  verb.add_option("--time-limit", o.time_limit_s, "Longest robot time of a run, s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_flag("--pictures", o.pictures, "A picture of the map beside every new run");
+  CLI::Option* random =
+      verb.add_flag("--random-target", o.random_target, "The target stands at a place drawn from the seed");
+  verb.add_flag("--no-target", o.no_target, "The same world without anything to be found")->excludes(random);
+}
+
+Result<std::vector<RunSpec>> specs_of(const SearchOptions& o) {
+  const Result<std::vector<std::uint64_t>> seeds = parse_seeds(o.common.seeds);
+  if (!seeds) {
+    return tl::unexpected<Error>(seeds.error());
+  }
+  std::vector<RunSpec> specs;
+  for (const std::string& world : o.worlds) {
+    RunSpec spec;
+    spec.robot_file = robot_file(o.common);
+    spec.world_file = world_file(o.common, world);
+    spec.target_folder = std::filesystem::absolute(spec.world_file).parent_path().parent_path() / "targets";
+    if (o.no_target) {
+      const Result<std::filesystem::path> empty = without_targets(spec.world_file, o.common.out / "worlds");
+      if (!empty) {
+        return tl::unexpected<Error>(empty.error());
+      }
+      spec.world_file = *empty;
+    }
+    spec.random_target = o.random_target;
+    spec.on_found = kOnFound.at(o.on_found);
+    spec.time_limit_s = o.time_limit_s;
+    spec.overrides = o.common.overrides;
+    for (const std::string& strategy : o.strategies) {
+      spec.strategy = kStrategies.at(strategy);
+      for (const std::uint64_t seed : *seeds) {
+        spec.seed = seed;
+        specs.push_back(spec);
+      }
+    }
+  }
+  return specs;
+}
+
+/// Runs what is missing and writes the tables; the groups.
+Result<std::vector<GroupSummary>> run_and_tabulate(const SearchOptions& o) {
+  const Result<std::vector<RunSpec>> specs = specs_of(o);
+  if (!specs) {
+    return tl::unexpected<Error>(specs.error());
+  }
+  std::error_code error;
+  std::filesystem::create_directories(o.common.out, error);
+  const Result<std::vector<RunResult>> results = run_missing(
+      *specs, {.out = o.common.out, .jobs = o.common.jobs, .pictures = o.pictures, .show_progress = show_progress()});
+  if (!results) {
+    return tl::unexpected<Error>(results.error());
+  }
+  const std::vector<GroupSummary> groups = summarise(*results);
+  if (const Status ok = image::write_file(o.common.out / "runs.csv", runs_csv(*results)); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  if (const Status ok = image::write_file(o.common.out / "summary.csv", summary_csv(groups)); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  std::cout << (o.common.json ? summary_json(groups) : summary_text(groups)) << std::flush;
+  return groups;
+}
+
+int run_search_verb(const SearchOptions& o) {
+  const Result<std::vector<GroupSummary>> groups = run_and_tabulate(o);
+  return groups ? kExitDone : report_error(groups.error().message);
+}
+
+int run_compare(const SearchOptions& o) {
+  const Result<std::vector<GroupSummary>> groups = run_and_tabulate(o);
+  if (!groups) {
+    return report_error(groups.error().message);
+  }
+  if (const Status ok = image::write_png(o.common.out / "comparison.png", comparison_chart(*groups)); !ok) {
+    return report_error(ok.error().message);
+  }
+  return kExitDone;
+}
+
+int run_reproduce(const CommonOptions& o, const std::string& programs, bool sockets) {
+  const Result<std::vector<std::uint64_t>> seeds = parse_seeds(o.seeds);
+  if (!seeds) {
+    return report_error(seeds.error().message);
+  }
+  ReproduceParams params;
+  params.out = o.out;
+  params.config = config_folder(o);
+  params.programs = programs;
+  params.seeds = *seeds;
+  params.overrides = o.overrides;
+  params.jobs = o.jobs;
+  params.show_progress = show_progress();
+  params.sockets = sockets;
+  Report report(o.json ? nullptr : &std::cout);
+  const Status done = reproduce_s3(params, report);
+  if (o.json) {
+    std::cout << report.json() << std::flush;
+  }
+  if (!done) {
+    return report_error(done.error().message);
+  }
+  return report.passed() ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+Verb add_search(CLI::App& app) {
+  auto o = std::make_shared<SearchOptions>();
+  CLI::App* verb = app.add_subcommand("search", "Searches over seeds; a file per run, a table at the end");
+  o->worlds = {"demo"};
+  o->strategies = {"plan"};
+  add_search_options(*verb, *o);
+  return [o] { return run_search_verb(*o); };
+}
+
+Verb add_compare(CLI::App& app) {
+  auto o = std::make_shared<SearchOptions>();
+  CLI::App* verb = app.add_subcommand("compare", "All strategies over worlds and seeds: table and chart");
+  o->worlds = {"paper-a", "paper-b", "demo", "office"};
+  o->strategies = {"paper", "plan", "spiral", "frontier"};
+  add_search_options(*verb, *o);
+  return [o] { return run_compare(*o); };
+}
+
+Verb add_reproduce(CLI::App& app) {
+  auto o = std::make_shared<CommonOptions>();
+  auto id = std::make_shared<std::string>("s3");
+  auto programs = std::make_shared<std::string>();
+  auto no_sockets = std::make_shared<bool>(false);
+  CLI::App* verb =
+      app.add_subcommand("reproduce", "Figures, tables and pass conditions of a paper; PASS and FAIL lines");
+  verb->add_option("paper", *id, "s3: autonomous search")->check(CLI::IsMember({"s3"}))->capture_default_str();
+  add_common(*verb, *o);
+  verb->add_option("--programs", *programs, "Folder of seekerd and seeker (default: beside this program)");
+  verb->add_flag("--no-sockets", *no_sockets, "Leave out R12, which starts server and client as processes");
+  return [o, programs, no_sockets] { return run_reproduce(*o, *programs, !*no_sockets); };
+}
+
+}  // namespace seeker::lab
