@@ -82,15 +82,17 @@ void SearchMission::Impl::note_sighting(std::uint64_t id, const StrategyInput& i
   if (!detection) {
     return;
   }
+  if (detection->position_map && near_any(*detection->position_map, refused_, kRefusedAgain_m)) {
+    tracker_.refute(id);
+    return;
+  }
   if (sighted_.insert(id).second) {
     const std::string where = detection->position_map
                                   ? " near " + text(*detection->position_map)
                                   : " at a bearing of " + text(rad_to_deg(detection->bearing_map_rad)) + " deg";
     out.events.push_back({"sighting", "detection " + std::to_string(id) + ": " + name_of(detection->target) + where +
                                           ", score " + text(detection->score)});
-    const bool refused_before =
-        detection->position_map && near_any(*detection->position_map, refused_, kRefusedAgain_m);
-    if (!detection->confirmed && !refused_before) {
+    if (!detection->confirmed) {
       to_confirm_.push_back(id);
     }
   }
@@ -106,7 +108,7 @@ void SearchMission::Impl::note_confirmed(const Detection& detection, const Strat
     case OnFound::kStop: finish_found(detection.id, out); break;
     case OnFound::kApproach:
       if (!visit_.approaching()) {
-        visit_.begin_approach(detection.id, input.now);
+        visit_.begin_approach(detection, input.now);
       }
       break;
     case OnFound::kContinue: break;
@@ -127,6 +129,7 @@ void SearchMission::Impl::start_waiting_confirm(RobotTime now) {
 void SearchMission::Impl::run_visit(const StrategyInput& input, SearchStep& out) {
   StrategyStep step;
   const std::uint64_t id = visit_.id();
+  const bool approaching = visit_.approaching();
   const VisitResult result = visit_.step(input, tracker_, step);
   hand_over(std::move(step), input, out);
   if (result == VisitResult::kBusy) {
@@ -140,7 +143,8 @@ void SearchMission::Impl::run_visit(const StrategyInput& input, SearchStep& out)
       refused_.push_back(*detection->position_map);
     }
     tracker_.refute(id);
-    out.events.push_back({"refuted", "detection " + std::to_string(id) + " could not be confirmed"});
+    out.events.push_back({"refuted", "detection " + std::to_string(id) +
+                                         (approaching ? " is not there from near" : " could not be confirmed")});
   }
 }
 

@@ -63,6 +63,7 @@ std::optional<Point2> viewpoint_about(const FloorView& floor, const Pose2& map_T
 TargetVisit::TargetVisit(const SearchParams& params, LocalPlanner planner, bool use_map)
     : params_(params.mission),
       new_place_m_(params.detection.new_place_m),
+      sure_score_(params.detection.sure_score),
       drive_(params, std::move(planner), use_map) {}
 
 void TargetVisit::begin(std::uint64_t id, bool approach, RobotTime now) {
@@ -71,6 +72,7 @@ void TargetVisit::begin(std::uint64_t id, bool approach, RobotTime now) {
   approach_ = approach;
   arrived_ = false;
   looks_ = 0;
+  viewed_from_.clear();
   state_ = State::kPlan;
   started_ = now;
 }
@@ -84,8 +86,7 @@ VisitResult TargetVisit::finish(VisitResult result) {
 std::optional<VisitResult> TargetVisit::verdict(const Detection& detection, RobotTime now) const {
   const double spent_s = to_seconds(now - started_);
   if (approach_) {
-    const bool looked = looks_ > 0 && (arrived_ || looks_ >= kMaxApproachLooks);
-    return looked || spent_s > params_.approach_time_s ? std::optional(VisitResult::kReached) : std::nullopt;
+    return approach_verdict(detection, spent_s);
   }
   if (detection.confirmed) {
     return VisitResult::kConfirmed;
@@ -96,11 +97,28 @@ std::optional<VisitResult> TargetVisit::verdict(const Detection& detection, Robo
   return std::nullopt;
 }
 
+std::optional<VisitResult> TargetVisit::approach_verdict(const Detection& detection, double spent_s) const {
+  const bool seen = detection.sightings > sightings_before_;
+  const int misses = detection.misses - misses_before_;
+  if (looks_ > 0 && arrived_ && seen) {
+    return VisitResult::kReached;
+  }
+  if (looks_ >= kMaxApproachLooks || spent_s > params_.approach_time_s) {
+    // A sure track stands unless a look that should have shown it did not.
+    const bool sure = detection.score >= sure_score_ || !drive_.uses_map();
+    return seen || (sure && misses == 0) ? VisitResult::kReached : VisitResult::kRefused;
+  }
+  return std::nullopt;
+}
+
 VisitResult TargetVisit::step(const StrategyInput& input, const DetectionTracker& tracker, StrategyStep& out) {
   out.phase = approach_ ? "approach" : "confirm";
   const auto detection = tracker.find(id_);
   if (!detection) {
     return finish(approach_ ? VisitResult::kReached : VisitResult::kRefused);
+  }
+  if (state_ == State::kLook) {
+    here_ = input.map_T_base.translation();
   }
   if (state_ == State::kPlan) {
     if (const auto result = verdict(*detection, input.now)) {
@@ -147,7 +165,7 @@ void TargetVisit::plan_approach(const StrategyInput& input, const Detection& det
   const Point2 target = *detection.position_map;
   const double range = (target - input.map_T_base.translation()).norm();
   arrived_ = true;
-  if (std::abs(range - params_.standoff_m) <= params_.standoff_tolerance_m) {
+  if (looks_ == 0 && std::abs(range - params_.standoff_m) <= params_.standoff_tolerance_m) {
     state_ = State::kFace;
     return;
   }
@@ -157,7 +175,8 @@ void TargetVisit::plan_approach(const StrategyInput& input, const Detection& det
     constexpr double kWider = 1.4;
     constexpr double kWidest = 2.0;
     goal = viewpoint_about(**floor, input.map_T_base, target,
-                           {params_.standoff_m, kWider * params_.standoff_m, kWidest * params_.standoff_m}, {}, 0.0);
+                           {params_.standoff_m, kWider * params_.standoff_m, kWidest * params_.standoff_m},
+                           viewed_from_, new_place_m_);
   } else if (!drive_.uses_map() && range > params_.standoff_m) {
     goal = target - params_.standoff_m / range * (target - input.map_T_base.translation());
   }
@@ -214,6 +233,7 @@ void TargetVisit::face(const StrategyInput& input, const Detection& detection, S
 void TargetVisit::image_taken() {
   if (active_ && state_ == State::kLook) {
     ++looks_;
+    viewed_from_.push_back(here_);
     state_ = State::kPlan;
   }
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "server/search/detection_tracker.hpp"
 #include "server/search/drive_to.hpp"
@@ -20,7 +21,11 @@ class TargetVisit {
   TargetVisit(const SearchParams& params, LocalPlanner planner, bool use_map);
 
   void begin_confirm(std::uint64_t id, RobotTime now) { begin(id, false, now); }
-  void begin_approach(std::uint64_t id, RobotTime now) { begin(id, true, now); }
+  void begin_approach(const Detection& detection, RobotTime now) {
+    begin(detection.id, true, now);
+    sightings_before_ = detection.sightings;
+    misses_before_ = detection.misses;
+  }
   [[nodiscard]] bool active() const { return active_; }
   [[nodiscard]] bool approaching() const { return active_ && approach_; }
   [[nodiscard]] std::uint64_t id() const { return id_; }
@@ -35,6 +40,7 @@ class TargetVisit {
 
   void begin(std::uint64_t id, bool approach, RobotTime now);
   [[nodiscard]] VisitResult finish(VisitResult result);
+  [[nodiscard]] std::optional<VisitResult> approach_verdict(const Detection& detection, double spent_s) const;
   [[nodiscard]] std::optional<VisitResult> verdict(const Detection& detection, RobotTime now) const;
   void plan(const StrategyInput& input, const DetectionTracker& tracker, const Detection& detection);
   void plan_approach(const StrategyInput& input, const Detection& detection);
@@ -44,12 +50,17 @@ class TargetVisit {
 
   MissionParams params_;
   double new_place_m_;
+  double sure_score_;
   DriveTo drive_;
   std::uint64_t id_ = 0;
   bool active_ = false;
   bool approach_ = false;
   bool arrived_ = false;
   int looks_ = 0;
+  int sightings_before_ = 0;  ///< of the track, when the visit began
+  int misses_before_ = 0;
+  Point2 here_ = Point2::Zero();     ///< where the robot stands while it looks
+  std::vector<Point2> viewed_from_;  ///< places of this visit's looks
   State state_ = State::kPlan;
   RobotTime started_;
   RobotTime face_since_;

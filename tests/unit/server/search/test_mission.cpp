@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -80,6 +81,22 @@ TEST(SearchMission, PlanFindsAndApproachesATargetInTheOtherRoom) {
   EXPECT_EQ(found.range_source, RangeSource::kLidar);
   EXPECT_LT((run.pose.translation() - *world.target).norm(), 1.2);
   EXPECT_GT(run.least_clearance_m, 0.2);
+}
+
+TEST(SearchMission, WhatIsNotThereFromNearIsRefusedAndTheSearchGoesOn) {
+  ToyWorld world = two_rooms();
+  world.target = Point2(8.9, 4.0);
+  world.recognise_range_m = 4.0;
+  world.recognise_from_m = 2.2;  // beyond all places of an approach
+  auto mission = mission_of(Strategy::kPlan);
+  ToyRobot robot(world, {1.0, 1.0, 0.3}, true, 6);
+  const ToyRun run = robot.run(mission, 1500.0);
+  print("plan, mirage", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kNotFoundAreaCovered);
+  const auto refuted = std::count_if(run.events.begin(), run.events.end(),
+                                     [](const SearchEvent& event) { return event.kind == "refuted"; });
+  EXPECT_GE(refuted, 1);
 }
 
 TEST(SearchMission, PlanWithSonarsOnlyFindsATarget) {

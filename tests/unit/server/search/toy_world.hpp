@@ -29,6 +29,7 @@ struct ToyWorld {
   std::vector<Wall> walls;
   std::optional<Point2> target;  ///< a disc of radius 0.15 m, solid
   double recognise_range_m = 2.5;
+  double recognise_from_m = 0.0;  ///< nearer it is not recognised: a mistake of the recogniser looks like that
   double recognise_rate = 0.9;
 
   [[nodiscard]] double ray(const Point2& from, double heading_rad, double max_m) const {
@@ -131,7 +132,8 @@ class ToyRobot {
     const Point2 to = *world_.target - pose_.translation();
     const double heading = std::atan2(to.y(), to.x());
     const bool clear = world_.ray(pose_.translation(), heading, 10.0) > to.norm() - 0.2;
-    if (!clear || to.norm() > world_.recognise_range_m || rng_.uniform() > world_.recognise_rate) {
+    if (!clear || to.norm() > world_.recognise_range_m || to.norm() < world_.recognise_from_m ||
+        rng_.uniform() > world_.recognise_rate) {
       return {};
     }
     vision::Sighting sighting;
