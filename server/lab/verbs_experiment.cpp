@@ -177,7 +177,7 @@ Verb add_reproduce(CLI::App& app) {
   add_common(*verb, *o);
   verb->add_option("--programs", *programs, "Folder of seekerd and seeker (default: beside this program)");
   verb->add_flag("--no-sockets", *no_sockets, "Leave out R12, which starts server and client as processes");
-  return [o, programs, no_sockets] { return run_reproduce(*o, *programs, !*no_sockets); };
+  return [o, id, programs, no_sockets] { return run_reproduce(*o, *programs, !*no_sockets); };
 }
 
 }  // namespace seeker::lab
