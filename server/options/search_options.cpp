@@ -13,6 +13,7 @@ void describe(config::Fields& f, PaperParams& params) {
   f.field("progress_m", params.progress_m);
   f.field("stuck_time_s", params.stuck_time_s);
   f.field("stuck_move_m", params.stuck_move_m);
+  f.field("recovery_back_m", params.recovery_back_m);
   f.field("recovery_turn_s", params.recovery_turn_s);
   f.angle_deg("recovery_omega_deg_s", params.recovery_omega_rad_s);
   f.field("recovery_clear_m", params.recovery_clear_m);

@@ -37,7 +37,13 @@ DetectionTracker::Observation DetectionTracker::observe(const Look& look, const 
   m.bearing_sigma_rad = params_.bearing_sigma_rad;
   if (const auto range =
           range_in_direction(sighting.bearing_base_rad, look.laser, look.sonar, sighting.range_m, params_)) {
-    m.range_m = range->range_m + targets_[static_cast<std::size_t>(sighting.target)].depth_m / 2.0;
+    const SearchTarget& target = targets_[static_cast<std::size_t>(sighting.target)];
+    m.range_m = range->range_m + target.depth_m / 2.0;
+    if (range->source == RangeSource::kLidar && target.depth_m > 0.0) {
+      const double width_m = std::max(target.width_m, target.depth_m);
+      const auto middle = outline_bearing(*look.laser, sighting.bearing_base_rad, range->range_m, width_m, params_);
+      m.bearing_rad = wrap_angle(middle.value_or(sighting.bearing_base_rad) - params_.base_T_camera.theta_rad);
+    }
     m.range_sigma_m = std::hypot(range->sigma_m, params_.depth_sigma_m);
     observation.source = range->source;
   }
@@ -128,8 +134,8 @@ void DetectionTracker::join(Track& track, const Observation& observation, const 
   d.v_px = sighting.v_px;
   d.score = sighting.score;
   d.map_T_base = look.map_T_base;
-  d.bearing_base_rad = wrap_angle(sighting.bearing_base_rad);
-  d.bearing_map_rad = wrap_angle(sighting.bearing_base_rad + look.map_T_base.theta_rad);  // eq (5)
+  d.bearing_base_rad = wrap_angle(observation.measurement.bearing_rad + params_.base_T_camera.theta_rad);
+  d.bearing_map_rad = wrap_angle(d.bearing_base_rad + look.map_T_base.theta_rad);  // eq (5)
   track.pose_covariance = look.pose_covariance;
 
   const Point2 here = look.map_T_base.translation();

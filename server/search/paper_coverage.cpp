@@ -9,6 +9,8 @@
 namespace seeker::search {
 namespace {
 
+constexpr double kBackSpeed_m_s = 0.1;
+constexpr double kBackLag_s = 1.0;  ///< to gather speed
 /// A recovery turns at least so far, or it would end where it began.
 constexpr double kMinRecoveryTurn_rad = deg_to_rad(40.0);
 
@@ -195,19 +197,33 @@ void PaperCoverage::begin_recovery(const StrategyInput& input, const Sectors& se
   const double left = sectors[Sector::kLeft] + sectors[Sector::kLeftFront];
   const double right = sectors[Sector::kRight] + sectors[Sector::kRightFront];
   recovery_turn_ = left >= right ? 1.0 : -1.0;
-  recovery_heading_rad_ = input.map_T_base.theta_rad;
+  recovery_from_ = input.map_T_base;
   recovery_since_ = input.now;
+  backing_ = true;
   state_ = State::kRecover;
   out.events.push_back({"recovery", "no way ahead at " + text(input.map_T_base.translation()) + ", turning"});
 }
 
 void PaperCoverage::recover(const StrategyInput& input, const Sectors& sectors, StrategyStep& out) {
   out.phase = "recover";
+  if (backing_) {
+    // A corner beside the robot forbids any way forwards; the way back is the way it came.
+    const bool far_enough = distance_m(input.map_T_base, recovery_from_) >= params_.recovery_back_m;
+    if (!far_enough &&
+        to_seconds(input.now - recovery_since_) < params_.recovery_back_m / kBackSpeed_m_s + kBackLag_s) {
+      out.activity = "backing out";
+      out.command.v_m_s = -kBackSpeed_m_s;
+      return;
+    }
+    backing_ = false;
+    recovery_since_ = input.now;
+  }
   out.activity = "turning to the side with more room";
-  const double turned = std::abs(wrap_angle(input.map_T_base.theta_rad - recovery_heading_rad_));
+  const double turned = std::abs(wrap_angle(input.map_T_base.theta_rad - recovery_from_.theta_rad));
   const bool clear = sectors[Sector::kFront] >= params_.recovery_clear_m && turned >= kMinRecoveryTurn_rad;
   if (clear || to_seconds(input.now - recovery_since_) > params_.recovery_turn_s) {
     state_ = after_recovery_;
+    progress_.go_on(input.now);
     motion_.start(input.map_T_base.translation(), input.now);
     return;
   }

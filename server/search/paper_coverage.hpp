@@ -53,7 +53,8 @@ class PaperCoverage final : public CoverageStrategy {
   MotionWatch motion_;
   RobotTime recovery_since_;
   double recovery_turn_ = 1.0;
-  double recovery_heading_rad_ = 0.0;
+  Pose2 recovery_from_;
+  bool backing_ = false;
   int recoveries_ = 0;
   bool restart_ = true;  ///< watches start anew with the next step
   bool blind_ = false;

@@ -25,6 +25,8 @@ class ProgressWatch {
     }
     return to_seconds(now - since_);
   }
+  /// What came before does not count as lack of progress; the total goes on.
+  void go_on(RobotTime now) { since_ = now; }
   [[nodiscard]] double total_s(RobotTime now) const { return to_seconds(now - started_); }
 
  private:

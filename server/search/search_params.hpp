@@ -22,8 +22,9 @@ struct PaperParams {
   double reach_time_s = 60.0;     ///< an unsearched cell not reached by then is unreachable
   double progress_time_s = 10.0;  ///< nor one without progress for so long
   double progress_m = 0.10;       ///< what counts as progress
-  double stuck_time_s = 12.0;     ///< local planner got nowhere (less than stuck_move_m): recovery
+  double stuck_time_s = 8.0;      ///< local planner got nowhere (less than stuck_move_m): recovery
   double stuck_move_m = 0.25;     ///< ...
+  double recovery_back_m = 0.15;  ///< a recovery backs out so far before it turns; 0: it only turns
   double recovery_turn_s = 6.0;   ///< longest turn of one recovery
   double recovery_omega_rad_s = 0.5;
   double recovery_clear_m = 1.0;  ///< front distance that ends a recovery

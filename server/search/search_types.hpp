@@ -105,7 +105,7 @@ struct Detection {
   double v_px = 0.0;
   double score = 0.0;
   Pose2 map_T_base;               ///< at the newest sighting
-  double bearing_base_rad = 0.0;  ///< alpha', eq (4)
+  double bearing_base_rad = 0.0;  ///< alpha', eq (4); of a solid's middle where the lidar shows its outline
   double bearing_map_rad = 0.0;   ///< theta_0 = alpha' + theta_r, eq (5)
   std::optional<Point2> position_map;
   Matrix2 position_covariance = Matrix2::Zero();

@@ -11,6 +11,11 @@ namespace seeker::search {
 namespace {
 
 constexpr double kMaxSonarDisagreement_m = 0.5;
+/// Neighbouring returns farther apart belong to two things.
+constexpr double kOutlineJump_m = 0.12;
+/// Width of an outline as a share of the thing's: its diagonal at most, with some room for noise.
+constexpr double kLeastOutline = 0.7;
+constexpr double kMostOutline = 1.6;
 
 /// An echo as the camera would see it.
 struct Echo {
@@ -101,6 +106,42 @@ std::optional<RangeReading> range_in_direction(double bearing_base_rad, const La
     }
   }
   return std::nullopt;
+}
+
+std::optional<double> outline_bearing(const LaserScan& scan, double bearing_base_rad, double range_m, double width_m,
+                                      const DetectionParams& params) {
+  const std::vector<Point2> points = points_in_base(scan);
+  const Pose2 camera_T_base = inverse(params.base_T_camera);
+  const auto bearing_of = [&](const Point2& p_base) {
+    const Point2 p = camera_T_base * p_base;
+    return wrap_angle(std::atan2(p.y(), p.x()) + params.base_T_camera.theta_rad);
+  };
+  std::optional<std::size_t> seed;
+  double nearest_rad = params.lidar_window_rad;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double off_rad = std::abs(wrap_angle(bearing_of(points[i]) - bearing_base_rad));
+    if (off_rad <= nearest_rad && std::abs((camera_T_base * points[i]).norm() - range_m) <= kOutlineJump_m) {
+      nearest_rad = off_rad;
+      seed = i;
+    }
+  }
+  if (!seed) {
+    return std::nullopt;
+  }
+  std::size_t first = *seed;
+  std::size_t last = *seed;
+  while (first > 0 && (points[first - 1] - points[first]).norm() <= kOutlineJump_m) {
+    --first;
+  }
+  while (last + 1 < points.size() && (points[last + 1] - points[last]).norm() <= kOutlineJump_m) {
+    ++last;
+  }
+  const double across_m = (points[last] - points[first]).norm();
+  if (across_m < kLeastOutline * width_m || across_m > kMostOutline * width_m) {
+    return std::nullopt;
+  }
+  const double left_rad = bearing_of(points[last]);
+  return wrap_angle(left_rad + wrap_angle(bearing_of(points[first]) - left_rad) / 2.0);
 }
 
 }  // namespace seeker::search

@@ -32,4 +32,10 @@ struct RangeReading {
                                                              const SonarScan* sonar, std::optional<double> hint_m,
                                                              const DetectionParams& params);
 
+/// Direction of the middle of a solid thing's outline in the sweep: what a camera recognises is one of its faces, which
+/// from near lies well beside the middle. Beams are followed from the one at the bearing to both sides up to a jump;
+/// nothing where that outline does not fit a thing `width_m` across (a wall it touches, half of it hidden).
+[[nodiscard]] std::optional<double> outline_bearing(const LaserScan& scan, double bearing_base_rad, double range_m,
+                                                    double width_m, const DetectionParams& params);
+
 }  // namespace seeker::search

@@ -46,6 +46,44 @@ SonarScan ring(double range_m) {
   return scan;
 }
 
+/// A sweep over a box of side `side_m` turned by `turn_rad`, its middle straight ahead, and nothing else.
+LaserScan scan_of_box(double middle_m, double side_m, double turn_rad) {
+  LaserScan scan;
+  scan.angle_min_rad = -kPi / 2.0;
+  scan.angle_step_rad = deg_to_rad(0.5);
+  scan.range_max_m = 8.0;
+  const Pose2 base_T_box{middle_m, 0.0, turn_rad};
+  for (int k = 0; k <= 360; ++k) {
+    const double angle = scan.angle_rad(static_cast<std::size_t>(k));
+    float range = kNoReturn;
+    for (double r = 0.3; r < 4.0; r += 0.002) {
+      const Point2 in_box = inverse(base_T_box) * Point2(r * std::cos(angle), r * std::sin(angle));
+      if (in_box.cwiseAbs().maxCoeff() <= side_m / 2.0) {
+        range = static_cast<float>(r);
+        break;
+      }
+    }
+    scan.ranges_m.push_back(range);
+  }
+  return scan;
+}
+
+TEST(Outline, PointsToTheMiddleOfABoxAtAnyTurn) {
+  for (const double turn_deg : {0.0, 15.0, 30.0, 45.0, 70.0}) {
+    const LaserScan scan = scan_of_box(1.0, 0.3, deg_to_rad(turn_deg));
+    const double face_rad = deg_to_rad(5.0);  // a face beside the middle
+    const auto range = lidar_range(scan, face_rad, {});
+    ASSERT_TRUE(range) << turn_deg;
+    const auto middle = outline_bearing(scan, face_rad, range->range_m, 0.3, {});
+    ASSERT_TRUE(middle) << turn_deg;
+    EXPECT_NEAR(rad_to_deg(*middle), 0.0, 1.5) << turn_deg;
+  }
+}
+
+TEST(Outline, AWallIsNoOutlineOfATarget) {
+  EXPECT_FALSE(outline_bearing(scan_of_box(3.0, 2.5, 0.0), 0.0, 1.75, 0.3, {}));
+}
+
 // R6 of the specification.
 TEST(Bearing, PixelsOfThePaperGiveItsAngles) {
   const vision::OmniCamera camera;
