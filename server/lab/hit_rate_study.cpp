@@ -54,7 +54,9 @@ Status take_picture(const sim::World& world, const app::RobotOptions& options, c
   bool hit = false;
   for (const vision::Sighting& sighting : report->sightings) {
     const double off_deg = rad_to_deg(std::abs(wrap_angle(sighting.bearing_base_rad - heading_offset_rad)));
-    const bool near = off_deg <= params.bearing_gate_deg;
+    // From near the recognised face lies beside the target's middle by as much as its half.
+    const double extent_deg = rad_to_deg(std::atan(kTargetRadius_m / bin.range_m));
+    const bool near = off_deg <= std::max(params.bearing_gate_deg, extent_deg);
     hit = hit || near;
     bin.false_sightings += near ? 0 : 1;
   }

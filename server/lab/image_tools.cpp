@@ -45,6 +45,7 @@ Image contact_sheet(const std::vector<CaptionedImage>& pictures, int columns) {
   }
   Image sheet(width, height, 3, 255);
   std::vector<std::pair<Point2, std::string>> captions;
+  std::vector<image::Rect> frames;
   int top = kGap_px;
   for (std::size_t row = 0; row < rows; ++row) {
     int left = kGap_px;
@@ -52,12 +53,19 @@ Image contact_sheet(const std::vector<CaptionedImage>& pictures, int columns) {
       const CaptionedImage& picture = pictures[row * per_row + column];
       const int caption_px = picture.caption.empty() ? 0 : kCaption_px;
       paste(sheet, picture.image, left, top + caption_px);
+      if (caption_px > 0) {
+        frames.push_back(
+            {left - 0.5, top + caption_px - 0.5, picture.image.width_px() + 1.0, picture.image.height_px() + 1.0});
+      }
       captions.emplace_back(Point2(left, top + kCaption_px - 8.0), picture.caption);
       left += widths[column] + kGap_px;
     }
     top += heights[row] + kGap_px;
   }
   image::Canvas canvas(sheet);
+  for (const image::Rect& frame : frames) {
+    canvas.rect(frame, {image::kLightGrey, 1.0});
+  }
   for (const auto& [at, caption] : captions) {
     canvas.text(at, caption, {.size_px = kCaptionText_px});
   }

@@ -8,9 +8,9 @@
 namespace seeker::lab {
 namespace {
 
-constexpr int kLargestSide_px = 820;
+constexpr int kLargestSide_px = 960;
 constexpr double kMargin_m = 0.25;
-constexpr int kHeader_px = 64;
+constexpr int kHeader_px = 88;
 constexpr int kFooter_px = 58;
 constexpr image::Colour kFurniture{196, 190, 180};
 
@@ -126,11 +126,16 @@ void draw_text(Sheet& sheet, const RunRecord& record, const std::string& title) 
   sheet.canvas.text({16.0, 26.0}, title, {.size_px = kTitle_px});
   std::string facts = r.outcome + ", " + std::to_string(r.cells_searched) + " cells searched, path " +
                       fixed(r.path_length_m, 1) + " m, " + fixed(r.robot_time_s, 0) + " s";
-  if (r.first_find) {
-    facts += ", found in cell " + std::to_string(r.first_find->cells_searched) + " with bearing error " +
-             fixed(r.first_find->bearing_error_deg, 1) + " deg";
-  }
   sheet.canvas.text({16.0, 50.0}, facts, {.size_px = kText_px});
+  if (r.first_find) {
+    std::string find = "found in cell " + std::to_string(r.first_find->cells_searched) + " at " +
+                       fixed(r.first_find->range_m, 1) + " m, bearing error " +
+                       fixed(r.first_find->bearing_error_deg, 1) + " deg";
+    if (r.last_find && r.last_find->position_error_m) {
+      find += "; position error at the end " + fixed(*r.last_find->position_error_m, 2) + " m";
+    }
+    sheet.canvas.text({16.0, 72.0}, find, {.size_px = kText_px});
+  }
 
   const double top = sheet.view.height_px + kHeader_px + 18.0;
   double left = 16.0;
