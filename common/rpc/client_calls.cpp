@@ -1,0 +1,177 @@
+// Calls, clock comparison and subscriptions of the remote client; the connection itself is in client_impl.cpp.
+
+#include <algorithm>
+#include <utility>
+
+#include <boost/asio/post.hpp>
+
+#include "common/log/log.hpp"
+#include "common/rpc/client_impl.hpp"
+#include "common/wire/convert.hpp"
+#include "common/wire/envelope.hpp"
+#include "common/wire/outcome.hpp"
+
+namespace seeker::rpc {
+namespace {
+
+namespace asio = boost::asio;
+namespace pb = ::seeker::v1;
+
+constexpr std::string_view kPart = "rpc";
+
+/// Ends the subscription of a client that may be gone already.
+class RemoteSubscription final : public api::Subscription {
+ public:
+  RemoteSubscription(std::shared_ptr<ClientStream> stream, std::function<void()> end)
+      : stream_(std::move(stream)), end_(std::move(end)) {}
+  RemoteSubscription(const RemoteSubscription&) = delete;
+  RemoteSubscription& operator=(const RemoteSubscription&) = delete;
+  ~RemoteSubscription() override {
+    stream_->cancel();
+    end_();
+  }
+
+ private:
+  std::shared_ptr<ClientStream> stream_;
+  std::function<void()> end_;
+};
+
+}  // namespace
+
+bool RobotClient::Impl::send(const pb::Envelope& envelope) {
+  Result<wire::OutFrame> frame = wire::frame_of(envelope);
+  if (!frame || !outbox_.push(std::move(*frame))) {
+    return false;
+  }
+  connection_->wake();
+  return true;
+}
+
+void RobotClient::Impl::call(pb::Request request, wire::ClientSession::Answer answer) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!stopped_) {
+      asio::post(io_, [self = shared_from_this(), request = std::move(request), answer]() mutable {
+        self->call_now(std::move(request), std::move(answer));
+      });
+      return;
+    }
+  }
+  answer(fail(Errc::kCancelled, "the client was closed"));
+}
+
+void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answer answer) {
+  if (closing_ || !session_ || !session_->open()) {
+    answer(closing_ ? fail(Errc::kCancelled, "the client was closed")
+                    : fail(Errc::kLinkLost, "there is no connection to the robot now; it is tried again"));
+    return;
+  }
+  if (request.ByteSizeLong() + wire::kMaxTextBytes > wire::kMaxFrameBytes) {
+    answer(fail(Errc::kTooLarge, "the request has more than the 16 MiB of one frame; give smaller pictures"));
+    return;
+  }
+  const pb::Envelope envelope =
+      session_->call(std::move(request), net::wall_now(), params_.call_timeout, std::move(answer));
+  if (!send(envelope)) {
+    end_connection({Errc::kLinkLost, "the robot does not read: too many requests wait to be sent"}, false);
+  }
+}
+
+void RobotClient::Impl::sync_time(api::Reply<TimeSync> reply) {
+  pb::Request request;
+  request.mutable_time_sync();
+  call(std::move(request), [self = shared_from_this(), reply](Result<std::vector<pb::Response>> responses) {
+    const Status ok = responses ? wire::outcome(responses->front()) : Status(tl::unexpected<Error>(responses.error()));
+    if (!ok) {
+      reply(tl::unexpected<Error>(ok.error()));
+      return;
+    }
+    const pb::ResponseHeader& header = responses->front().header();
+    // t1..t4 of the exchange: the way there and back is what the robot did not take itself.
+    const Duration t1(header.client_time_ns());
+    const Duration t2(header.robot_received_time_ns());
+    const Duration t3(header.robot_sent_time_ns());
+    const Duration t4 = net::wall_now().time_since_epoch();
+    const TimeSync now{((t2 - t1) + (t3 - t4)) / 2, (t4 - t1) - (t3 - t2), responses->front().time_sync().realtime()};
+    if (!self->best_sync_ || now.round_trip < self->best_sync_->round_trip || !now.realtime) {
+      self->best_sync_ = now;
+    }
+    reply(*self->best_sync_);
+  });
+}
+
+Result<std::unique_ptr<api::Subscription>> RobotClient::Impl::subscribe(const std::vector<api::TopicRequest>& topics,
+                                                                        api::UpdateSink sink) {
+  if (const Status valid = validate_topics(topics); !valid) {
+    return tl::unexpected<Error>(valid.error());
+  }
+  std::shared_ptr<ClientStream> stream;
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopped_) {
+      return fail(Errc::kCancelled, "the client was closed");
+    }
+    stream = std::make_shared<ClientStream>(next_stream_++, topics, std::move(sink));
+  }
+  asio::post(io_, [self = shared_from_this(), stream] {
+    self->streams_[stream->id()] = stream;
+    if (self->session_ && self->session_->open()) {
+      self->send_subscription(stream);
+    }
+  });
+  const auto end = [weak = weak_from_this(), id = stream->id()] {
+    if (const auto self = weak.lock()) {
+      asio::post(self->io_, [self, id] {
+        if (self->streams_.erase(id) == 0 || !self->session_ || !self->session_->open()) {
+          return;
+        }
+        pb::Request request;
+        request.mutable_unsubscribe()->set_subscription_id(id);
+        self->call_now(std::move(request), [](const Result<std::vector<pb::Response>>&) {});
+      });
+    }
+  };
+  return std::make_unique<RemoteSubscription>(stream, end);
+}
+
+void RobotClient::Impl::send_subscription(const std::shared_ptr<ClientStream>& stream) {
+  pb::Request request;
+  *request.mutable_subscribe() = stream->request();
+  call_now(std::move(request), [self = shared_from_this(), stream](Result<std::vector<pb::Response>> responses) {
+    const Status ok = responses ? wire::outcome(responses->front()) : Status(tl::unexpected<Error>(responses.error()));
+    if (!ok) {
+      // After a broken link the next connection asks again; a refusal is a fault of this program.
+      if (ok.error().code != Errc::kLinkLost && ok.error().code != Errc::kCancelled) {
+        log::warning(kPart, "a subscription was refused: " + ok.error().message);
+      }
+      return;
+    }
+    stream->on_subscribed(responses->front().subscribe(), self->stream_id_);
+  });
+}
+
+/// LATEST topics need nothing after a gap but tiles: those that changed meanwhile would stay old until they change
+/// again.
+void RobotClient::Impl::catch_up_tiles(const std::shared_ptr<ClientStream>& stream, bool restarted) {
+  if (!stream->wants(api::Topic::kTiles)) {
+    return;
+  }
+  pb::Request request;
+  request.mutable_get_tiles()->set_since_revision(restarted ? 0 : stream->tiles_revision());
+  call_now(std::move(request), [stream](Result<std::vector<pb::Response>> responses) {
+    if (!responses) {
+      return;
+    }
+    for (const pb::Response& response : *responses) {
+      auto update = std::make_shared<api::Update>();
+      update->topic = api::Topic::kTiles;
+      Result<api::TileUpdate> tiles = wire::from_message<api::TileUpdate>(response.get_tiles().update());
+      if (wire::outcome(response) && tiles && !tiles->tiles.empty()) {
+        update->payload = std::move(*tiles);
+        stream->deliver(update);
+      }
+    }
+  });
+}
+
+}  // namespace seeker::rpc

@@ -1,0 +1,94 @@
+// What the loop tells: trajectory, streams, status.
+
+#include "server/app/robot_loop.hpp"
+
+namespace seeker::app {
+
+void RobotLoop::remember_pose() {
+  if (trajectory_.empty() || distance_m(trajectory_.back(), pose_.map_T_base) >= params_.trajectory_spacing_m) {
+    trajectory_.push_back(pose_.map_T_base);
+  }
+  if (trajectory_.size() > params_.max_trajectory) {
+    // Thin the older half: the shape stays, the memory is bounded.
+    std::vector<Pose2> thinned;
+    const std::size_t half = trajectory_.size() / 2;
+    for (std::size_t i = 0; i < trajectory_.size(); i += i < half ? 2 : 1) {
+      thinned.push_back(trajectory_[i]);
+    }
+    trajectory_ = std::move(thinned);
+  }
+}
+
+void RobotLoop::publish_idle() {
+  fresh_scan_ = fresh_sonar_ = false;
+  publish();
+}
+
+void RobotLoop::publish_tiles(RobotTime stamp) {
+  api::TileUpdate update;
+  update.tiles = map_.tiles_since(republish_ ? 0 : published_revision_);
+  update.revision = map_.revision();
+  update.map_epoch = pose_.map_epoch;
+  published_revision_ = update.revision;
+  tiles_at_ = stamp;
+  if (!update.tiles.empty()) {
+    hub_.publish(api::Topic::kTiles, stamp, std::move(update));
+  }
+}
+
+void RobotLoop::publish() {
+  const RobotTime stamp = now();
+  if (hub_.wanted(api::Topic::kStatus)) {
+    hub_.publish(api::Topic::kStatus, stamp, status());
+  }
+  if ((fresh_scan_ || republish_) && scan_ && hub_.wanted(api::Topic::kScan)) {
+    hub_.publish(api::Topic::kScan, stamp, *scan_);
+  }
+  if ((fresh_sonar_ || republish_) && sonar_ && hub_.wanted(api::Topic::kSonar)) {
+    hub_.publish(api::Topic::kSonar, stamp, *sonar_);
+  }
+  if (hub_.wanted(api::Topic::kTiles) && (republish_ || stamp - tiles_at_ >= params_.tile_period)) {
+    publish_tiles(stamp);
+  }
+  if (missions_.grid() && hub_.wanted(api::Topic::kGrid) && (republish_ || stamp - grid_at_ >= params_.grid_period)) {
+    grid_at_ = stamp;
+    hub_.publish(api::Topic::kGrid, stamp, *missions_.grid());
+  }
+  republish_ = false;
+}
+
+api::RobotStatus RobotLoop::status() const {
+  api::RobotStatus status;
+  status.stamp = now();
+  status.pose = pose_;
+  if (odometry_) {
+    status.odom_T_base = odometry_->odom_T_base;
+    status.velocity = odometry_->velocity;
+    status.battery_v = odometry_->battery_v;
+  }
+  status.estop = authority_.estop();
+  status.motors_armed = authority_.armed();
+  status.lease = authority_.lease();
+  status.mission = missions_.last();
+  status.faults = faults_.all();
+  status.safety = safety_reason_;
+  status.clock_speed = parts_.devices.clock->speed();
+  status.map_revision = map_.revision();
+  return status;
+}
+
+std::vector<std::string> RobotLoop::capabilities() const {
+  std::vector<std::string> words{"goto", "return", "drive"};
+  if (parts_.devices.camera) {
+    words.insert(words.end(), {"search", "camera:omni"});
+  }
+  if (parts_.devices.lidar) {
+    words.emplace_back("lidar");
+  }
+  if (parts_.devices.sonar) {
+    words.emplace_back("sonar");
+  }
+  return words;
+}
+
+}  // namespace seeker::app
