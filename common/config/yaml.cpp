@@ -324,14 +324,10 @@ Result<Document> Document::parse(std::string_view text, std::string name, const 
   }
   auto impl = std::make_unique<Impl>();
   impl->name = std::move(name);
+  if (const Status ok = guard_yaml(text, impl->name); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
   try {
-    std::istringstream guard_input{std::string(text)};
-    YAML::Parser parser(guard_input);
-    Guard guard;
-    parser.HandleNextDocument(guard);
-    if (!guard.problem().empty()) {
-      return fail(Errc::kParse, impl->name + ":" + std::to_string(guard.line()) + ": " + guard.problem());
-    }
     impl->root = YAML::Load(std::string(text));
   } catch (const YAML::Exception& error) {
     return fail(Errc::kParse, impl->name + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
