@@ -131,6 +131,12 @@ Image bars(const std::vector<GroupSummary>& groups, const std::string& title, co
     series->x.push_back(x);
     series->y.push_back(value(group));
   }
+  double highest = 0.0;
+  for (const GroupSummary& group : groups) {
+    highest = std::max(highest, value(group));
+  }
+  constexpr double kRoomForLegend = 1.45;
+  chart.y_range = {0.0, highest > 0.0 ? kRoomForLegend * highest : 1.0};
   constexpr int kWidth_px = 720;
   constexpr int kHeight_px = 420;
   return image::draw_chart(chart, kWidth_px, kHeight_px);
