@@ -41,7 +41,7 @@ template <class T>
 class Grid {
  public:
   Grid() = default;
-  Grid(GridFrame frame, int width, int height, T fill = T())
+  Grid(const GridFrame& frame, int width, int height, T fill = T())
       : frame_(frame),
         width_(width),
         height_(height),

@@ -139,11 +139,11 @@ Result<RobotOptions> load_robot_options(const std::filesystem::path& file, const
 }
 
 std::filesystem::path resolve(const RobotOptions& options, const std::string& path) {
-  const std::filesystem::path written(path);
+  std::filesystem::path written(path);
   if (written.is_absolute()) {
     return written;
   }
-  const std::filesystem::path beside = options.folder / written;
+  std::filesystem::path beside = options.folder / written;
   return std::filesystem::exists(beside) ? beside : written;
 }
 

@@ -80,7 +80,7 @@ class Server::Impl {
     if (!ready) {
       return tl::unexpected<Error>(ready.error());
     }
-    const Result<std::uint16_t> port = listen();
+    Result<std::uint16_t> port = listen();
     if (!port) {
       return port;
     }
