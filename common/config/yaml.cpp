@@ -23,12 +23,12 @@ std::string join(const std::vector<std::string>& words) {
 }
 
 /// Sets the value of "a.b.c=text" in the tree; maps on the way are made when absent.
-Status apply_override(YAML::Node root, const std::string& assignment) {
+Status apply_override(const YAML::Node& root, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
     return fail(Errc::kInvalidArgument, "--set " + assignment + ": expected key.path=value");
   }
-  YAML::Node node = std::move(root);
+  YAML::Node node = root;
   std::stringstream path(assignment.substr(0, equals));
   std::string key;
   std::vector<std::string> keys;

@@ -80,7 +80,8 @@ void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answe
 void RobotClient::Impl::sync_time(api::Reply<TimeSync> reply) {
   pb::Request request;
   request.mutable_time_sync();
-  call(std::move(request), [self = shared_from_this(), reply](Result<std::vector<pb::Response>> responses) {
+  call(std::move(request), [self = shared_from_this(),
+                            reply = std::move(reply)](Result<std::vector<pb::Response>> responses) {
     const Status ok = responses ? wire::outcome(responses->front()) : Status(tl::unexpected<Error>(responses.error()));
     if (!ok) {
       reply(tl::unexpected<Error>(ok.error()));

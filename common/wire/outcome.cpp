@@ -56,7 +56,7 @@ bool errc_of(const std::string& enumerator, Errc& code) {
   return false;
 }
 
-void set_common_error(pb::Response& response, pb::CommonError::Code code, std::string message) {
+void set_common_error(pb::Response& response, pb::CommonError::Code code, const std::string& message) {
   pb::CommonError* error = response.mutable_header()->mutable_error();
   error->set_code(code);
   error->set_message(clean_text(message));

@@ -17,7 +17,7 @@ using CallNumber = int;
 /// result message of the call exists afterwards.
 void set_outcome(seeker::v1::Response& response, CallNumber call, const Status& outcome);
 /// A common error without a call's result, e.g. CODE_RATE_LIMITED.
-void set_common_error(seeker::v1::Response& response, seeker::v1::CommonError::Code code, std::string message);
+void set_common_error(seeker::v1::Response& response, seeker::v1::CommonError::Code code, const std::string& message);
 /// Reads it back. A response without status, or with one that is not known here, is kInternal.
 [[nodiscard]] Status outcome(const seeker::v1::Response& response);
 /// kInvalidArgument for STATUS_INVALID_ARGUMENT, and so on; nothing for OK, UNSPECIFIED and unknown names.

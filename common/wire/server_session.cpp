@@ -145,12 +145,12 @@ ServerStep ServerSession::on_hello(const pb::Hello& hello) {
 }
 
 ServerStep ServerSession::refuse_request(const pb::Request& request, RobotTime robot_now, pb::CommonError::Code code,
-                                         std::string message) {
+                                         const std::string& message) {
   ++refused_total_;
   ServerStep step;
   pb::Response* response = step.send.emplace().mutable_response();
   begin_response(request.header(), params_.robot.robot_id, robot_now, robot_now, *response);
-  set_common_error(*response, code, std::move(message));
+  set_common_error(*response, code, message);
   return step;
 }
 

@@ -65,7 +65,7 @@ class ServerSession {
   [[nodiscard]] ServerStep on_request(seeker::v1::Request& request, WallTime now, RobotTime robot_now);
   [[nodiscard]] ServerStep refuse_hello(seeker::v1::HelloReply::Status status, std::string message) const;
   [[nodiscard]] ServerStep refuse_request(const seeker::v1::Request& request, RobotTime robot_now,
-                                          seeker::v1::CommonError::Code code, std::string message);
+                                          seeker::v1::CommonError::Code code, const std::string& message);
   [[nodiscard]] seeker::v1::HelloReply reply_base() const;
 
   ServerSessionParams params_;

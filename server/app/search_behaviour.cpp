@@ -93,15 +93,14 @@ api::CoverageSummary to_api(const search::CoverageSummary& summary) {
 
 Result<std::unique_ptr<Behaviour>> SearchBehaviour::create(const SearchBehaviourParams& params,
                                                            const api::SearchMission& mission,
-                                                           std::shared_ptr<const search::ControlTable> table,
+                                                           const std::shared_ptr<const search::ControlTable>& table,
                                                            EvidenceMemory memory) {
   Result<std::unique_ptr<vision::Recogniser>> recogniser =
       vision::make_recogniser(target_models(mission), params.recogniser);
   if (!recogniser) {
     return tl::unexpected<Error>(recogniser.error());
   }
-  Result<search::SearchMission> core =
-      search::SearchMission::create(to_search(params, mission), params.search, std::move(table));
+  Result<search::SearchMission> core = search::SearchMission::create(to_search(params, mission), params.search, table);
   if (!core) {
     return tl::unexpected<Error>(core.error());
   }

@@ -23,10 +23,9 @@ struct SearchBehaviourParams {
 class SearchBehaviour final : public Behaviour {
  public:
   /// Refuses targets that the recogniser cannot use.
-  [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(const SearchBehaviourParams& params,
-                                                                 const api::SearchMission& mission,
-                                                                 std::shared_ptr<const search::ControlTable> table,
-                                                                 EvidenceMemory memory);
+  [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(
+      const SearchBehaviourParams& params, const api::SearchMission& mission,
+      const std::shared_ptr<const search::ControlTable>& table, EvidenceMemory memory);
   ~SearchBehaviour() override;
 
   [[nodiscard]] Decision step(const Situation& situation) override;

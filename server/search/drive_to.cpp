@@ -31,7 +31,7 @@ DriveStep DriveTo::step(const StrategyInput& input) {
   if (!active_) {
     return {};
   }
-  const DriveStep out = use_map_ ? driver_.step(input) : step_locally(input);
+  DriveStep out = use_map_ ? driver_.step(input) : step_locally(input);
   active_ = out.state == DriveState::kDriving;
   return out;
 }

@@ -7,7 +7,7 @@
 namespace seeker::search {
 
 Result<SearchMission> SearchMission::create(const SearchRequest& request, const SearchParams& params,
-                                            std::shared_ptr<const ControlTable> table) {
+                                            const std::shared_ptr<const ControlTable>& table) {
   if (const Status valid = validate(request); !valid) {
     return tl::unexpected(valid.error());
   }
@@ -17,7 +17,7 @@ Result<SearchMission> SearchMission::create(const SearchRequest& request, const 
   if (table == nullptr) {
     return fail(Errc::kInvalidArgument, "a search needs the local planner's control table; create one first");
   }
-  return SearchMission(std::make_unique<Impl>(request, params, std::move(table)));
+  return SearchMission(std::make_unique<Impl>(request, params, table));
 }
 
 SearchMission::SearchMission(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

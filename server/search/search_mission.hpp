@@ -52,7 +52,7 @@ class SearchMission {
  public:
   /// `table` is shared: it is costly to fill and immutable. kInvalidArgument: request or parameters out of bounds.
   [[nodiscard]] static Result<SearchMission> create(const SearchRequest& request, const SearchParams& params,
-                                                    std::shared_ptr<const ControlTable> table);
+                                                    const std::shared_ptr<const ControlTable>& table);
 
   SearchMission(SearchMission&&) noexcept;
   SearchMission& operator=(SearchMission&&) noexcept;

@@ -24,7 +24,7 @@ class MultiRecogniser : public Recogniser {
   [[nodiscard]] Result<RecognitionReport> recognise(const Image& picture) const override {
     RecognitionReport all;
     for (const auto& part : parts_) {
-      const Result<RecognitionReport> report = part->recognise(picture);
+      Result<RecognitionReport> report = part->recognise(picture);
       if (!report) {
         return report;
       }
