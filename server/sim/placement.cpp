@@ -86,7 +86,7 @@ Result<Pose2> place_target(World& world, std::size_t index, Rng& rng, const Plac
   const double taken_m = std::hypot(target.width_m, target.depth_m) / 2.0 + params.robot_radius_m + params.resolution_m;
   const double taken_cells = kPi * taken_m * taken_m / (params.resolution_m * params.resolution_m);
   for (int attempt = 0; attempt < kAttempts && !places.empty(); ++attempt) {
-    const Point2 p = places[rng.below(places.size())];
+    const Point2& p = places[rng.below(places.size())];
     World tried = world;
     tried.targets[index].world_T_target = {p.x(), p.y(), rng.uniform(-kPi, kPi)};
     const Grid<float> after = reachable_floor(tried, params.robot_radius_m, params.resolution_m);
@@ -109,7 +109,7 @@ Result<Pose2> place_start(World& world, Rng& rng, const PlacementParams& params)
   if (places.empty()) {
     return fail(Errc::kUnreachable, "world '" + world.name + "' has no floor with room for the robot");
   }
-  const Point2 p = places[rng.below(places.size())];
+  const Point2& p = places[rng.below(places.size())];
   world.starts = {{p.x(), p.y(), rng.uniform(-kPi, kPi)}};
   return world.starts.front();
 }
