@@ -312,7 +312,7 @@ void RobotLoop::emit(const api::Event& event) {
   if (on_event) {
     on_event(event);
   }
-  hub_.publish(api::Topic::kEvent, numbered.stamp, std::move(numbered));
+  hub_.publish(api::Topic::kEvent, event.stamp, std::move(numbered));
 }
 
 }  // namespace seeker::app

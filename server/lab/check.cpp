@@ -9,7 +9,7 @@ namespace seeker::lab {
 std::string line_of(const Check& check) {
   std::string line = (check.passed ? "PASS " : "FAIL ") + check.id;
   for (const auto& [name, value] : check.figures) {
-    line += " " + name + "=" + value;
+    line.append(" ").append(name).append("=").append(value);
   }
   return line;
 }

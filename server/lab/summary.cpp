@@ -163,70 +163,82 @@ std::vector<GroupSummary> summarise(const std::vector<RunResult>& results) {
   return summaries;
 }
 
+namespace {
+
+std::vector<std::string> run_columns() {
+  return {"world",
+          "strategy",
+          "seed",
+          "outcome",
+          "found",
+          "false_finds",
+          "first_bearing_deg",
+          "first_position_m",
+          "first_source",
+          "first_range_m",
+          "first_cells",
+          "last_bearing_deg",
+          "last_position_m",
+          "last_source",
+          "last_range_m",
+          "last_cells",
+          "path_m",
+          "path_to_target_m",
+          "robot_time_s",
+          "wall_time_s",
+          "x_real_time",
+          "cells_searched",
+          "cells_visited",
+          "cells_repeated",
+          "covered_share",
+          "covered_true_share",
+          "mean_probability",
+          "gaps",
+          "contacts",
+          "min_clearance_m",
+          "pose_error_m",
+          "pose_error_deg",
+          "pose_error_max_m",
+          "events",
+          "event_hash"};
+}
+
+std::vector<std::string> run_row(const RunResult& r) {
+  std::vector<std::string> row = {r.world,   r.strategy,          std::to_string(r.seed),
+                                  r.outcome, r.found ? "1" : "0", std::to_string(r.false_finds)};
+  for (const auto* find : {&r.first_find, &r.last_find}) {
+    const std::vector<std::string> cells = find_cells(*find);
+    row.insert(row.end(), cells.begin(), cells.end());
+  }
+  const std::vector<std::string> rest = {fixed(r.path_length_m, 2),
+                                         fixed(r.target_path_m, 2),
+                                         fixed(r.robot_time_s, 1),
+                                         fixed(r.wall_time_s, 2),
+                                         fixed(r.speed(), 1),
+                                         std::to_string(r.cells_searched),
+                                         std::to_string(r.cells_visited),
+                                         std::to_string(r.cells_repeated),
+                                         fixed(r.covered_share, 4),
+                                         fixed(r.covered_true_share, 4),
+                                         fixed(r.mean_probability, 4),
+                                         std::to_string(r.gaps),
+                                         std::to_string(r.contacts),
+                                         fixed(r.min_clearance_m, 3),
+                                         fixed(r.localisation_error_m, 3),
+                                         fixed(r.localisation_error_deg, 2),
+                                         fixed(r.max_localisation_error_m, 3),
+                                         std::to_string(r.events),
+                                         r.event_hash};
+  row.insert(row.end(), rest.begin(), rest.end());
+  return row;
+}
+
+}  // namespace
+
 std::string runs_csv(const std::vector<RunResult>& results) {
-  Table table({"world",
-               "strategy",
-               "seed",
-               "outcome",
-               "found",
-               "false_finds",
-               "first_bearing_deg",
-               "first_position_m",
-               "first_source",
-               "first_range_m",
-               "first_cells",
-               "last_bearing_deg",
-               "last_position_m",
-               "last_source",
-               "last_range_m",
-               "last_cells",
-               "path_m",
-               "path_to_target_m",
-               "robot_time_s",
-               "wall_time_s",
-               "x_real_time",
-               "cells_searched",
-               "cells_visited",
-               "cells_repeated",
-               "covered_share",
-               "covered_true_share",
-               "mean_probability",
-               "gaps",
-               "contacts",
-               "min_clearance_m",
-               "pose_error_m",
-               "pose_error_deg",
-               "pose_error_max_m",
-               "events",
-               "event_hash"});
-  for (const RunResult& r : results) {
-    std::vector<std::string> row = {r.world,   r.strategy,          std::to_string(r.seed),
-                                    r.outcome, r.found ? "1" : "0", std::to_string(r.false_finds)};
-    for (const auto* find : {&r.first_find, &r.last_find}) {
-      const std::vector<std::string> cells = find_cells(*find);
-      row.insert(row.end(), cells.begin(), cells.end());
-    }
-    const std::vector<std::string> rest = {fixed(r.path_length_m, 2),
-                                           fixed(r.target_path_m, 2),
-                                           fixed(r.robot_time_s, 1),
-                                           fixed(r.wall_time_s, 2),
-                                           fixed(r.speed(), 1),
-                                           std::to_string(r.cells_searched),
-                                           std::to_string(r.cells_visited),
-                                           std::to_string(r.cells_repeated),
-                                           fixed(r.covered_share, 4),
-                                           fixed(r.covered_true_share, 4),
-                                           fixed(r.mean_probability, 4),
-                                           std::to_string(r.gaps),
-                                           std::to_string(r.contacts),
-                                           fixed(r.min_clearance_m, 3),
-                                           fixed(r.localisation_error_m, 3),
-                                           fixed(r.localisation_error_deg, 2),
-                                           fixed(r.max_localisation_error_m, 3),
-                                           std::to_string(r.events),
-                                           r.event_hash};
-    row.insert(row.end(), rest.begin(), rest.end());
-    table.add(std::move(row));
+  Table table(run_columns());
+  for (const RunResult& result : results) {
+    table.add(run_row(result));
   }
   return table.csv();
 }
