@@ -194,18 +194,11 @@ Situation RobotLoop::situation() const {
 }
 
 Twist2 RobotLoop::decide(WallTime wall_now) {
-  if (std::optional<Result<Recognition>> answer = recognition_.take()) {
-    if (*answer) {
-      missions_.on_recognition(**answer);
-    } else {
-      raise("recogniser-failed", "recogniser", answer->error().message,
-            "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
-    }
-  }
+  take_recognition();
   const Situation here = situation();
   const Decision decision = missions_.step(here, faults_.blocking(), wall_now);
   if (decision.wants_image && missions_.running()) {
-    look(here);
+    look();
   }
   if (missions_.running()) {
     authority_.cancel_drive();
@@ -214,7 +207,7 @@ Twist2 RobotLoop::decide(WallTime wall_now) {
   return authority_.drive_velocity(now()).value_or(Twist2{});
 }
 
-void RobotLoop::look(const Situation& here) {
+void RobotLoop::look() {
   const Behaviour* behaviour = missions_.behaviour();
   const auto recogniser = behaviour != nullptr ? behaviour->recogniser() : nullptr;
   if (recogniser == nullptr || recognition_.busy() || parts_.devices.camera == nullptr) {
@@ -240,14 +233,20 @@ void RobotLoop::look(const Situation& here) {
   job.context.sonar = sonar_;
   job.image = std::move(frame->image);
   recognition_.start(std::move(job));
-  if (std::optional<Result<Recognition>> answer = recognition_.take()) {  // inline: it is there at once
-    if (*answer) {
-      components_.count_output("recogniser", here.now);
-      missions_.on_recognition(**answer);
-    } else {
-      raise("recogniser-failed", "recogniser", answer->error().message,
-            "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
-    }
+  take_recognition();  // inline: the answer is there at once
+}
+
+void RobotLoop::take_recognition() {
+  const std::optional<Result<Recognition>> answer = recognition_.take();
+  if (!answer) {
+    return;
+  }
+  if (*answer) {
+    components_.count_output("recogniser", now());
+    missions_.on_recognition(**answer);
+  } else {
+    raise("recogniser-failed", "recogniser", answer->error().message,
+          "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
   }
 }
 

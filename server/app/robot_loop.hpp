@@ -109,7 +109,10 @@ class RobotLoop {
             RobotTime& last);
   void estimate();
   [[nodiscard]] Twist2 decide(WallTime wall_now);
-  void look(const Situation& situation);
+  /// Takes a picture and has the mission's recogniser look at it.
+  void look();
+  /// Hands a finished recognition to the mission, or reports why there is none.
+  void take_recognition();
   void act(const Twist2& wanted);
   void publish();
   void publish_tiles(RobotTime stamp);
