@@ -129,12 +129,28 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("server", options.server);
 }
 
-Result<RobotOptions> load_robot_options(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  RobotOptions options;
-  if (const Status ok = config::load_file(file, options, overrides); !ok) {
-    return tl::unexpected<Error>(ok.error());
+Result<RobotOptions> parse_robot_options(std::string_view text, const std::string& name,
+                                         const std::vector<std::string>& overrides) {
+  const Result<config::Document> document = config::Document::parse(text, name, overrides);
+  if (!document) {
+    return tl::unexpected<Error>(document.error());
   }
-  options.folder = file.parent_path();
+  RobotOptions options;
+  if (const Status read = document->read(options); !read) {
+    return tl::unexpected<Error>(read.error());
+  }
+  return options;
+}
+
+Result<RobotOptions> load_robot_options(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const Result<std::string> text = config::read_text_file(file);
+  if (!text) {
+    return tl::unexpected<Error>(text.error());
+  }
+  Result<RobotOptions> options = parse_robot_options(*text, file.string(), overrides);
+  if (options) {
+    options->folder = file.parent_path();
+  }
   return options;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/config/yaml.hpp"
@@ -57,6 +58,10 @@ struct RobotOptions {
 };
 
 void describe(config::Fields& f, RobotOptions& options);
+
+/// A robot file's text; `name` is what messages call it. Opens no file.
+[[nodiscard]] Result<RobotOptions> parse_robot_options(std::string_view text, const std::string& name,
+                                                       const std::vector<std::string>& overrides = {});
 
 /// Reads a robot file; `overrides` are "key.path=value".
 [[nodiscard]] Result<RobotOptions> load_robot_options(const std::filesystem::path& file,

@@ -1,0 +1,93 @@
+/// \file
+/// A map of line segments as a value: what line SLAM builds, files keep and clients draw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "common/core/scan.hpp"
+#include "common/core/time.hpp"
+
+namespace seeker {
+
+/// A piece of wall (spec S1.2). Its frame sits at the mid-point, x along the wall, y from free space into it: seen from
+/// the free side the left end is at x = -length_m / 2.
+struct MapSegment {
+  std::uint64_t id = 0;    ///< never 0, never reused within a map
+  std::uint32_t node = 0;  ///< id of the local map it belongs to
+  Pose2 map_T_segment;
+  double length_m = 0.0;
+  bool left_real = false;  ///< a physical end (corner, door post), not a limit of what was seen
+  bool right_real = false;
+  Matrix2 covariance = Matrix2::Zero();  ///< of (p_y, p_theta): across the wall in m and its direction in rad
+  std::uint32_t hits = 0;                ///< observations
+  RobotTime created;
+  RobotTime last_seen;
+
+  [[nodiscard]] Point2 left() const { return map_T_segment * Point2(-0.5 * length_m, 0.0); }
+  [[nodiscard]] Point2 right() const { return map_T_segment * Point2(0.5 * length_m, 0.0); }
+  friend bool operator==(const MapSegment&, const MapSegment&) = default;
+};
+
+/// A scan kept with the map, small enough to keep thousands: the evidence behind segments, for occupancy, loop closing
+/// and relocalisation.
+struct MapKeyframe {
+  std::uint32_t node = 0;  ///< id of the local map it belongs to
+  RobotTime stamp;
+  Pose2 node_T_base;
+  Pose2 base_T_laser;
+  float angle_min_rad = 0.0F;
+  float angle_step_rad = 0.0F;
+  float range_max_m = 0.0F;
+  std::vector<std::uint16_t> ranges;  ///< in steps of kKeyframeRangeStep_m, or one of the codes below
+
+  friend bool operator==(const MapKeyframe&, const MapKeyframe&) = default;
+};
+inline constexpr double kKeyframeRangeStep_m = 0.002;
+inline constexpr std::uint16_t kKeyframeNoReturn = 0xFFFF;
+inline constexpr std::uint16_t kKeyframeUnusable = 0;  ///< the beam's quality was 0: it says nothing
+
+[[nodiscard]] MapKeyframe pack_keyframe(const LaserScan& scan, std::uint32_t node, const Pose2& node_T_base);
+[[nodiscard]] LaserScan unpack_scan(const MapKeyframe& keyframe);
+
+/// A local map's place in the whole.
+struct MapNode {
+  std::uint32_t id = 0;
+  Pose2 map_T_node;
+  RobotTime created;
+
+  friend bool operator==(const MapNode&, const MapNode&) = default;
+};
+
+/// A measured relation between two local maps.
+struct MapEdge {
+  std::uint32_t from = 0;  ///< ids of nodes
+  std::uint32_t to = 0;
+  Pose2 from_T_to;
+  Matrix3 covariance = Matrix3::Identity();  ///< of (x, y, theta) in the frame of `from`
+  bool loop = false;                         ///< a loop closure; else the way driven from one to the next
+  bool enabled = true;                       ///< undone or contradicted loops stay, switched off
+
+  friend bool operator==(const MapEdge&, const MapEdge&) = default;
+};
+
+/// Everything one needs to show, save, continue, and localise in a map.
+struct LineMap {
+  std::uint32_t epoch = 0;     ///< rises when a loop closure or a merge moves the map
+  std::uint64_t next_id = 1;   ///< for the next segment
+  std::vector<MapNode> nodes;  ///< by rising id; the first is the origin of the frame `map`
+  std::vector<MapEdge> edges;
+  std::vector<MapSegment> segments;
+  std::vector<MapKeyframe> keyframes;
+
+  friend bool operator==(const LineMap&, const LineMap&) = default;
+};
+
+/// Refuses what cannot be a map: ids that are 0, repeated, unknown or not below next_id; poses or covariances that are
+/// not finite or not symmetric positive semi-definite; lengths below 0; scans without beams or with too many.
+[[nodiscard]] Status validate(const LineMap& map);
+
+}  // namespace seeker

@@ -1,0 +1,39 @@
+/// \file
+/// A pose tracker that keeps a map which can be looked at, saved, loaded and found again.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "common/core/line_map.hpp"
+#include "server/slam/pose_tracker.hpp"
+
+namespace seeker::slam {
+
+/// What a loaded map is used for.
+enum class MapUse : std::uint8_t {
+  kContinue,  ///< the map grows on
+  kLocalise,  ///< the map is only read: whatever is seen beside it is forgotten
+};
+
+class MapTracker : public PoseTracker {
+ public:
+  /// Segments of the whole map in the frame `map`, one per piece of wall.
+  [[nodiscard]] virtual std::vector<MapSegment> segments() const = 0;
+  /// Rises with every change of segments().
+  [[nodiscard]] virtual std::uint64_t revision() const = 0;
+  /// The whole map, for a file.
+  [[nodiscard]] virtual LineMap map() const = 0;
+  /// Replaces the map. The pose is unknown (kUnknown) until relocalise() or the scans have found it.
+  /// kInvalidArgument: see validate(LineMap).
+  [[nodiscard]] virtual Status load(const LineMap& map, MapUse use) = 0;
+  /// Looks for the robot in the map: near `map_T_base` where given, else everywhere, from the next scans on. The
+  /// estimate is kUnknown meanwhile, and kLost with a cause when it cannot be found. kNotReady: there is no map.
+  [[nodiscard]] virtual Status relocalise(const std::optional<Pose2>& map_T_base) = 0;
+  /// The kept scans at their present poses: what occupancy is rendered from after the map has moved.
+  virtual void for_each_scan(
+      const std::function<void(const LaserScan& scan, const Pose2& map_T_base)>& visit) const = 0;
+};
+
+}  // namespace seeker::slam

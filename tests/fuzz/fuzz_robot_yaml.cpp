@@ -1,0 +1,18 @@
+// Robot files from anywhere: text in, options or an error out, never a crash; no file is opened.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "common/core/assert.hpp"
+#include "server/app/robot_options.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto options = seeker::app::parse_robot_options(text, "fuzz.yaml");
+  if (!options) {
+    SEEKER_ASSERT(!options.error().message.empty());
+  } else {
+    SEEKER_ASSERT(options->loop.period > seeker::Duration::zero());
+  }
+  return 0;
+}
