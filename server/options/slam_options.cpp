@@ -71,4 +71,58 @@ void describe(config::Fields& f, ScanMapParams& params) {
   f.angle_deg("map_sigma_deg", params.map_sigma_rad);
 }
 
+void describe(config::Fields& f, SpAssociationParams& params) {
+  f.field("gate", params.gate);
+  f.field("end_gate", params.end_gate);
+  f.field("near_gate", params.near_gate);
+  f.field("joint_sigmas", params.joint_sigmas);
+  f.angle_deg("max_angle_deg", params.max_angle_rad);
+  f.field("virtual_gap_m", params.virtual_gap_m);
+  f.field("real_gap_m", params.real_gap_m);
+  f.field("real_gap_sigmas", params.real_gap_sigmas);
+  f.field("max_nodes", params.max_nodes);
+}
+
+void describe(config::Fields& f, SpFeatureParams& params) {
+  f.field("new_points", params.new_points);
+  f.field("new_scans", params.new_scans);
+  f.field("tentative_m", params.tentative_m);
+  f.angle_deg("tentative_deg", params.tentative_rad);
+  f.field("real_scans", params.real_scans);
+  f.field("demote_scans", params.demote_scans);
+  f.field("end_slack_m", params.end_slack_m);
+  f.field("merge_gate", params.merge_gate);
+  f.angle_deg("merge_angle_deg", params.merge_angle_rad);
+  f.field("merge_gap_m", params.merge_gap_m);
+  f.field("doorway_m", params.doorway_m);
+}
+
+void describe(config::Fields& f, SpExistenceParams& params) {
+  f.field("misses", params.misses);
+  f.field("young_hits", params.young_hits);
+  f.field("young_misses", params.young_misses);
+  f.field("margin_m", params.margin_m);
+  f.angle_deg("grazing_deg", params.grazing_rad);
+  f.field("end_margin_m", params.end_margin_m);
+  f.field("beams", params.beams);
+  f.field("denied", params.denied);
+  f.field("min_beams", params.min_beams);
+}
+
+void describe(config::Fields& f, SpMapParams& params) {
+  f.choice<SpMode>("mode", params.mode, {{"joint", SpMode::kJoint}, {"paper", SpMode::kPaper}});
+  f.section("association", params.association);
+  f.section("features", params.features);
+  f.section("existence", params.existence);
+  f.field("relinearise_m", params.relinearise_m);
+  f.angle_deg("relinearise_deg", params.relinearise_rad);
+  f.field("sigma_floor_m", params.sigma_floor_m);
+  f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
+  f.field("drift_sigma_m", params.drift_sigma_m);
+  f.angle_deg("drift_sigma_deg", params.drift_sigma_rad);
+  f.field("robot_sigma_max_m", params.robot_sigma_max_m);
+  f.angle_deg("robot_sigma_max_deg", params.robot_sigma_max_rad);
+  f.field("degenerate_sigma_m", params.degenerate_sigma_m);
+}
+
 }  // namespace seeker::slam
