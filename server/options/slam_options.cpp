@@ -44,14 +44,8 @@ void describe(config::Fields& f, MatchParams& params) {
   f.field("search_points", params.search_points);
 }
 
-void describe(config::Fields& f, ScanMapParams& params) {
-  f.section("odometry", params.odometry);
-  f.section("normals", params.normals);
-  f.section("match", params.match);
-  f.field("match_points", params.match_points);
+void describe(config::Fields& f, LocalCloudParams& params) {
   f.field("keyframe_points", params.keyframe_points);
-  f.field("min_move_m", params.min_move_m);
-  f.angle_deg("min_turn_deg", params.min_turn_rad);
   f.field("keyframe_distance_m", params.keyframe_distance_m);
   f.angle_deg("keyframe_turn_deg", params.keyframe_turn_rad);
   f.field("local_keyframes", params.local_keyframes);
@@ -59,6 +53,16 @@ void describe(config::Fields& f, ScanMapParams& params) {
   f.field("rebuild_m", params.rebuild_m);
   f.angle_deg("rebuild_deg", params.rebuild_rad);
   f.field("max_keyframes", params.max_keyframes);
+}
+
+void describe(config::Fields& f, ScanMapParams& params) {
+  f.section("odometry", params.odometry);
+  f.section("normals", params.normals);
+  f.section("match", params.match);
+  f.section("cloud", params.cloud);
+  f.field("match_points", params.match_points);
+  f.field("min_move_m", params.min_move_m);
+  f.angle_deg("min_turn_deg", params.min_turn_rad);
   f.field("good_ratio", params.good_ratio);
   f.field("accept_ratio", params.accept_ratio);
   f.field("gap_m", params.gap_m);

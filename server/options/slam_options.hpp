@@ -11,6 +11,7 @@ namespace seeker::slam {
 void describe(config::Fields& f, OdometryParams& params);
 void describe(config::Fields& f, NormalParams& params);
 void describe(config::Fields& f, MatchParams& params);
+void describe(config::Fields& f, LocalCloudParams& params);
 void describe(config::Fields& f, ScanMapParams& params);
 void describe(config::Fields& f, SpAssociationParams& params);
 void describe(config::Fields& f, SpFeatureParams& params);

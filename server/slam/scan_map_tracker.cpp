@@ -9,29 +9,14 @@
 #include "common/core/angle.hpp"
 
 namespace seeker::slam {
-namespace {
-
-/// How far two views differ: metres, with a radian of heading counting as much as this.
-constexpr double kTurnAsMetres = 0.7;
-
-double turn_between(const Pose2& a, const Pose2& b) { return std::abs(wrap_angle(a.theta_rad - b.theta_rad)); }
-
-bool moved(const Pose2& from, const Pose2& to, double distance_limit_m, double turn_limit_rad) {
-  return distance_m(from, to) > distance_limit_m || turn_between(from, to) > turn_limit_rad;
-}
-
-}  // namespace
-
 ScanMapTracker::ScanMapTracker(const ScanMapParams& params, const Pose2& map_T_base)
-    : params_(params), matcher_(params.match), odometry_(params.odometry, map_T_base) {
+    : params_(params), matcher_(params.match), odometry_(params.odometry, map_T_base), cloud_(params.cloud) {
   reset(map_T_base);
 }
 
 void ScanMapTracker::reset(const Pose2& map_T_base) {
   odometry_.reset(map_T_base);
-  keyframes_.clear();
-  reference_.reset();
-  reference_pose_ = map_T_base;
+  cloud_.clear();
   matched_pose_ = map_T_base;
   last_scan_.reset();
   last_match_.reset();
@@ -42,49 +27,14 @@ Status ScanMapTracker::predict(const Pose2& odom_T_base, RobotTime stamp) {
   return odometry_.predict(odom_T_base, stamp);
 }
 
-void ScanMapTracker::choose_reference(const Pose2& pose) {
-  std::vector<std::pair<double, const Keyframe*>> near;
-  for (const Keyframe& keyframe : keyframes_) {
-    const double d = distance_m(keyframe.map_T_base, pose);
-    if (d <= params_.local_range_m) {
-      near.emplace_back(d + kTurnAsMetres * turn_between(keyframe.map_T_base, pose), &keyframe);
-    }
-  }
-  const std::size_t count = std::min(near.size(), params_.local_keyframes);
-  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
-  std::vector<OrientedPoint> points;
-  for (std::size_t k = 0; k < count; ++k) {
-    points.insert(points.end(), near[k].second->points_map.begin(), near[k].second->points_map.end());
-  }
-  reference_ = std::make_unique<ReferenceCloud>(std::move(points));
-  reference_pose_ = pose;
-}
-
-bool ScanMapTracker::needs_keyframe(const Pose2& pose) const {
-  return std::none_of(keyframes_.begin(), keyframes_.end(), [&](const Keyframe& keyframe) {
-    return !moved(keyframe.map_T_base, pose, params_.keyframe_distance_m, params_.keyframe_turn_rad);
-  });
-}
-
-void ScanMapTracker::add_keyframe(const Pose2& pose, const std::vector<OrientedPoint>& points_base) {
-  Keyframe keyframe{pose, thin_out(points_base, params_.keyframe_points)};
-  for (OrientedPoint& point : keyframe.points_map) {
-    point = transform(pose, point);
-  }
-  if (keyframes_.size() >= params_.max_keyframes) {
-    keyframes_.erase(keyframes_.begin());
-  }
-  keyframes_.push_back(std::move(keyframe));
-  choose_reference(pose);
-}
-
 bool ScanMapTracker::believable(const MatchResult& match, const Pose2& predicted) const {
   return match.pairs >= params_.match.min_pairs && match.inlier_ratio >= params_.accept_ratio &&
          !moved(predicted, match.map_T_base, params_.max_correction_m, params_.max_correction_rad);
 }
 
-MatchResult ScanMapTracker::best_match(const std::vector<OrientedPoint>& points_base, const Pose2& predicted) const {
-  MatchResult match = matcher_.match(*reference_, points_base, predicted);
+MatchResult ScanMapTracker::best_match(const std::vector<OrientedPoint>& points_base, const Pose2& predicted) {
+  const ReferenceCloud& reference = cloud_.around(predicted);
+  MatchResult match = matcher_.match(reference, points_base, predicted);
   // After a gap even a fair match may be a wrong one: look at the whole window and let the inliers decide.
   const bool gap = moved(matched_pose_, predicted, params_.gap_m, params_.gap_rad);
   const bool poor = match.inlier_ratio < params_.good_ratio;
@@ -92,8 +42,8 @@ MatchResult ScanMapTracker::best_match(const std::vector<OrientedPoint>& points_
   if (!gap && !(poor && unsure)) {
     return match;
   }
-  if (const auto start = matcher_.search(*reference_, points_base, predicted)) {
-    MatchResult other = matcher_.match(*reference_, points_base, *start);
+  if (const auto start = matcher_.search(reference, points_base, predicted)) {
+    MatchResult other = matcher_.match(reference, points_base, *start);
     if (other.inliers > match.inliers) {
       match = std::move(other);
     }
@@ -101,9 +51,10 @@ MatchResult ScanMapTracker::best_match(const std::vector<OrientedPoint>& points_
   return match;
 }
 
-bool ScanMapTracker::is_new_space(const std::vector<OrientedPoint>& points_base, const Pose2& pose) const {
+bool ScanMapTracker::is_new_space(const std::vector<OrientedPoint>& points_base, const Pose2& pose) {
+  const ReferenceCloud& reference = cloud_.around(pose);
   const auto known = std::count_if(points_base.begin(), points_base.end(), [&](const OrientedPoint& point) {
-    return reference_->nearest(pose * point.p, params_.match.first_gate_m) != nullptr;
+    return reference.nearest(pose * point.p, params_.match.first_gate_m) != nullptr;
   });
   return static_cast<double>(known) < params_.new_space_ratio * static_cast<double>(points_base.size());
 }
@@ -142,8 +93,8 @@ void ScanMapTracker::note_failure(const std::vector<OrientedPoint>& points_base,
   if (is_new_space(points_base, pose)) {
     failures_ = 0;
     odometry_.set_quality(LocalisationQuality::kDegraded, "unseen space: the pose goes on by odometry");
-    if (needs_keyframe(pose)) {
-      add_keyframe(pose, all_points);
+    if (cloud_.needs_keyframe(pose)) {
+      cloud_.add(pose, all_points);
     }
     return;
   }
@@ -169,17 +120,14 @@ Status ScanMapTracker::update(const LaserScan& scan) {
     return fail(Errc::kNotReady, "the scan has too few returns on surfaces to say where the robot is");
   }
   const Pose2 predicted = odometry_.estimate().map_T_base;
-  if (keyframes_.empty()) {
-    add_keyframe(predicted, all_points);
+  if (cloud_.empty()) {
+    cloud_.add(predicted, all_points);
     matched_pose_ = predicted;
     return {};
   }
   const bool healthy = failures_ == 0 && odometry_.estimate().quality == LocalisationQuality::kLocalised;
   if (healthy && last_match_ && !moved(matched_pose_, predicted, params_.min_move_m, params_.min_turn_rad)) {
     return {};
-  }
-  if (moved(reference_pose_, predicted, params_.rebuild_m, params_.rebuild_rad)) {
-    choose_reference(predicted);
   }
   const std::vector<OrientedPoint> points = thin_out(all_points, params_.match_points);
   last_match_ = best_match(points, predicted);
@@ -188,8 +136,8 @@ Status ScanMapTracker::update(const LaserScan& scan) {
     return {};
   }
   apply(*last_match_);
-  if (needs_keyframe(matched_pose_)) {
-    add_keyframe(matched_pose_, all_points);
+  if (cloud_.needs_keyframe(matched_pose_)) {
+    cloud_.add(matched_pose_, all_points);
   }
   return {};
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "server/slam/local_cloud.hpp"
 #include "server/slam/odometry_tracker.hpp"
 #include "server/slam/scan_matcher.hpp"
 
@@ -16,20 +17,13 @@ struct ScanMapParams {
   OdometryParams odometry;
   NormalParams normals;
   MatchParams match;
-  std::size_t match_points = 180;     ///< points of a scan that are matched
-  std::size_t keyframe_points = 360;  ///< points a keyframe keeps
-  double min_move_m = 0.02;           ///< a scan after less motion than this is not matched
+  LocalCloudParams cloud;
+  std::size_t match_points = 180;  ///< points of a scan that are matched
+  double min_move_m = 0.02;        ///< a scan after less motion than this is not matched
   double min_turn_rad = 0.01;
-  double keyframe_distance_m = 0.5;  ///< a new keyframe where none is nearer than this
-  double keyframe_turn_rad = 0.6;    ///< or looks the same way to within this
-  std::size_t local_keyframes = 10;  ///< keyframes matched against: cost does not grow with the map
-  double local_range_m = 8.0;        ///< none of them farther away
-  double rebuild_m = 0.4;            ///< the local set is chosen anew after so much motion
-  double rebuild_rad = 0.4;
-  std::size_t max_keyframes = 4000;  ///< the oldest is forgotten beyond it
-  double good_ratio = 0.5;           ///< inlier ratio that needs no second look
-  double accept_ratio = 0.25;        ///< below it the match is not believed
-  double gap_m = 0.3;                ///< prediction since the last match beyond which a poor match is searched for
+  double good_ratio = 0.5;     ///< inlier ratio that needs no second look
+  double accept_ratio = 0.25;  ///< below it the match is not believed
+  double gap_m = 0.3;          ///< prediction since the last match beyond which a poor match is searched for
   double gap_rad = 0.2;
   double new_space_ratio = 0.25;  ///< fewer points than this near known ones: unseen space, not a contradiction
   int lost_after = 10;            ///< consecutive scans without a believed match
@@ -54,31 +48,21 @@ class ScanMapTracker final : public PoseTracker {
   [[nodiscard]] PoseEstimate estimate() const override { return odometry_.estimate(); }
   void reset(const Pose2& map_T_base) override;
 
-  [[nodiscard]] std::size_t keyframe_count() const { return keyframes_.size(); }
+  [[nodiscard]] std::size_t keyframe_count() const { return cloud_.size(); }
   /// The last match, for display and tests; nothing before the first.
   [[nodiscard]] const std::optional<MatchResult>& last_match() const { return last_match_; }
 
  private:
-  struct Keyframe {
-    Pose2 map_T_base;
-    std::vector<OrientedPoint> points_map;
-  };
-
-  void choose_reference(const Pose2& pose);
-  [[nodiscard]] bool needs_keyframe(const Pose2& pose) const;
-  void add_keyframe(const Pose2& pose, const std::vector<OrientedPoint>& points_base);
-  [[nodiscard]] MatchResult best_match(const std::vector<OrientedPoint>& points_base, const Pose2& predicted) const;
+  [[nodiscard]] MatchResult best_match(const std::vector<OrientedPoint>& points_base, const Pose2& predicted);
   [[nodiscard]] bool believable(const MatchResult& match, const Pose2& predicted) const;
-  [[nodiscard]] bool is_new_space(const std::vector<OrientedPoint>& points_base, const Pose2& pose) const;
+  [[nodiscard]] bool is_new_space(const std::vector<OrientedPoint>& points_base, const Pose2& pose);
   void apply(const MatchResult& match);
   void note_failure(const std::vector<OrientedPoint>& points_base, const std::vector<OrientedPoint>& all_points);
 
   ScanMapParams params_;
   ScanMatcher matcher_;
   OdometryTracker odometry_;
-  std::vector<Keyframe> keyframes_;
-  std::unique_ptr<ReferenceCloud> reference_;
-  Pose2 reference_pose_;
+  LocalCloud cloud_;
   Pose2 matched_pose_;  ///< estimate after the last match
   std::optional<RobotTime> last_scan_;
   std::optional<MatchResult> last_match_;
