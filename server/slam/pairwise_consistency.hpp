@@ -1,0 +1,67 @@
+/// \file
+/// Which loop candidates may be believed together: pairwise consistency maximisation (Mangelson et al. 2018).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+
+namespace seeker::slam {
+
+/// A pose with the covariance of its (x, y, theta), expressed in the frame that the pose is given in.
+struct UncertainPose {
+  Pose2 a_T_b;
+  Matrix3 covariance = Matrix3::Zero();
+};
+
+/// a_T_b (+) b_T_c with independent errors (spec S0.3, first order).
+[[nodiscard]] UncertainPose compose(const UncertainPose& a_T_b, const UncertainPose& b_T_c);
+[[nodiscard]] UncertainPose invert(const UncertainPose& a_T_b);
+
+/// Odometry between consecutive nodes of one trajectory: the pose of any node in the frame of any other in O(1).
+class OdometryChain {
+ public:
+  /// `previous_T_next` of nodes 0 -> 1, 1 -> 2, ...: there is one node more than steps. Errors of steps are
+  /// independent.
+  explicit OdometryChain(const std::vector<UncertainPose>& previous_T_next);
+
+  [[nodiscard]] std::size_t size() const { return from_start_.size(); }
+  [[nodiscard]] UncertainPose between(std::size_t from, std::size_t to) const;
+
+ private:
+  std::vector<UncertainPose> from_start_;
+};
+
+/// A loop that somebody proposes: node b seen in the frame of node a.
+struct LoopEdge {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  UncertainPose a_T_b;
+};
+
+struct ConsistencyParams {
+  double gate_chi2 = 11.345;         ///< 3 degrees of freedom, 99 % (spec S0.4)
+  std::size_t max_search = 200'000;  ///< steps of the exact search; beyond it the best set found so far is taken
+};
+
+struct ConsistentSet {
+  std::vector<std::size_t> members;  ///< indices of the candidates, ascending
+  bool exact = true;                 ///< false: the search was cut short, a larger set may exist
+  /// Size of the largest consistent set of candidates outside `members` that contradict at least one of them: two
+  /// stories of equal size cannot both be true.
+  std::size_t rival_size = 0;
+};
+
+/// Pose of node `to` in the frame of node `from` by odometry alone.
+using RelativePose = std::function<UncertainPose(std::size_t from, std::size_t to)>;
+
+/// chi2 of the cycle a1 -> b1 -> b2 -> a2 -> a1 against zero.
+[[nodiscard]] double cycle_chi2(const LoopEdge& first, const LoopEdge& second, const RelativePose& odometry);
+
+/// The largest set of candidates each of which agrees with each other one: a maximum clique, by branch and bound with
+/// greedy colouring (Tomita 2003). Of sets of equal size the one with the smaller sum of chi2 among those found.
+[[nodiscard]] ConsistentSet largest_consistent_set(const std::vector<LoopEdge>& candidates,
+                                                   const RelativePose& odometry, const ConsistencyParams& params = {});
+
+}  // namespace seeker::slam
