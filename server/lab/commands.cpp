@@ -65,6 +65,8 @@ int run_lab(int argc, char** argv) {
   verbs["compare"] = add_compare(app);
   verbs["hit-rate"] = add_hit_rate(app);
   verbs["template"] = add_template(app);
+  verbs["score"] = add_score(app);
+  verbs["trajectory"] = add_trajectory(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,5 +1,5 @@
 /// \file
-/// Any text through the line parser of CARMEN logs, and what it accepts on to a scan.
+/// Any text through the line parsers of logs, and what it accepts on to a scan.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -7,13 +7,14 @@
 
 #include "common/core/assert.hpp"
 #include "server/drivers/replay/replay.hpp"
+#include "server/drivers/replay/scan_csv.hpp"
 
 // NOLINTNEXTLINE: the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string_view text(reinterpret_cast<const char*>(data), size);
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
-    const auto record = seeker::drivers::parse_carmen_line(text.substr(0, end));
+    const auto record = seeker::drivers::parse_log_line(text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
     if (!record || !*record) {
       continue;

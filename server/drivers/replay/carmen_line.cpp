@@ -1,68 +1,28 @@
 #include "server/drivers/replay/carmen_line.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "common/core/angle.hpp"
 #include "common/core/scan.hpp"
+#include "server/drivers/replay/words.hpp"
 
 namespace seeker::drivers {
 namespace {
 
-/// Reads blank-separated words; the first failure sticks, so that a parser checks once at its end.
-class Words {
- public:
-  explicit Words(std::string_view text) : rest_(text) {}
-
-  std::string_view word() {
-    const std::size_t first = rest_.find_first_not_of(kBlank);
-    if (first == std::string_view::npos) {
-      rest_ = {};
-      return {};
-    }
-    const std::size_t last = std::min(rest_.find_first_of(kBlank, first), rest_.size());
-    const std::string_view found = rest_.substr(first, last - first);
-    rest_.remove_prefix(last);
-    return found;
+/// The three words that end each record; the stamp is the first, the host the second.
+double read_stamp(Words& words, std::string* host = nullptr) {
+  const double stamp_s = words.number();
+  const std::string_view name = words.word();
+  if (name.empty()) {
+    words.fail();
   }
-  double number() {
-    const std::string_view text = word();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-      good_ = false;
-      return 0.0;
-    }
-    return value;
+  if (host != nullptr) {
+    *host = name;
   }
-  Pose2 pose() {
-    const double x = number();
-    const double y = number();
-    const double theta = number();
-    return {x, y, wrap_angle(theta)};
-  }
-  void skip(int count) {
-    for (int k = 0; k < count; ++k) {
-      number();
-    }
-  }
-  /// The three words that end each record; the stamp is the first.
-  double stamp() {
-    const double stamp_s = number();
-    good_ = !word().empty() && good_;
-    number();
-    return stamp_s;
-  }
-  [[nodiscard]] bool good() const { return good_; }
-
- private:
-  static constexpr std::string_view kBlank = " \t\r";
-  std::string_view rest_;
-  bool good_ = true;
-};
+  words.number();
+  return stamp_s;
+}
 
 tl::unexpected<Error> malformed(std::string_view type) {
   return fail(Errc::kParse, "a " + std::string(type) + " line is malformed or cut off");
@@ -86,7 +46,7 @@ Result<std::optional<CarmenRecord>> parse_odometry(Words& words) {
   odometry.velocity.v_m_s = words.number();
   odometry.velocity.omega_rad_s = words.number();
   words.skip(1);
-  odometry.stamp_s = words.stamp();
+  odometry.stamp_s = read_stamp(words);
   if (!words.good()) {
     return malformed("ODOM");
   }
@@ -100,7 +60,7 @@ Result<std::optional<CarmenRecord>> parse_front_laser(Words& words) {
   }
   scan.corrected_T_laser = words.pose();
   scan.odom_T_base = words.pose();
-  scan.stamp_s = words.stamp();
+  scan.stamp_s = read_stamp(words, &scan.host);
   if (!words.good()) {
     return malformed("FLASER");
   }
@@ -125,7 +85,7 @@ Result<std::optional<CarmenRecord>> parse_stated_laser(Words& words, bool with_r
     scan.odom_T_base = words.pose();
     words.skip(kRobotTail);
   }
-  scan.stamp_s = words.stamp();
+  scan.stamp_s = read_stamp(words, &scan.host);
   if (!words.good() || *scan.angle_step_rad == 0.0) {
     return malformed(with_robot ? "ROBOTLASER1" : "RAWLASER1");
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -28,6 +29,7 @@ struct CarmenScan {
   std::optional<Pose2> odom_T_base;  ///< raw odometry at the scan (second triplet); not in RAWLASER1
   std::optional<Pose2>
       corrected_T_laser;  ///< first triplet: a mapper's result; for scoring only, no driver passes it on
+  std::string host;       ///< the word between the two stamps; some logs state there how exact the stamp is
 };
 
 using CarmenRecord = std::variant<CarmenOdometry, CarmenScan>;

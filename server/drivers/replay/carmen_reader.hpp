@@ -1,24 +1,19 @@
 /// \file
-/// Streams a CARMEN log from disk, plain or compressed with gzip.
+/// Streams a log from disk, plain or compressed with gzip: CARMEN records, or scans as numbers with commas.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/core/result.hpp"
 #include "server/drivers/replay/carmen_line.hpp"
+#include "server/drivers/replay/line_file.hpp"
 
 namespace seeker::drivers {
-
-/// A line that was skipped.
-struct BadLine {
-  std::uint64_t number = 0;  ///< first line = 1
-  std::string reason;
-};
 
 /// What was read so far.
 struct ReplaySummary {
@@ -29,10 +24,8 @@ struct ReplaySummary {
   std::uint64_t bad = 0;          ///< malformed, too long, or with a stamp out of order
   std::uint64_t overtaken = 0;    ///< scans that were replaced by a newer one before anyone read them
   double duration_s = 0.0;        ///< from the first stamp to the last
-  std::vector<BadLine> examples;  ///< the first kMaxExamples bad lines
+  std::vector<BadLine> examples;  ///< the first BadLines::kMaxExamples bad lines
   std::string damage;             ///< why the file ended early (cut or damaged compression); empty otherwise
-
-  static constexpr std::size_t kMaxExamples = 20;
 };
 
 /// One or two sentences for people: how much was read and what was skipped.
@@ -41,13 +34,10 @@ struct ReplaySummary {
 /// Reads record after record; bad lines are counted and skipped, memory is bounded by one line.
 class CarmenReader {
  public:
-  static constexpr std::size_t kMaxLine_bytes = 256 * 1024;
+  static constexpr std::size_t kMaxLine_bytes = LineFile::kMaxLine_bytes;
 
   /// kNotFound or kIo with the file named.
   [[nodiscard]] static Result<CarmenReader> open(const std::filesystem::path& path);
-  CarmenReader(CarmenReader&&) noexcept;
-  CarmenReader& operator=(CarmenReader&&) noexcept;
-  ~CarmenReader();
 
   /// The next record; nothing at the end of the file or where damage ends it (see summary().damage).
   [[nodiscard]] std::optional<CarmenRecord> next();
@@ -58,12 +48,11 @@ class CarmenReader {
   void note_duration(double duration_s) { summary_.duration_s = duration_s; }
 
  private:
-  class File;
-  explicit CarmenReader(std::unique_ptr<File> file);
+  explicit CarmenReader(LineFile file) : file_(std::move(file)) {}
   [[nodiscard]] std::optional<CarmenRecord> take(std::string_view line);
   void count_bad(std::string reason);
 
-  std::unique_ptr<File> file_;
+  LineFile file_;
   ReplaySummary summary_;
   bool last_was_scan_ = false;
 };

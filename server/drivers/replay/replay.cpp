@@ -51,7 +51,8 @@ Result<std::shared_ptr<ReplaySource>> ReplaySource::open(const std::filesystem::
   }
   std::shared_ptr<ReplaySource> source(new ReplaySource(std::move(*reader), params));
   if (source->finished()) {
-    return fail(Errc::kParse, path.string() + " is no CARMEN log: " + describe(source->summary()));
+    return fail(Errc::kParse, path.string() + " holds no record of a CARMEN log or of scans with commas: " +
+                                  describe(source->summary()));
   }
   return source;
 }
@@ -96,6 +97,16 @@ void ReplaySource::advance_to(RobotTime now) {
     std::visit([this](const auto& record) { deliver(record); }, *pending_);
     fetch();
   }
+}
+
+bool ReplaySource::advance_one() {
+  if (!pending_) {
+    return false;
+  }
+  now_ = std::max(now_, robot_time_of(*pending_));
+  std::visit([this](const auto& record) { deliver(record); }, *pending_);
+  fetch();
+  return true;
 }
 
 void ReplaySource::deliver(const CarmenOdometry& odometry) {

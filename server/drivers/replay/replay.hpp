@@ -32,7 +32,11 @@ class ReplaySource {
 
   /// Takes every record stamped up to `now`; the newest of each kind waits for its reader.
   void advance_to(RobotTime now);
+  /// Takes exactly the next record, so that none is overtaken; false at the end.
+  bool advance_one();
   [[nodiscard]] RobotTime now() const { return now_; }
+  /// The log's clock at robot time 0.
+  [[nodiscard]] double first_stamp_s() const { return *first_stamp_s_; }
   /// True when the last record has been taken.
   [[nodiscard]] bool finished() const { return !pending_; }
   [[nodiscard]] const ReplaySummary& summary() const { return reader_.summary(); }

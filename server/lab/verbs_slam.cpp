@@ -1,0 +1,56 @@
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "server/lab/score_command.hpp"
+#include "server/lab/verbs.hpp"
+
+namespace seeker::lab {
+namespace {
+
+int exit_code_of(const Status& done) { return done ? kExitDone : report_error(done.error().message); }
+
+}  // namespace
+
+Verb add_score(CLI::App& app) {
+  auto o = std::make_shared<ScoreOptions>();
+  CLI::App* verb = app.add_subcommand("score", "Errors of a trajectory against relations or a reference");
+  verb->add_option("trajectory", o->trajectory, "TUM file: t x y z qx qy qz qw")->required();
+  CLI::Option* relations =
+      verb->add_option("--relations", o->relations, "True motions: t1 t2 dx dy dz roll pitch yaw, plain or .gz");
+  CLI::Option* reference =
+      verb->add_option("--reference", o->reference, "True poses of the base: TUM or t,x,y,theta")->excludes(relations);
+  verb->add_option("--corrections", o->corrections, "A localiser's map -> odom: t,x,y,theta; needs --odometry")
+      ->excludes(relations)
+      ->excludes(reference);
+  verb->add_option("--time-offset", o->params.offset_s, "Clock of the relations minus clock of the log, s")
+      ->capture_default_str();
+  verb->add_option("--odometry", o->odometry, "Log whose odometry carries poses between scans (else interpolated)");
+  verb->add_option("--max-gap", o->params.max_gap_s, "A time without a pose this near is missed, s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_flag("--exact-only", o->exact_only, "Only relations between scans that the log calls exactly stamped");
+  verb->add_flag("--json", o->json, "Print JSON");
+  return [o] { return exit_code_of(run_score(*o, std::cout, std::cerr)); };
+}
+
+Verb add_trajectory(CLI::App& app) {
+  struct Options {
+    std::filesystem::path log;
+    std::filesystem::path out;
+    LogPoseSource source = LogPoseSource::kOdometry;
+  };
+  auto o = std::make_shared<Options>();
+  const std::map<std::string, LogPoseSource> sources = {{"odometry", LogPoseSource::kOdometry},
+                                                        {"corrected", LogPoseSource::kCorrected}};
+  CLI::App* verb = app.add_subcommand("trajectory", "Writes the poses that a log holds as a TUM file");
+  verb->add_option("log", o->log, "Log, plain or .gz")->required();
+  verb->add_option("--source", o->source, "odometry, or a mapper's corrected poses")
+      ->transform(CLI::CheckedTransformer(sources));
+  verb->add_option("--out", o->out, "TUM file to write")->required();
+  return [o] { return exit_code_of(write_log_trajectory(o->log, o->source, o->out, std::cerr)); };
+}
+
+}  // namespace seeker::lab
