@@ -1,0 +1,110 @@
+/// \file
+/// Lines of a scan in O(n): running sums, iterative split and merge, noise told by the scan (spec S5; S1.4 steps 1-2).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "server/lines/line.hpp"
+#include "server/lines/line_fit.hpp"
+#include "server/lines/range_noise.hpp"
+
+namespace seeker::lines {
+
+struct FastParams {
+  NoiseParams noise;
+  double bearing_sigma_rad = 0.0;  ///< of the beams; 0: their directions are exact
+  double straightness_m = 0.0;     ///< how far a wall may be off a straight line, beside the noise
+  double max_gap_m = 0.15;         ///< neighbours farther apart begin a new group, unless they are in line
+  double max_gap_spacings = 3.0;   ///< the same in spacings of beams at their range (spec S1.4 step 1)
+  double in_line_sigmas = 4.0;     ///< a gap between points in line with a neighbour does not begin a group
+  int max_missing_beams = 2;       ///< more beams without return begin a new group
+  double split_sigmas = 4.0;       ///< a point farther from the line splits it
+  double excess_sigmas = 4.0;      ///< ... as does a mean square that is over the noise by so many standard deviations
+  double bend_chi2 = 16.0;         ///< two parts are one line unless two lines explain them better than by this
+  double max_merge_gap_m = 0.2;    ///< ends of two pieces of one line are not farther apart (spec S5.6)
+  double inflation_sigmas = 2.0;   ///< the covariance grows with a mean square that is over the noise by more than this
+  int max_outliers = 2;            ///< so many points between two pieces of one line are left out
+  int min_points = 8;              ///< of a line (spec S1.4 step 2d)
+  double min_length_m = 0.3;
+  double min_range_m = 0.05;  ///< nearer returns are not believed, whatever the scanner says
+  double max_range_m = 0.0;   ///< farther returns are left out; 0: the scanner's own limit
+};
+
+/// Keeps its buffers and the sines of the scanner's beams: use one per scanner. The result depends on the scan alone.
+class FastExtractor {
+ public:
+  explicit FastExtractor(const FastParams& params = {}) : params_(params) {}
+
+  /// Lines of a scan, which must have passed validate(). `found` is overwritten; its memory is used again.
+  void extract(const LaserScan& scan, ScanLines& found);
+  [[nodiscard]] ScanLines extract(const LaserScan& scan);
+
+  [[nodiscard]] const FastParams& params() const { return params_; }
+  /// Noise of the scan extracted last.
+  [[nodiscard]] const RangeNoise& noise() const { return noise_; }
+
+ private:
+  /// Returns first..last (inclusive), those left out among them not in `sums`.
+  struct Piece {
+    int first = 0;
+    int last = 0;
+    int points = 0;
+    Moments sums;
+    LineFit fit;
+  };
+
+  void use_geometry(const LaserScan& scan);
+  void load(const LaserScan& scan);
+  void open_circle();
+  [[nodiscard]] int widest_gap(int count) const;
+  [[nodiscard]] bool breaks_before(int i) const;
+  void sum_up();
+  void split_groups();
+  void split(int first, int last);
+  [[nodiscard]] bool is_line(const Piece& whole) const;
+  [[nodiscard]] bool is_near(const LineFit& fit, int first, int last) const;
+  [[nodiscard]] double mean_variance(const LineFit& fit, int first, int last) const;
+  [[nodiscard]] bool is_one_line(double across_m2, const Moments& a, const Moments& b, double points,
+                                 double variance_m2) const;
+  [[nodiscard]] int farthest_from_chord(int first, int last) const;
+  [[nodiscard]] Piece piece(int first, int last) const;
+  void merge_pieces();
+  [[nodiscard]] bool absorb(Piece& piece, const Piece& next);
+  void settle_corners();
+  bool settle_corner(Piece& a, Piece& b);
+  void move_corner(Piece& from, Piece& to, int point);
+  [[nodiscard]] double range_residual2(const LineFit& fit, int i) const;
+  [[nodiscard]] Line finish(const LaserScan& scan, const Piece& piece) const;
+  void write(const LaserScan& scan, ScanLines& found);
+  [[nodiscard]] std::size_t beam_of(int i) const;
+
+  FastParams params_;
+  RangeNoise noise_;
+  NoiseEstimator estimator_;
+  // The scanner's geometry, counter-clockwise.
+  std::size_t beams_ = 0;
+  double first_rad_ = 0.0;
+  double step_rad_ = 0.0;
+  bool clockwise_ = false;
+  bool full_circle_ = false;
+  bool even_seam_ = false;  ///< the step over the cut is like any other
+  std::vector<double> cos_;
+  std::vector<double> sin_;
+  // The returns of the scan, counter-clockwise; on a full circle those before start_ once more behind the last.
+  int start_ = 0;
+  std::vector<std::int32_t> rank_;  ///< beam, counted counter-clockwise; goes on beyond the cut
+  std::vector<float> range_;
+  std::vector<float> squares_;  ///< NoiseEstimator::differences()
+  std::vector<double> x_;
+  std::vector<double> y_;
+  std::vector<double> weight_;    ///< 0: left out
+  std::vector<double> variance_;  ///< sigma_rho^2 / rho^2
+  std::vector<Moments> sums_;     ///< entry i: of the returns before i
+  std::vector<Piece> pieces_;
+  std::vector<Piece> merged_;
+  std::vector<std::pair<int, int>> stack_;
+};
+
+}  // namespace seeker::lines

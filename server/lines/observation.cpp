@@ -1,0 +1,168 @@
+#include "server/lines/observation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::lines {
+namespace {
+
+/// What the observations of one scan share.
+struct Context {
+  const LaserScan& scan;
+  const ScanLines& found;
+  const ObservationParams& params;
+  double range_limit_m = 0.0;
+  bool full_circle = false;
+};
+
+/// What one beam beyond an end says about it (spec S1.4, step 4).
+enum class Vote : std::uint8_t { kVirtual, kReal };
+
+/// The end of a line: where it is, and the step in beams that leads beyond it.
+struct End {
+  Point2 point;
+  std::size_t beam = 0;
+  int outward = 0;  ///< +1 or -1
+};
+
+bool covers_full_circle(const LaserScan& scan) {
+  constexpr double kSeamSteps = 3.5;
+  const auto n = static_cast<double>(scan.ranges_m.size());
+  return std::abs(kTwoPi - std::abs(scan.angle_step_rad) * (n - 1.0)) <= kSeamSteps * std::abs(scan.angle_step_rad);
+}
+
+End end_of(const Line& line, bool at_end, const LaserScan& scan) {
+  const int counter_clockwise = scan.angle_step_rad > 0.0 ? 1 : -1;
+  return at_end ? End{line.end, line.last_beam, counter_clockwise}
+                : End{line.start, line.first_beam, -counter_clockwise};
+}
+
+/// The beam `steps` beyond the end; nothing outside the field of view.
+std::optional<std::size_t> beam_beyond(const Context& context, const End& end, int steps) {
+  const auto n = static_cast<std::int64_t>(context.scan.ranges_m.size());
+  std::int64_t beam = static_cast<std::int64_t>(end.beam) + static_cast<std::int64_t>(end.outward) * steps;
+  if (context.full_circle) {
+    beam = (beam + n) % n;
+  }
+  return beam >= 0 && beam < n ? std::optional(static_cast<std::size_t>(beam)) : std::nullopt;
+}
+
+/// Another line begins at this end and turns away: a corner.
+bool is_corner(const Context& context, std::size_t index, const Point2& end) {
+  const Line& line = context.found.lines[index];
+  for (std::size_t k = 0; k < context.found.lines.size(); ++k) {
+    const Line& other = context.found.lines[k];
+    const double turn_rad = std::abs(wrap_angle(2.0 * (other.alpha_rad - line.alpha_rad))) / 2.0;
+    const double gap_m = std::min((other.start - end).norm(), (other.end - end).norm());
+    if (k != index && gap_m <= context.params.corner_gap_m && turn_rad > context.params.corner_angle_rad) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Vote vote_of_beam(const Context& context, const Line& line, bool corner, std::size_t beam) {
+  const ObservationParams& params = context.params;
+  const double cosine = std::cos(context.scan.angle_rad(beam) - line.alpha_rad);
+  if (cosine < std::sin(params.grazing_rad)) {
+    return Vote::kVirtual;
+  }
+  const double expected_m = line.r_m / cosine;
+  if (expected_m > context.range_limit_m - params.range_margin_m) {
+    return Vote::kVirtual;
+  }
+  if (corner) {
+    return Vote::kReal;
+  }
+  const double range_m = static_cast<double>(context.scan.ranges_m[beam]);
+  // No return is +infinity: the beam goes on behind the end.
+  return range_m > expected_m + params.depth_step_m ? Vote::kReal : Vote::kVirtual;
+}
+
+bool is_real(const Context& context, std::size_t index, const End& end) {
+  constexpr int kBeams = 3;
+  const bool corner = is_corner(context, index, end.point);
+  int real = 0;
+  for (int step = 1; step <= kBeams; ++step) {
+    const std::optional<std::size_t> beam = beam_beyond(context, end, step);
+    if (beam && vote_of_beam(context, context.found.lines[index], corner, *beam) == Vote::kReal) {
+      ++real;
+    }
+  }
+  return 2 * real > kBeams;
+}
+
+/// Distance on the line between the beam through a point of it and the next one.
+double spacing_m(const Context& context, const Line& line, const Point2& point) {
+  const double range_m = std::max(point.norm(), line.r_m);
+  const double sine = std::max(line.r_m / range_m, std::sin(context.params.grazing_rad));
+  return range_m * std::abs(context.scan.angle_step_rad) / sine;
+}
+
+/// sigma_e of spec S1.4 step 5: noise of the last range along the line, and where between two beams the end lies.
+double end_sigma_m(const Context& context, const Line& line, const Point2& point) {
+  const double sine = std::min(1.0, line.r_m / std::max(point.norm(), std::numeric_limits<double>::min()));
+  const double along_m = context.found.range_sigma_m * std::sqrt(1.0 - sine * sine);
+  const double sampling_m = spacing_m(context, line, point) / std::sqrt(12.0);
+  return std::hypot(along_m, sampling_m);
+}
+
+bool is_grazed(const Line& line, double grazing_rad) {
+  const Point2 middle = 0.5 * (line.start + line.end);
+  return line.r_m < std::sin(grazing_rad) * middle.norm();
+}
+
+SegmentObservation observe_line(const Context& context, std::size_t index) {
+  const Line& line = context.found.lines[index];
+  // Facing the wall the larger bearing is on the left: the line's end.
+  const std::array<Point2, 2> points{line.end, line.start};
+  SegmentObservation seen;
+  const Point2 along(std::sin(line.alpha_rad), -std::cos(line.alpha_rad));
+  std::array<double, 2> s{along.dot(points[kLeft]), along.dot(points[kRight])};
+  for (const Side side : {kLeft, kRight}) {
+    const End end = end_of(line, side == kLeft, context.scan);
+    seen.real[side] = is_real(context, index, end);
+    seen.end_sigma_m[side] = end_sigma_m(context, line, points[side]);
+    // The wall ends somewhere between its last beam and the next.
+    const double beyond_m = seen.real[side] ? 0.5 * spacing_m(context, line, points[side]) : 0.0;
+    s[side] += side == kLeft ? -beyond_m : beyond_m;
+  }
+  const double s_m = 0.5 * (s[kLeft] + s[kRight]);
+  const Point2 normal(std::cos(line.alpha_rad), std::sin(line.alpha_rad));
+  const Point2 middle = line.r_m * normal + s_m * along;
+  seen.base_T_segment =
+      context.scan.base_T_laser * Pose2{middle.x(), middle.y(), wrap_angle(line.alpha_rad - kPi / 2.0)};
+  seen.length_m = s[kRight] - s[kLeft];
+  Matrix2 t;
+  t << 1.0, s_m, 0.0, 1.0;
+  seen.covariance = t * line.covariance * t.transpose();
+  seen.covariance(0, 0) += context.params.wall_sigma_m * context.params.wall_sigma_m;
+  seen.covariance(1, 1) += context.params.wall_sigma_rad * context.params.wall_sigma_rad;
+  seen.points = line.points;
+  seen.line = index;
+  return seen;
+}
+
+}  // namespace
+
+std::vector<SegmentObservation> observe(const LaserScan& scan, const ScanLines& found,
+                                        const ObservationParams& params) {
+  Context context{.scan = scan, .found = found, .params = params};
+  context.range_limit_m = params.max_range_m > 0.0 ? params.max_range_m
+                          : scan.range_max_m > 0.0 ? scan.range_max_m
+                                                   : std::numeric_limits<double>::infinity();
+  context.full_circle = covers_full_circle(scan);
+  std::vector<SegmentObservation> observations;
+  observations.reserve(found.lines.size());
+  for (std::size_t k = 0; k < found.lines.size(); ++k) {
+    if (!is_grazed(found.lines[k], params.grazing_rad)) {
+      observations.push_back(observe_line(context, k));
+    }
+  }
+  return observations;
+}
+
+}  // namespace seeker::lines

@@ -1,0 +1,64 @@
+/// \file
+/// How noisy the ranges of a scan are, told by the scan itself.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace seeker::lines {
+
+/// sigma^2(rho) = floor^2 + (slope rho)^2.
+struct RangeNoise {
+  double floor_m = 0.01;
+  double slope = 0.0;  ///< metres per metre of range; 0: the same at every range
+
+  [[nodiscard]] double variance_m2(double range_m) const {
+    return floor_m * floor_m + slope * slope * range_m * range_m;
+  }
+  [[nodiscard]] double sigma_m(double range_m) const { return std::sqrt(variance_m2(range_m)); }
+};
+
+struct NoiseParams {
+  double sigma_m = 0.0;             ///< known noise, no estimate; 0: estimate it from each scan
+  double slope = 0.0;               ///< with a known sigma_m: its part proportional to the range
+  double nominal_sigma_m = 0.01;    ///< believed where a scan has too few beams to tell (spec S5.5: LMS200)
+  double min_sigma_m = 0.002;       ///< an estimate is never believed to be smaller (ranges are rounded)
+  double max_sigma_m = 0.1;         ///< ... or larger (clutter looks like noise)
+  int min_samples = 20;             ///< fewer neighbours in line than this: nominal_sigma_m
+  double slope_significance = 4.0;  ///< a growth with range is believed beyond so many of its standard deviations
+};
+
+/// Estimates the noise from what three neighbouring beams differ by. On a straight wall 1/rho is a sinusoid of the
+/// bearing, so that 1/rho(i-1) - 2 cos(step) / rho(i) + 1/rho(i+1) = 0 exactly, at any angle to the wall; what is left
+/// is noise, and corners and edges are the few outliers that a median ignores. O(n): the medians come from histograms.
+class NoiseEstimator {
+ public:
+  /// Squared second differences of 1/range in units of m^2 of range variance, entry i about point i; +inf at both ends
+  /// and where beams are missing. `beams` are the indices of the returns, one step apart each.
+  void differences(std::span<const float> ranges_m, std::span<const std::int32_t> beams, double step_rad,
+                   std::vector<float>& squares_m2);
+  /// The same for one point and its two neighbours.
+  [[nodiscard]] static float difference(float before_m, float range_m, float after_m, double step_rad);
+  [[nodiscard]] RangeNoise estimate(std::span<const float> ranges_m, std::span<const float> squares_m2,
+                                    const NoiseParams& params);
+
+ private:
+  /// Histograms of log2(square), by octave of range.
+  static constexpr std::size_t kOctaves = 8;
+  static constexpr std::size_t kBins = 128;
+  struct Octave {
+    std::array<std::uint16_t, kBins> bins{};
+    int count = 0;
+    double range2_m2 = 0.0;  ///< sum of the squared ranges
+  };
+  [[nodiscard]] static double robust_variance(const Octave& octave);
+  [[nodiscard]] RangeNoise fit_law(const NoiseParams& params) const;
+
+  std::array<Octave, kOctaves> octaves_;
+  std::vector<float> inverse_;
+};
+
+}  // namespace seeker::lines
