@@ -84,6 +84,7 @@ void describe(config::Fields& f, SpAssociationParams& params) {
   f.field("virtual_gap_m", params.virtual_gap_m);
   f.field("real_gap_m", params.real_gap_m);
   f.field("real_gap_sigmas", params.real_gap_sigmas);
+  f.field("apart_penalty", params.apart_penalty);
   f.field("max_nodes", params.max_nodes);
 }
 
@@ -98,6 +99,7 @@ void describe(config::Fields& f, SpFeatureParams& params) {
   f.field("merge_gate", params.merge_gate);
   f.angle_deg("merge_angle_deg", params.merge_angle_rad);
   f.field("merge_gap_m", params.merge_gap_m);
+  f.field("merge_offset_m", params.merge_offset_m);
   f.field("doorway_m", params.doorway_m);
 }
 

@@ -87,6 +87,8 @@ struct SpUpdateReport {
   std::vector<SpMerge> merged;
 };
 
+struct SpState;
+
 /// Frame conventions: poses are map_T_base, `map` being the map's own frame. The covariance of the robot is that of
 /// d_R of spec eq (4), map_T_base (+) d_R: expressed in the frame `base`, unless a name says `_map`.
 class SpMap {
@@ -138,8 +140,7 @@ class SpMap {
   [[nodiscard]] const SpMapParams& params() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<SpState> state_;
 };
 
 /// Covariance of d_R (frame `base`) from that of (x, y, theta) in the frame `map`, and back.

@@ -21,7 +21,8 @@ struct SpAssociationParams {
   double virtual_gap_m = 0.5;           ///< an observation beyond a virtual end may be this far off
   double real_gap_m = 0.15;             ///< beyond a real one, plus real_gap_sigmas
   double real_gap_sigmas = 3.0;
-  int max_nodes = 2000;  ///< of the search for the largest compatible set
+  double apart_penalty = 4.0;  ///< added to D2 of a pair that does not overlap, when hypotheses are compared
+  int max_nodes = 2000;        ///< of the search for the largest compatible set
 };
 
 struct SpFeatureParams {
@@ -35,7 +36,8 @@ struct SpFeatureParams {
   double merge_gate = 5.991;      ///< of two segments being one: 2 dof (spec S1.9)
   double merge_angle_rad = 0.1745;
   double merge_gap_m = 0.3;
-  double doorway_m = 0.1;  ///< two real ends facing each other over more than this are a doorway
+  double merge_offset_m = 0.15;  ///< nor are two segments one whose lines are farther apart, however uncertain
+  double doorway_m = 0.1;        ///< two real ends facing each other over more than this are a doorway
 };
 
 struct SpExistenceParams {

@@ -1,0 +1,69 @@
+/// \file
+/// What an SpMap is made of, for the functions that work on it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "server/slam/sp_map.hpp"
+#include "server/slam/sp_rows.hpp"
+
+namespace seeker::slam {
+
+/// What only the filter needs to know of a segment; in step with SpState::segments.
+struct SegmentRecord {
+  Index at = 0;                        ///< first of its rows in the covariance
+  std::array<int, 2> real_votes{};     ///< sightings in a row that saw this virtual end as a real one
+  std::array<int, 2> overrun_votes{};  ///< sightings in a row that went past this real end
+};
+
+/// An observation that waits for a second sight of it (spec S1.8).
+struct Tentative {
+  Pose2 map_T_segment;
+  double length_m = 0.0;
+  int scans = 1;
+};
+
+/// Memory of a step, kept to spare the heap.
+class Scratch {
+ public:
+  [[nodiscard]] Eigen::Map<Eigen::MatrixXd> matrix(Index rows, Index columns) {
+    const auto needed = static_cast<std::size_t>(rows * columns);
+    if (values_.size() < needed) {
+      values_.resize(needed + needed / 2);
+    }
+    return {values_.data(), rows, columns};
+  }
+
+ private:
+  std::vector<double> values_;
+};
+
+struct SpState {
+  SpMapParams params;
+  Pose2 map_T_base;
+  SpCovariance p;
+  std::vector<MapSegment> segments;  ///< by id
+  std::vector<SegmentRecord> records;
+  std::vector<Tentative> tentatives;
+  Observability observability;
+  std::uint64_t scans = 0;
+  SegmentId next_id = 1;
+  std::array<Scratch, 3> scratch;   ///< P H^T, the robot's columns, a segment's columns
+  std::vector<CentringStep> steps;  ///< memory of centring
+
+  SpState(const SpMapParams& map_params, const Pose2& start, const Matrix3& covariance)
+      : params(map_params), map_T_base(start), p(covariance) {}
+
+  [[nodiscard]] std::optional<std::size_t> index_of(SegmentId id) const;
+  [[nodiscard]] SegmentRows rows_of(std::size_t segment) const { return {records[segment].at, segments[segment].real}; }
+  /// Moves the first rows of all segments from `first` on.
+  void shift_rows(std::size_t first, Index by);
+  void erase(std::size_t segment);
+};
+
+/// Not finite, without length or with a covariance that is none.
+[[nodiscard]] bool is_usable(const lines::SegmentObservation& observation);
+
+}  // namespace seeker::slam
