@@ -65,6 +65,7 @@ int run_lab(int argc, char** argv) {
   verbs["compare"] = add_compare(app);
   verbs["hit-rate"] = add_hit_rate(app);
   verbs["template"] = add_template(app);
+  verbs["slam"] = add_slam(app);
   verbs["score"] = add_score(app);
   verbs["trajectory"] = add_trajectory(app);
   try {

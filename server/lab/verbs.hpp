@@ -44,6 +44,7 @@ using Verb = std::function<int()>;
 [[nodiscard]] Verb add_compare(CLI::App& app);
 [[nodiscard]] Verb add_hit_rate(CLI::App& app);
 [[nodiscard]] Verb add_template(CLI::App& app);
+[[nodiscard]] Verb add_slam(CLI::App& app);
 [[nodiscard]] Verb add_score(CLI::App& app);
 [[nodiscard]] Verb add_trajectory(CLI::App& app);
 

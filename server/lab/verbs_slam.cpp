@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "server/lab/score_command.hpp"
+#include "server/lab/slam_command.hpp"
+#include "server/lab/slam_estimators.hpp"
 #include "server/lab/verbs.hpp"
 
 namespace seeker::lab {
@@ -13,6 +15,26 @@ namespace {
 int exit_code_of(const Status& done) { return done ? kExitDone : report_error(done.error().message); }
 
 }  // namespace
+
+Verb add_slam(CLI::App& app) {
+  auto o = std::make_shared<SlamOptions>();
+  CLI::App* verb = app.add_subcommand("slam", "An estimator over a recorded log: trajectory, map and what it cost");
+  verb->add_option("log", o->log, "CARMEN log, or scans as numbers with commas; plain or .gz")->required();
+  verb->add_option("--out", o->out, "Folder for trajectory.tum, map.png and report.json (default: nothing is written)");
+  verb->add_option("--estimator", o->estimator, "Which estimator (default: the robot file's)")
+      ->check(CLI::IsMember(estimator_names()));
+  verb->add_option("--robot", o->robot, "Robot file, or the name of one in robots/ (default: chosen by the log)");
+  verb->add_option("--config", o->config, "Folder with robots/");
+  verb->add_option("--set", o->overrides, "Override a field of the robot file: key.path=value (repeatable)");
+  verb->add_flag("--json", o->json, "Print JSON");
+  return [o] {
+    CommonOptions common;
+    common.config = o->config.string();
+    o->config = config_folder(common);
+    o->show_progress = show_progress();
+    return exit_code_of(run_slam_command(*o, std::cout));
+  };
+}
 
 Verb add_score(CLI::App& app) {
   auto o = std::make_shared<ScoreOptions>();

@@ -1,0 +1,33 @@
+/// \file
+/// What `seeker-lab slam` leaves: report, trajectory and picture of the map.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "common/core/image.hpp"
+#include "common/core/result.hpp"
+#include "server/lab/slam_run.hpp"
+#include "server/nav/occupancy_map.hpp"
+
+namespace seeker::lab {
+
+/// Where a run came from.
+struct SlamSource {
+  std::filesystem::path log;
+  std::filesystem::path robot_file;
+  std::string estimator;
+  drivers::ReplayParams geometry;
+  nav::OccupancyParams occupancy;
+};
+
+[[nodiscard]] std::string slam_json(const SlamSource& source, const SlamRun& run);
+[[nodiscard]] std::string slam_text(const SlamSource& source, const SlamRun& run);
+
+/// Occupancy of all scans at the poses known at the end, with the way that was driven.
+[[nodiscard]] Result<Image> slam_picture(const SlamSource& source, const SlamRun& run);
+
+/// Writes trajectory.tum, trajectory_online.tum where it differs, report.json and map.png into the folder.
+[[nodiscard]] Status save_slam(const std::filesystem::path& folder, const SlamSource& source, const SlamRun& run);
+
+}  // namespace seeker::lab
