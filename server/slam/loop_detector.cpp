@@ -1,0 +1,109 @@
+#include "server/slam/loop_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::slam {
+namespace {
+
+/// Two places along the direction that the scans do not see are one place as far as they can tell.
+bool same_but_along(const VerifiedLoop& a, const VerifiedLoop& b, const GlobalSearchParams& params) {
+  const Pose2& p = a.target_T_query.a_T_b;
+  const Pose2& q = b.target_T_query.a_T_b;
+  if (std::abs(wrap_angle(p.theta_rad - q.theta_rad)) > params.distinct_rad) {
+    return false;
+  }
+  Point2 apart = p.translation() - q.translation();
+  if (a.degenerate_direction) {
+    apart -= apart.dot(*a.degenerate_direction) * *a.degenerate_direction;
+  }
+  return apart.norm() <= params.distinct_m;
+}
+
+}  // namespace
+
+LoopDetector::LoopDetector(const LoopParams& params)
+    : params_(params), search_(params.search), matcher_(params.match) {}
+
+SearchWindow LoopDetector::window_of(const UncertainPose& target_T_query) const {
+  const Eigen::SelfAdjointEigenSolver<Matrix2> eigen(target_T_query.covariance.topLeftCorner<2, 2>(),
+                                                     Eigen::EigenvaluesOnly);
+  const double sigma_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
+  const double sigma_rad = std::sqrt(std::max(0.0, target_T_query.covariance(2, 2)));
+  return {target_T_query.a_T_b, std::clamp(params_.window_sigmas * sigma_m, params_.min_window_m, params_.max_window_m),
+          std::clamp(params_.window_sigmas * sigma_rad, params_.min_window_rad, params_.max_window_rad)};
+}
+
+std::optional<VerifiedLoop> LoopDetector::examine(const std::vector<SeenPoints>& seen_query,
+                                                  const std::vector<OrientedPoint>& points, const LoopTarget& target,
+                                                  const GlobalCandidate& start) const {
+  const MatchResult match = matcher_.match(target.place->cloud(), points, start.map_T_base);
+  if (match.pairs < params_.match.min_pairs || match.inliers < static_cast<int>(params_.min_inliers)) {
+    return std::nullopt;
+  }
+  VerifiedLoop loop;
+  loop.id = target.id;
+  loop.score = start.score;
+  loop.agreement = agreement_of(target.place->pyramid(), target.place->free_space(), seen_query, match.map_T_base,
+                                params_.agreement);
+  const auto near = std::count_if(points.begin(), points.end(), [&](const OrientedPoint& point) {
+    return target.place->cloud().nearest(match.map_T_base * point.p, params_.match.first_gate_m) != nullptr;
+  });
+  loop.overlap = static_cast<double>(near) / static_cast<double>(points.size()) + loop.agreement.disagreement();
+  loop.consistency = match.inlier_ratio / std::max(loop.overlap, match.inlier_ratio);
+  loop.degenerate_direction = match.degenerate_direction;
+  const Eigen::Vector3d floor(params_.sigma_floor_m, params_.sigma_floor_m, params_.sigma_floor_rad);
+  loop.target_T_query = {match.map_T_base, match.covariance + floor.cwiseAbs2().asDiagonal().toDenseMatrix()};
+  loop.information = loop.target_T_query.covariance.inverse();
+  if (loop.overlap < params_.min_overlap || loop.consistency < params_.min_consistency) {
+    return std::nullopt;
+  }
+  return loop;
+}
+
+std::optional<VerifiedLoop> LoopDetector::verify(const std::vector<SeenPoints>& seen_query,
+                                                 const LoopTarget& target) const {
+  std::vector<OrientedPoint> points;
+  for (const SeenPoints& seen : seen_query) {
+    points.insert(points.end(), seen.points.begin(), seen.points.end());
+  }
+  const GlobalSearchResult found = search_.search(target.place->pyramid(), points, window_of(target.target_T_query));
+  const std::vector<OrientedPoint> sparse = thin_by_cells(points, params_.search.thin_cell_m, params_.match_points);
+  std::vector<VerifiedLoop> loops;
+  for (const GlobalCandidate& start : found.candidates) {
+    if (auto loop = examine(seen_query, sparse, target, start)) {
+      loops.push_back(*std::move(loop));
+    }
+  }
+  const auto best = std::max_element(loops.begin(), loops.end(), [](const VerifiedLoop& a, const VerifiedLoop& b) {
+    return a.consistency * a.overlap < b.consistency * b.overlap;
+  });
+  if (best == loops.end()) {
+    return std::nullopt;
+  }
+  const bool rival = std::any_of(loops.begin(), loops.end(), [&](const VerifiedLoop& other) {
+    return !same_but_along(*best, other, params_.search) &&
+           other.consistency * other.overlap > params_.rival_consistency * best->consistency * best->overlap;
+  });
+  return rival ? std::nullopt : std::optional<VerifiedLoop>(*best);
+}
+
+std::vector<VerifiedLoop> LoopDetector::detect(const std::vector<SeenPoints>& seen_query,
+                                               const std::vector<LoopTarget>& targets) const {
+  std::vector<VerifiedLoop> loops;
+  for (const LoopTarget& target : targets) {
+    if (auto loop = verify(seen_query, target)) {
+      loops.push_back(*std::move(loop));
+    }
+  }
+  std::stable_sort(loops.begin(), loops.end(),
+                   [](const VerifiedLoop& a, const VerifiedLoop& b) { return a.consistency > b.consistency; });
+  return loops;
+}
+
+}  // namespace seeker::slam

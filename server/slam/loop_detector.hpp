@@ -1,0 +1,78 @@
+/// \file
+/// Loops between sub-maps: searched where the robot may be, refined, and refused when the scans contradict them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "server/slam/pairwise_consistency.hpp"
+#include "server/slam/place_recogniser.hpp"
+
+namespace seeker::slam {
+
+/// A finished sub-map of the database, made ready with PlaceMap::build() from its scans in its own frame, and what the
+/// graph believes of the query in that frame (PoseGraph::relative_covariance).
+struct LoopTarget {
+  std::size_t id = 0;  ///< the caller's, handed back
+  std::shared_ptr<const PlaceMap> place;
+  UncertainPose target_T_query;
+};
+
+struct LoopParams {
+  GlobalSearchParams search{.max_points = 160, .min_score = 0.2, .rival_ratio = 0.75, .max_candidates = 4};
+  MatchParams match;
+  AgreementParams agreement;
+  double window_sigmas = 3.0;  ///< half width of the search window
+  double min_window_m = 1.0;   ///< but at least this
+  double max_window_m = 6.0;   ///< and at most this
+  double min_window_rad = 0.15;
+  double max_window_rad = 0.8;
+  std::size_t match_points = 400;
+  std::size_t min_inliers = 60;    ///< points of the final match
+  double min_overlap = 0.25;       ///< share of the query's points that lie where the target has seen something
+  double min_consistency = 0.75;   ///< of those, the share on the target's surfaces
+  double rival_consistency = 0.9;  ///< another place as consistent as this share of the best's: refused as ambiguous
+  /// A match is never believed to be better than this: sub-maps bend.
+  double sigma_floor_m = 0.02;
+  double sigma_floor_rad = 0.004;
+};
+
+/// A loop that the points confirm. Several of them should still be checked against each other
+/// (largest_consistent_set) and be switchable edges of the graph.
+struct VerifiedLoop {
+  std::size_t id = 0;                     ///< of the target
+  UncertainPose target_T_query;           ///< covariance very large along a direction that the scans do not see
+  Matrix3 information = Matrix3::Zero();  ///< its inverse: next to nothing along that direction
+  double score = 0.0;                     ///< of the search, 0 to 1
+  double overlap = 0.0;
+  double consistency = 0.0;
+  Agreement agreement;
+  std::optional<Point2> degenerate_direction;  ///< unit vector in the frame of the target
+};
+
+/// Deterministic; no state but its parameters.
+class LoopDetector {
+ public:
+  explicit LoopDetector(const LoopParams& params = {});
+
+  /// The loops of the query (its scans in its own frame) with any of the targets, most consistent first.
+  [[nodiscard]] std::vector<VerifiedLoop> detect(const std::vector<SeenPoints>& seen_query,
+                                                 const std::vector<LoopTarget>& targets) const;
+  /// With one target; nothing when there is none or more than one fits.
+  [[nodiscard]] std::optional<VerifiedLoop> verify(const std::vector<SeenPoints>& seen_query,
+                                                   const LoopTarget& target) const;
+  [[nodiscard]] const LoopParams& params() const { return params_; }
+
+ private:
+  [[nodiscard]] SearchWindow window_of(const UncertainPose& target_T_query) const;
+  [[nodiscard]] std::optional<VerifiedLoop> examine(const std::vector<SeenPoints>& seen_query,
+                                                    const std::vector<OrientedPoint>& points, const LoopTarget& target,
+                                                    const GlobalCandidate& start) const;
+
+  LoopParams params_;
+  GlobalMatcher search_;
+  ScanMatcher matcher_;
+};
+
+}  // namespace seeker::slam
