@@ -66,6 +66,8 @@ int run_lab(int argc, char** argv) {
   verbs["hit-rate"] = add_hit_rate(app);
   verbs["template"] = add_template(app);
   verbs["slam"] = add_slam(app);
+  verbs["lines"] = add_lines(app);
+  verbs["plot"] = add_plot(app);
   verbs["score"] = add_score(app);
   verbs["trajectory"] = add_trajectory(app);
   try {

@@ -5,12 +5,16 @@
 #include <filesystem>
 #include <string>
 
+#include "common/config/fields.hpp"
 #include "common/core/image.hpp"
 #include "common/core/result.hpp"
 #include "server/lab/slam_run.hpp"
 #include "server/nav/occupancy_map.hpp"
 
 namespace seeker::lab {
+
+/// Fields of the JSON.
+void describe(config::Fields& f, TimeFigures& times);
 
 /// Where a run came from.
 struct SlamSource {

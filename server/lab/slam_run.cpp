@@ -1,11 +1,8 @@
 #include "server/lab/slam_run.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -14,21 +11,6 @@
 
 namespace seeker::lab {
 namespace {
-
-using Stopwatch = std::chrono::steady_clock;
-
-double seconds_since(Stopwatch::time_point start) {
-  return std::chrono::duration<double>(Stopwatch::now() - start).count();
-}
-
-double cpu_seconds() {
-  rusage usage{};
-  constexpr double kMicro = 1e-6;
-  const auto in_s = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + kMicro * static_cast<double>(t.tv_usec);
-  };
-  return getrusage(RUSAGE_SELF, &usage) == 0 ? in_s(usage.ru_utime) + in_s(usage.ru_stime) : 0.0;
-}
 
 /// A stamp of the log from robot time. Logs state microseconds: the rounding of the difference goes away.
 double log_stamp_s(const drivers::ReplaySource& source, RobotTime stamp) {
@@ -48,7 +30,7 @@ class Player {
     }
     const std::optional<drivers::OdometrySample> odometry = source_.take_odometry();
     const std::optional<LaserScan> scan = source_.take_scan();
-    const Stopwatch::time_point start = Stopwatch::now();
+    watch.start();
     Status predicted;
     Status updated;
     if (odometry) {
@@ -57,11 +39,11 @@ class Player {
     if (scan) {
       updated = tracker_.update(*scan);
     }
-    spent_s_ += seconds_since(start);
+    watch.stop();
     note(predicted);
     note(updated);
     if (scan) {
-      scan_s_.push_back(std::exchange(spent_s_, 0.0));
+      watch.lap();
       note_pose(*scan);
     }
     return true;
@@ -69,8 +51,7 @@ class Player {
   void finish(const slam::MapTracker* map);
 
   SlamRun run;
-
-  [[nodiscard]] const std::vector<double>& scan_s() const { return scan_s_; }
+  Stopwatch watch;
 
  private:
   void note(const Status& status);
@@ -79,8 +60,6 @@ class Player {
   drivers::ReplaySource& source_;
   slam::PoseTracker& tracker_;
   std::vector<OnlinePose> poses_;
-  std::vector<double> scan_s_;
-  double spent_s_ = 0.0;  ///< since the last scan
 };
 
 void Player::note(const Status& status) {
@@ -121,31 +100,7 @@ void Player::finish(const slam::MapTracker* map) {
   }
 }
 
-void fill_times(std::vector<double> scan_s, SlamCost& cost) {
-  constexpr double kMilli = 1e3;
-  constexpr double kTail = 0.99;
-  if (scan_s.empty()) {
-    return;
-  }
-  std::sort(scan_s.begin(), scan_s.end());
-  const auto count = static_cast<double>(scan_s.size());
-  const auto at = [&](double share) {
-    const double rank = std::ceil(share * count) - 1.0;
-    return kMilli * scan_s[static_cast<std::size_t>(std::max(0.0, rank))];
-  };
-  cost.scan_mean_ms = kMilli * std::accumulate(scan_s.begin(), scan_s.end(), 0.0) / count;
-  cost.scan_median_ms = at(0.5);
-  cost.scan_p99_ms = at(kTail);
-  cost.scan_max_ms = kMilli * scan_s.back();
-}
-
 }  // namespace
-
-double peak_memory_mb() {
-  rusage usage{};
-  constexpr double kKilobytesPerMegabyte = 1024.0;
-  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<double>(usage.ru_maxrss) / kKilobytesPerMegabyte : 0.0;
-}
 
 Result<SlamRun> run_slam(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
                          slam::PoseTracker& tracker, const SlamProgress& progress) {
@@ -156,18 +111,20 @@ Result<SlamRun> run_slam(const std::filesystem::path& log, const drivers::Replay
   }
   Player player(**source, tracker);
   player.run.cost.memory_empty_mb = peak_memory_mb();
-  const Stopwatch::time_point start = Stopwatch::now();
-  const double cpu_start_s = cpu_seconds();
+  const auto start = std::chrono::steady_clock::now();
+  const double processor_start_s = process_seconds();
   while (player.step()) {
     const std::uint64_t scans = player.run.online.size();
     if (progress && scans % kProgressScans == 0) {
       progress(scans, to_seconds((*source)->now()));
     }
   }
-  player.run.cost.wall_s = seconds_since(start);
-  player.run.cost.cpu_s = cpu_seconds() - cpu_start_s;
-  player.run.cost.memory_peak_mb = peak_memory_mb();
-  fill_times(player.scan_s(), player.run.cost);
+  SlamCost& cost = player.run.cost;
+  cost.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  cost.processor_s = process_seconds() - processor_start_s;
+  cost.memory_peak_mb = peak_memory_mb();
+  cost.scan = player.watch.wall();
+  cost.scan_processor = player.watch.processor();
   if (player.run.online.empty()) {
     return fail(Errc::kParse, log.string() + " has no scan: " + drivers::describe((*source)->summary()));
   }

@@ -12,6 +12,7 @@
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
 #include "server/drivers/replay/replay.hpp"
+#include "server/lab/log_stopwatch.hpp"
 #include "server/lab/trajectory.hpp"
 #include "server/slam/pose_tracker.hpp"
 
@@ -27,12 +28,10 @@ struct QualitySpell {
 };
 
 struct SlamCost {
-  double wall_s = 0.0;  ///< reading and estimating
-  double cpu_s = 0.0;   ///< of this process meanwhile: not lengthened by others on the machine
-  double scan_mean_ms = 0.0;
-  double scan_median_ms = 0.0;
-  double scan_p99_ms = 0.0;
-  double scan_max_ms = 0.0;
+  double wall_s = 0.0;           ///< reading and estimating
+  double processor_s = 0.0;      ///< of this process meanwhile: not lengthened by others on the machine
+  TimeFigures scan;              ///< each scan with the odometry before it, on the wall
+  TimeFigures scan_processor;    ///< the same in processor time of the calling thread
   double memory_empty_mb = 0.0;  ///< peak before the first record was taken
   double memory_peak_mb = 0.0;   ///< peak when the last scan was done
 };
@@ -71,8 +70,5 @@ struct QualityShare {
 [[nodiscard]] Status for_each_scan(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
                                    const Trajectory& trajectory,
                                    const std::function<void(const LaserScan& scan, const Pose2& map_T_base)>& visit);
-
-/// The largest memory this process has had so far.
-[[nodiscard]] double peak_memory_mb();
 
 }  // namespace seeker::lab

@@ -45,6 +45,8 @@ using Verb = std::function<int()>;
 [[nodiscard]] Verb add_hit_rate(CLI::App& app);
 [[nodiscard]] Verb add_template(CLI::App& app);
 [[nodiscard]] Verb add_slam(CLI::App& app);
+[[nodiscard]] Verb add_lines(CLI::App& app);
+[[nodiscard]] Verb add_plot(CLI::App& app);
 [[nodiscard]] Verb add_score(CLI::App& app);
 [[nodiscard]] Verb add_trajectory(CLI::App& app);
 

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "server/lab/lines_command.hpp"
+#include "server/lab/plot_trajectories.hpp"
 #include "server/lab/score_command.hpp"
 #include "server/lab/slam_command.hpp"
 #include "server/lab/slam_estimators.hpp"
@@ -14,6 +16,21 @@ namespace {
 
 int exit_code_of(const Status& done) { return done ? kExitDone : report_error(done.error().message); }
 
+/// Options of every verb that plays a log.
+template <class Options>
+void add_geometry(CLI::App& verb, Options& options) {
+  verb.add_option("--robot", options.robot,
+                  "Robot file with the scanner's geometry, or the name of one in robots/ (default: chosen by the log)");
+  verb.add_option("--config", options.config, "Folder with robots/");
+  verb.add_option("--set", options.overrides, "Override a field of the robot file: key.path=value (repeatable)");
+}
+
+std::filesystem::path found_config(const std::filesystem::path& named) {
+  CommonOptions common;
+  common.config = named.string();
+  return config_folder(common);
+}
+
 }  // namespace
 
 Verb add_slam(CLI::App& app) {
@@ -23,14 +40,10 @@ Verb add_slam(CLI::App& app) {
   verb->add_option("--out", o->out, "Folder for trajectory.tum, map.png and report.json (default: nothing is written)");
   verb->add_option("--estimator", o->estimator, "Which estimator (default: the robot file's)")
       ->check(CLI::IsMember(estimator_names()));
-  verb->add_option("--robot", o->robot, "Robot file, or the name of one in robots/ (default: chosen by the log)");
-  verb->add_option("--config", o->config, "Folder with robots/");
-  verb->add_option("--set", o->overrides, "Override a field of the robot file: key.path=value (repeatable)");
+  add_geometry(*verb, *o);
   verb->add_flag("--json", o->json, "Print JSON");
   return [o] {
-    CommonOptions common;
-    common.config = o->config.string();
-    o->config = config_folder(common);
+    o->config = found_config(o->config);
     o->show_progress = show_progress();
     return exit_code_of(run_slam_command(*o, std::cout));
   };
@@ -73,6 +86,34 @@ Verb add_trajectory(CLI::App& app) {
       ->transform(CLI::CheckedTransformer(sources));
   verb->add_option("--out", o->out, "TUM file to write")->required();
   return [o] { return exit_code_of(write_log_trajectory(o->log, o->source, o->out, std::cerr)); };
+}
+
+Verb add_lines(CLI::App& app) {
+  auto o = std::make_shared<LinesOptions>();
+  CLI::App* verb = app.add_subcommand("lines", "The line extractor over a recorded log");
+  verb->add_option("log", o->log, "CARMEN log, or scans as numbers with commas; plain or .gz")->required();
+  CLI::Option* scan = verb->add_option("--scan", o->scan, "Draw this scan instead; the first is 0");
+  scan->needs(verb->add_option("--out", o->out, "PNG of that scan")->needs(scan));
+  add_geometry(*verb, *o);
+  verb->add_flag("--json", o->json, "Print JSON");
+  return [o] {
+    o->config = found_config(o->config);
+    return exit_code_of(run_lines(*o, std::cout));
+  };
+}
+
+Verb add_plot(CLI::App& app) {
+  auto o = std::make_shared<PlotOptions>();
+  CLI::App* verb = app.add_subcommand("plot", "Trajectories over each other, and the walls of a log");
+  verb->add_option("trajectories", o->trajectories, "TUM files")->required();
+  verb->add_option("--log", o->log, "Draw the walls: its scans at the poses of the first trajectory");
+  verb->add_flag("--align", o->align, "Move each trajectory onto the first");
+  verb->add_option("--out", o->out, "PNG to write")->required();
+  add_geometry(*verb, *o);
+  return [o] {
+    o->config = found_config(o->config);
+    return exit_code_of(run_plot(*o));
+  };
 }
 
 }  // namespace seeker::lab

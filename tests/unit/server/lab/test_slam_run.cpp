@@ -74,7 +74,7 @@ TEST_F(SlamRunOf, ALogCountsQualitiesWithTheirTimes) {
   EXPECT_NEAR(lost.time_s, 1.75, 1e-6);
   EXPECT_EQ(share_of(*run, LocalisationQuality::kLocalised).scans, 2U);
   EXPECT_EQ(share_of(*run, LocalisationQuality::kDegraded).scans, 0U);
-  EXPECT_GE(run->cost.scan_max_ms, run->cost.scan_median_ms);
+  EXPECT_GE(run->cost.scan.max_ms, run->cost.scan.median_ms);
   EXPECT_GE(run->cost.memory_peak_mb, run->cost.memory_empty_mb);
 }
 

@@ -1,0 +1,48 @@
+/// \file
+/// What a scan costs: by the clock on the wall, and by the processor time of the thread, which is not lengthened by
+/// whatever else the machine does.
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+namespace seeker::lab {
+
+/// Of all scans of a log, in ms.
+struct TimeFigures {
+  double mean_ms = 0.0;
+  double median_ms = 0.0;
+  double p99_ms = 0.0;
+  double max_ms = 0.0;
+};
+
+/// Figures of a list; zeros for an empty one. Quantiles are entries of the list (the smallest that has so large a
+/// share of it at or below).
+[[nodiscard]] TimeFigures time_figures(std::vector<double> times_s);
+
+/// Adds up what passes between start() and stop().
+class Stopwatch {
+ public:
+  void start();
+  void stop();
+  /// Ends a scan: its times join the lists, and the next one begins at zero.
+  void lap();
+
+  [[nodiscard]] TimeFigures wall() const { return time_figures(wall_s_); }
+  [[nodiscard]] TimeFigures processor() const { return time_figures(processor_s_); }
+
+ private:
+  std::chrono::steady_clock::time_point wall_start_;
+  double processor_start_s_ = 0.0;
+  double wall_sum_s_ = 0.0;
+  double processor_sum_s_ = 0.0;
+  std::vector<double> wall_s_;
+  std::vector<double> processor_s_;
+};
+
+/// Processor time of the whole process so far, s.
+[[nodiscard]] double process_seconds();
+/// The largest memory this process has had so far.
+[[nodiscard]] double peak_memory_mb();
+
+}  // namespace seeker::lab
