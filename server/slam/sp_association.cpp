@@ -34,24 +34,21 @@ Cull cull_of(const SpState& state, const SegmentObservation& observation) {
   return cull;
 }
 
-/// Cheap test without matrices: direction, then the two coordinates of the mid-point.
+/// Cheap test without matrices: distance, direction, then the two coordinates of the mid-point.
 bool may_pair(const SpState& state, std::size_t segment, const Cull& cull, double observed_length_m, double reach_m,
               double min_cosine) {
   const MapSegment& f = state.segments[segment];
-  const Point2 tangent(std::cos(f.map_T_segment.theta_rad), std::sin(f.map_T_segment.theta_rad));
-  if (tangent.dot(cull.tangent) < min_cosine) {
-    return false;
-  }
   const Point2 d = cull.map_T_observation.translation() - f.map_T_segment.translation();
-  const double x_m = tangent.dot(d);
   const double half_m = 0.5 * (f.length_m + observed_length_m) + reach_m;
-  if (std::abs(x_m) > half_m) {
+  const Index at = state.records[segment].at;
+  const double own = state.p(at, at) + half_m * half_m * state.p(at + 1, at + 1);
+  const double most_y2 = state.params.association.near_gate * 2.0 * (cull.variance + 2.0 * own);
+  if (d.squaredNorm() > half_m * half_m + most_y2) {
     return false;
   }
+  const Point2 tangent(std::cos(f.map_T_segment.theta_rad), std::sin(f.map_T_segment.theta_rad));
   const double y_m = tangent.x() * d.y() - tangent.y() * d.x();
-  const Index at = state.records[segment].at;
-  const double own = state.p(at, at) + x_m * x_m * state.p(at + 1, at + 1);
-  return y_m * y_m <= state.params.association.near_gate * 2.0 * (cull.variance + 2.0 * own);
+  return tangent.dot(cull.tangent) >= min_cosine && std::abs(tangent.dot(d)) <= half_m && y_m * y_m <= most_y2;
 }
 
 /// Overlap test of S1.6; false: they lie apart.

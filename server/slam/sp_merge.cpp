@@ -17,6 +17,12 @@ bool are_neighbours(const SpState& state, std::size_t first, std::size_t second)
   const SpFeatureParams& params = state.params.features;
   const MapSegment& i = state.segments[first];
   const MapSegment& j = state.segments[second];
+  // Most pairs are far apart: no trigonometry for them.
+  const double reach_m = 0.5 * (i.length_m + j.length_m) + params.merge_gap_m + params.merge_offset_m;
+  const Point2 apart = j.map_T_segment.translation() - i.map_T_segment.translation();
+  if (apart.squaredNorm() > reach_m * reach_m) {
+    return false;
+  }
   const Pose2 d = inverse(i.map_T_segment) * j.map_T_segment;
   if (std::abs(d.theta_rad) > params.merge_angle_rad || std::abs(d.y_m) > params.merge_offset_m) {
     return false;

@@ -1,4 +1,5 @@
 /// Monte-Carlo tests of spec S8: errors are as large as the filter says.
+#include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -111,6 +112,53 @@ TEST(SpConsistency, ThePapersModeIsConsistentToo) {
   const MeanNees growing = run_with_growing_ends(params);
   EXPECT_NEAR(growing.robot, 3.0, kRobotBand);
   EXPECT_NEAR(growing.segment, 4.0, kSegmentBand);
+}
+
+/// The first wall is seen in two pieces with virtual ends towards each other, which grow together; real association.
+std::vector<lines::SegmentObservation> pieces(int k, const std::vector<TrueWall>& walls, const Pose2& truth, Rng& rng) {
+  std::vector<lines::SegmentObservation> observations;
+  for (std::size_t w = 1; w < walls.size(); ++w) {
+    observations.push_back(test::see_whole(truth, walls[w], SensorNoise{}, rng));
+  }
+  const double half_m = 0.5 * walls[0].length_m;
+  const double gap_m = std::max(0.05, 1.0 - 0.05 * k);
+  for (const bool left : {true, false}) {
+    observations.push_back(see(truth, walls[0], left ? -half_m : gap_m, left ? -gap_m : half_m, {left, !left},
+                               SensorNoise{}, draw_p(SensorNoise{}, rng)));
+  }
+  return observations;
+}
+
+TEST(SpConsistency, PiecesOfAWallThatAreMerged) {
+  const std::vector<TrueWall> walls = test::room();
+  double robot = 0.0;
+  double segment = 0.0;
+  int merged = 0;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    Rng rng(static_cast<std::uint64_t>(seed));
+    SpMap map({0.0, -1.5, 0.0}, covariance_of(OdometryNoise{}));
+    Pose2 truth = map.robot() * true_motion({}, OdometryNoise{}, rng);
+    for (int k = 0; k < 30; ++k) {
+      const Pose2 increment{0.12, 0.0, 0.08};
+      map.predict(increment, covariance_of(OdometryNoise{}));
+      truth = truth * true_motion(increment, OdometryNoise{}, rng);
+      const std::vector<lines::SegmentObservation> observations = pieces(k, walls, truth, rng);
+      map.update(observations, map.associate(observations));
+    }
+    robot += test::robot_nees(map, truth) / kRuns;
+    const auto whole = std::find_if(map.segments().begin(), map.segments().end(), [&](const MapSegment& s) {
+      return std::abs(wrap_angle(s.map_T_segment.theta_rad - walls[0].map_T_wall.theta_rad)) < 0.3;
+    });
+    if (map.segments().size() == walls.size()) {
+      ++merged;
+      ASSERT_TRUE(whole->real[0] && whole->real[1]);
+      segment += test::segment_nees(map, *whole, walls[0]);
+    }
+  }
+  // The gate of merging refuses 5 % of what belongs together; where it does, the pieces stay two.
+  EXPECT_GT(merged, kRuns * 9 / 10);
+  EXPECT_NEAR(robot, 3.0, kRobotBand);
+  EXPECT_NEAR(segment / merged, 4.0, 0.6);
 }
 
 }  // namespace
