@@ -64,11 +64,12 @@ bool lies_on(const SpState& state, PairCandidate& pair, const SegmentObservation
   if (overlap_m >= 0.0) {
     return true;
   }
+  const double variance = (pair.geometry.robot_x * state.p.block(0, kRobotRows) * pair.geometry.robot_x.transpose())(0);
+  pair.beside = -overlap_m > params.real_gap_sigmas * std::sqrt(std::max(variance, 0.0));
   const std::size_t facing = pair.geometry.x_m < 0.0 ? lines::kLeft : lines::kRight;
   if (!f.real[facing]) {
     return -overlap_m <= params.virtual_gap_m;
   }
-  const double variance = (pair.geometry.robot_x * state.p.block(0, kRobotRows) * pair.geometry.robot_x.transpose())(0);
   const Index end = state.records[pair.segment].at + state.rows_of(pair.segment).end(facing);
   return -overlap_m <=
          params.real_gap_m + params.real_gap_sigmas * std::sqrt(std::max(variance + state.p(end, end), 0.0));
@@ -108,6 +109,9 @@ Problem make_problem(const SpState& state, const std::vector<SegmentObservation>
     match.verdict = SpVerdict::kRejected;
     match.d2 = candidates.front().d2;
     std::erase_if(candidates, [&](const PairCandidate& c) { return c.d2 > state.params.association.gate; });
+    if (std::any_of(candidates.begin(), candidates.end(), [](const PairCandidate& c) { return c.apart < 0.5; })) {
+      std::erase_if(candidates, [](const PairCandidate& c) { return c.beside; });
+    }
     if (!candidates.empty()) {
       match.verdict = SpVerdict::kAmbiguous;
       all.push_back(std::move(candidates));

@@ -51,6 +51,9 @@ void follow_end(SpState& state, std::size_t segment, std::size_t side, const Seg
   const double x_m = pair.end_x_m(side, observation.length_m);
   const double past_m = end_sign(side) * x_m - 0.5 * f.length_m;
   const double slack_m = params.end_slack_m + kSigmas * along_sigma_m(state, pair);
+  if (past_m < -slack_m) {
+    return;  // this part of the wall ends before: it tells nothing of the wall's end
+  }
   if (f.real[side]) {
     record.overrun_votes[side] = past_m > slack_m ? record.overrun_votes[side] + 1 : 0;
     if (record.overrun_votes[side] < params.demote_scans) {
@@ -59,8 +62,7 @@ void follow_end(SpState& state, std::size_t segment, std::size_t side, const Seg
     make_virtual(state, segment, side);
     record.overrun_votes[side] = 0;
   }
-  const bool seen_real = observation.real[side] && past_m > -slack_m;
-  record.real_votes[side] = seen_real ? record.real_votes[side] + 1 : 0;
+  record.real_votes[side] = observation.real[side] ? record.real_votes[side] + 1 : 0;
   if (record.real_votes[side] >= params.real_scans) {
     record.real_votes[side] = 0;
     make_real(state, segment, side, observation);

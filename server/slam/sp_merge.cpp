@@ -97,15 +97,16 @@ void take_end(SpState& state, std::size_t first, std::size_t second, std::size_t
   state.shift_rows(first + 1, 1);
 }
 
-/// On each side the outermost end.
+/// On each side the outermost end; a real one that is nearly so.
 void transfer_end(SpState& state, std::size_t first, std::size_t second, std::size_t side) {
   const MapSegment& i = state.segments[first];
   const MapSegment& j = state.segments[second];
   Pose2 i_T_j = inverse(i.map_T_segment) * j.map_T_segment;
   const double x_m = i_T_j.x_m + 0.5 * end_sign(side) * j.length_m * std::cos(i_T_j.theta_rad);
   const double past_m = end_sign(side) * x_m - 0.5 * i.length_m;
-  const bool adopt = j.real[side] && !i.real[side] && past_m > -state.params.features.end_slack_m;
-  if (past_m <= 0.0 && !adopt) {
+  const double slack_m = state.params.features.end_slack_m;
+  const double least_m = i.real[side] ? slack_m : j.real[side] ? -slack_m : 0.0;
+  if (past_m <= least_m) {
     return;
   }
   if (i.real[side]) {
