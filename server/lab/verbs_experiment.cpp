@@ -19,6 +19,21 @@ const std::map<std::string, search::Strategy> kStrategies = {{"paper", search::S
 const std::map<std::string, api::OnFound> kOnFound = {
     {"stop", api::OnFound::kStop}, {"approach", api::OnFound::kApproach}, {"continue", api::OnFound::kContinue}};
 
+/// What `reproduce` regenerates, by id.
+struct Reproduction {
+  Status (*run)(const ReproduceParams&, Report&);
+  const char* seeds;  ///< where the command line names none
+};
+const std::map<std::string, Reproduction> kReproductions = {{"s3", {&reproduce_s3, "1-20"}}};
+
+std::vector<std::string> reproduction_ids() {
+  std::vector<std::string> ids;
+  for (const auto& [id, reproduction] : kReproductions) {
+    ids.push_back(id);
+  }
+  return ids;
+}
+
 /// Options of `search` and `compare`.
 struct SearchOptions {
   CommonOptions common;
@@ -121,8 +136,8 @@ int run_compare(const SearchOptions& o) {
   return kExitDone;
 }
 
-int run_reproduce(const CommonOptions& o, const std::string& programs, bool sockets) {
-  const Result<std::vector<std::uint64_t>> seeds = parse_seeds(o.seeds);
+int run_reproduce(const CommonOptions& o, const std::string& id, const std::string& programs, bool sockets) {
+  const Result<std::vector<std::uint64_t>> seeds = parse_seeds(o.seeds.empty() ? kReproductions.at(id).seeds : o.seeds);
   if (!seeds) {
     return report_error(seeds.error().message);
   }
@@ -136,7 +151,7 @@ int run_reproduce(const CommonOptions& o, const std::string& programs, bool sock
   params.show_progress = show_progress();
   params.sockets = sockets;
   Report report(o.json ? nullptr : &std::cout);
-  const Status done = reproduce_s3(params, report);
+  const Status done = kReproductions.at(id).run(params, report);
   if (o.json) {
     std::cout << report.json() << std::flush;
   }
@@ -173,11 +188,15 @@ Verb add_reproduce(CLI::App& app) {
   auto no_sockets = std::make_shared<bool>(false);
   CLI::App* verb =
       app.add_subcommand("reproduce", "Figures, tables and pass conditions of a paper; PASS and FAIL lines");
-  verb->add_option("paper", *id, "s3: autonomous search")->check(CLI::IsMember({"s3"}))->capture_default_str();
+  verb->add_option("paper", *id, "s3: autonomous search")
+      ->check(CLI::IsMember(reproduction_ids()))
+      ->capture_default_str();
+  o->seeds.clear();
   add_common(*verb, *o);
+  verb->get_option("--seeds")->default_str("those of the paper's conditions");
   verb->add_option("--programs", *programs, "Folder of seekerd and seeker (default: beside this program)");
   verb->add_flag("--no-sockets", *no_sockets, "Leave out R12, which starts server and client as processes");
-  return [o, id, programs, no_sockets] { return run_reproduce(*o, *programs, !*no_sockets); };
+  return [o, id, programs, no_sockets] { return run_reproduce(*o, *id, *programs, !*no_sockets); };
 }
 
 }  // namespace seeker::lab
