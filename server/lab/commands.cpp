@@ -68,6 +68,7 @@ int run_lab(int argc, char** argv) {
   verbs["slam"] = add_slam(app);
   verbs["lines"] = add_lines(app);
   verbs["plot"] = add_plot(app);
+  verbs["score-map"] = add_score_map(app);
   verbs["score"] = add_score(app);
   verbs["trajectory"] = add_trajectory(app);
   try {

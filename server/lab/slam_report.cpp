@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "common/core/occupancy_tile.hpp"
 #include "common/image/files.hpp"
 #include "common/image/map_picture.hpp"
 #include "common/image/png.hpp"
@@ -106,7 +107,7 @@ Report report_of(const SlamSource& source, const SlamRun& run) {
   }
   report.spells.assign(run.spells.begin(),
                        run.spells.begin() + static_cast<std::ptrdiff_t>(std::min(run.spells.size(), kMaxListed)));
-  report.segments = run.segments;
+  report.segments = run.segments.size();
   report.keyframes = run.keyframes;
   report.loops = run.loops;
   report.refused = run.refused;
@@ -132,8 +133,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const SlamSource& sour
       {"p99, max ms", fixed(cost.scan.p99_ms, 3) + ", " + fixed(cost.scan.max_ms, 3)},
       {"processor ms", fixed(cost.scan_processor.mean_ms, 3) + ", p99 " + fixed(cost.scan_processor.p99_ms, 3)},
       {"memory", fixed(cost.memory_peak_mb, 1) + " MB (empty " + fixed(cost.memory_empty_mb, 1) + ")"}};
-  if (run.segments > 0 || run.keyframes > 0) {
-    facts.emplace_back("segments", std::to_string(run.segments));
+  if (!run.segments.empty() || run.keyframes > 0) {
+    facts.emplace_back("segments", std::to_string(run.segments.size()));
     facts.emplace_back("kept scans", std::to_string(run.keyframes));
     facts.emplace_back("loops", std::to_string(run.loops));
   }
@@ -164,7 +165,7 @@ std::string slam_text(const SlamSource& source, const SlamRun& run) {
   return text;
 }
 
-Result<Image> slam_picture(const SlamSource& source, const SlamRun& run) {
+Result<std::optional<Grid<std::uint8_t>>> slam_occupancy(const SlamSource& source, const SlamRun& run) {
   nav::OccupancyMap map(source.occupancy);
   // A map that is full still takes what lies inside it; the picture shows that.
   const Status drawn =
@@ -173,14 +174,44 @@ Result<Image> slam_picture(const SlamSource& source, const SlamRun& run) {
   if (!drawn) {
     return tl::unexpected<Error>(drawn.error());
   }
+  return map.snapshot();
+}
+
+Result<Image> slam_picture(const SlamSource& source, const SlamRun& run,
+                           const std::optional<Grid<std::uint8_t>>& occupancy) {
   image::MapScene scene;
   scene.title = source.log.filename().string();
   scene.facts = facts_of(source, run);
-  scene.occupancy = map.snapshot();
+  scene.occupancy = occupancy;
   for (const StampedPose& pose : run.trajectory) {
     scene.trajectory.push_back(pose.map_T_base);
   }
   return image::draw_map(scene);
+}
+
+std::string walls_csv(const SlamRun& run, const std::optional<Grid<std::uint8_t>>& occupancy) {
+  constexpr int kDigits = 4;
+  std::string text;
+  if (!run.segments.empty()) {
+    text = "# x1,y1,x2,y2\n";
+    for (const MapSegment& segment : run.segments) {
+      const Point2 a = segment.left();
+      const Point2 b = segment.right();
+      text += fixed(a.x(), kDigits) + "," + fixed(a.y(), kDigits) + "," + fixed(b.x(), kDigits) + "," +
+              fixed(b.y(), kDigits) + "\n";
+    }
+    return text;
+  }
+  constexpr double kWall = 0.65 * kOccupiedCell;
+  text = "# x,y\n";
+  for (std::size_t k = 0; occupancy && k < occupancy->cells().size(); ++k) {
+    const std::uint8_t value = occupancy->cells()[k];
+    if (value != kUnknownCell && value > kWall) {
+      const Point2 centre = occupancy->frame().centre_of(occupancy->cell(k));
+      text += fixed(centre.x(), kDigits) + "," + fixed(centre.y(), kDigits) + "\n";
+    }
+  }
+  return text;
 }
 
 Status save_slam(const std::filesystem::path& folder, const SlamSource& source, const SlamRun& run) {
@@ -189,20 +220,22 @@ Status save_slam(const std::filesystem::path& folder, const SlamSource& source, 
   if (error) {
     return fail(Errc::kIo, "cannot make the folder " + folder.string() + ": " + error.message());
   }
-  if (Status ok = image::write_file(folder / "trajectory.tum", tum_text(run.trajectory)); !ok) {
-    return ok;
-  }
-  if (run.trajectory != run.online) {
-    if (Status ok = image::write_file(folder / "trajectory_online.tum", tum_text(run.online)); !ok) {
-      return ok;
-    }
-  }
-  if (Status ok = image::write_file(folder / "report.json", slam_json(source, run)); !ok) {
-    return ok;
-  }
-  const Result<Image> picture = slam_picture(source, run);
+  const auto occupancy = slam_occupancy(source, run);
+  const Result<Image> picture =
+      occupancy ? slam_picture(source, run, *occupancy) : Result<Image>(tl::unexpected<Error>(occupancy.error()));
   if (!picture) {
     return tl::unexpected<Error>(picture.error());
+  }
+  std::vector<std::pair<std::string, std::string>> texts = {{"trajectory.tum", tum_text(run.trajectory)},
+                                                            {"report.json", slam_json(source, run)},
+                                                            {"walls.csv", walls_csv(run, *occupancy)}};
+  if (run.trajectory != run.online) {
+    texts.emplace_back("trajectory_online.tum", tum_text(run.online));
+  }
+  for (const auto& [name, text] : texts) {
+    if (Status ok = image::write_file(folder / name, std::string_view(text)); !ok) {
+      return ok;
+    }
   }
   return image::write_png(folder / "map.png", *picture);
 }

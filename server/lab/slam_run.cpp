@@ -90,7 +90,7 @@ void Player::finish(const slam::MapTracker* map) {
     return;
   }
   const LineMap value = map->map();
-  run.segments = map->segments().size();
+  run.segments = map->segments();
   run.keyframes = value.keyframes.size();
   run.loops = static_cast<std::uint64_t>(std::count_if(value.edges.begin(), value.edges.end(),
                                                        [](const MapEdge& edge) { return edge.loop && edge.enabled; }));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/line_map.hpp"
 #include "common/core/pose_estimate.hpp"
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
@@ -45,9 +46,9 @@ struct SlamRun {
   drivers::ReplaySummary log;
   std::uint64_t refused = 0;  ///< calls that the estimator answered with an error
   std::string first_refusal;
-  std::uint64_t segments = 0;   ///< of an estimator that keeps a map of segments
-  std::uint64_t keyframes = 0;  ///< scans kept with that map
-  std::uint64_t loops = 0;      ///< closed and believed
+  std::vector<MapSegment> segments;  ///< of an estimator that keeps a map of segments
+  std::uint64_t keyframes = 0;       ///< scans kept with that map
+  std::uint64_t loops = 0;           ///< closed and believed
 };
 
 /// Called now and then with the number of scans done and the log's time since its start.

@@ -47,6 +47,7 @@ using Verb = std::function<int()>;
 [[nodiscard]] Verb add_slam(CLI::App& app);
 [[nodiscard]] Verb add_lines(CLI::App& app);
 [[nodiscard]] Verb add_plot(CLI::App& app);
+[[nodiscard]] Verb add_score_map(CLI::App& app);
 [[nodiscard]] Verb add_score(CLI::App& app);
 [[nodiscard]] Verb add_trajectory(CLI::App& app);
 

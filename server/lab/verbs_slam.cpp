@@ -4,9 +4,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/core/angle.hpp"
 #include "server/lab/lines_command.hpp"
 #include "server/lab/plot_trajectories.hpp"
 #include "server/lab/score_command.hpp"
+#include "server/lab/score_map.hpp"
 #include "server/lab/slam_command.hpp"
 #include "server/lab/slam_estimators.hpp"
 #include "server/lab/verbs.hpp"
@@ -86,6 +88,23 @@ Verb add_trajectory(CLI::App& app) {
       ->transform(CLI::CheckedTransformer(sources));
   verb->add_option("--out", o->out, "TUM file to write")->required();
   return [o] { return exit_code_of(write_log_trajectory(o->log, o->source, o->out, std::cerr)); };
+}
+
+Verb add_score_map(CLI::App& app) {
+  auto o = std::make_shared<ScoreMapOptions>();
+  auto initial = std::make_shared<std::vector<double>>();
+  CLI::App* verb = app.add_subcommand("score-map", "Distance of a map's walls to those of a ROS map");
+  verb->add_option("walls", o->walls, "GeoJSON with lines in metres, or lines `x,y` or `x1,y1,x2,y2`")->required();
+  verb->add_option("--map-yaml", o->map_yaml, "The ROS map")->required();
+  verb->add_option("--initial", *initial, "Look for the fit near x m, y m, heading deg (default: everywhere)")
+      ->expected(3);
+  verb->add_flag("--json", o->json, "Print JSON");
+  return [o, initial] {
+    if (!initial->empty()) {
+      o->params.initial = Pose2{initial->at(0), initial->at(1), deg_to_rad(initial->at(2))};
+    }
+    return exit_code_of(run_score_map(*o, std::cout, std::cerr));
+  };
 }
 
 Verb add_lines(CLI::App& app) {

@@ -10,7 +10,7 @@ declare -A PACKAGES=(
   [lint]="clang-format clang-tidy"
   [bench]="libbenchmark-dev"
   [fuzz]="clang-14 libfuzzer-14-dev libclang-rt-14-dev"
-  [heavy]="mrpt-apps"
+  [heavy]="mrpt-apps time perl-base"
 )
 
 package_is_installed() {
