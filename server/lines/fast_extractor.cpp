@@ -15,9 +15,9 @@ constexpr double kMinCosineOfFit = 0.3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-using Array = Eigen::Map<const Eigen::ArrayXd>;
+using Array = Eigen::Map<const Eigen::ArrayXf>;
 
-Array run(const std::vector<double>& values, int first, int last) {
+Array run(const std::vector<float>& values, int first, int last) {
   return Array(values.data() + first, last - first + 1);
 }
 
@@ -30,12 +30,20 @@ void FastExtractor::sum_up() {
   Moments sums;
   sums_[0] = sums;
   for (std::size_t i = 0; i < n; ++i) {
-    const double range = static_cast<double>(range_[i]);
-    variance_[i] = noise_.variance_m2(range) / (range * range);
-    sums.add(x_[i], y_[i], weight_[i]);
+    sums.add(static_cast<double>(x_[i]), static_cast<double>(y_[i]), static_cast<double>(weight_[i]));
     sums_[i + 1] = sums;
   }
+  max_variance_m2_ = 0.0;
+  if (n > 0) {
+    const auto last = static_cast<int>(n) - 1;
+    const auto floor2 = static_cast<float>(noise_.floor_m * noise_.floor_m);
+    const auto slope2 = static_cast<float>(noise_.slope * noise_.slope);
+    Eigen::Map<Eigen::ArrayXf>(variance_.data(), last + 1) = floor2 * run(range_, 0, last).square().inverse() + slope2;
+    max_variance_m2_ = noise_.variance_m2(static_cast<double>(run(range_, 0, last).maxCoeff()));
+  }
 }
+
+Point2 FastExtractor::point(int i) const { return {static_cast<double>(x_[at(i)]), static_cast<double>(y_[at(i)])}; }
 
 FastExtractor::Piece FastExtractor::piece(int first, int last) const {
   Piece p{.first = first,
@@ -48,20 +56,34 @@ FastExtractor::Piece FastExtractor::piece(int first, int last) const {
 }
 
 double FastExtractor::mean_variance(const LineFit& fit, int first, int last) const {
-  const auto across = fit.normal.x() * run(x_, first, last) + fit.normal.y() * run(y_, first, last);
-  const double slack = kMinCosineOfFit * kMinCosineOfFit * noise_.floor_m * noise_.floor_m;
-  return (run(variance_, first, last) * across.square()).mean() + slack;
+  // With beta = theta - alpha the variance across the line is floor^2 cos^2(beta) + slope^2 r^2, and the sum of
+  // cos 2 beta over n evenly spaced beams is cos(beta_1 + beta_n) sin(n step) / sin(step).
+  const std::size_t a = rank_in_circle(first);
+  const std::size_t b = rank_in_circle(last);
+  const Point2 u(static_cast<double>(cos_[a]), static_cast<double>(sin_[a]));
+  const Point2 v(static_cast<double>(cos_[b]), static_cast<double>(sin_[b]));
+  const double cos_1 = fit.normal.dot(u);
+  const double cos_n = fit.normal.dot(v);
+  const double sin_1 = fit.tangent().dot(u);
+  const double sin_n = fit.tangent().dot(v);
+  const double sin_turn = sin_n * cos_1 - cos_n * sin_1;
+  const double cos_turn = cos_n * cos_1 + sin_n * sin_1;
+  const double beams = rank_[at(last)] - rank_[at(first)] + 1;
+  const double sum = (cos_1 * cos_n - sin_1 * sin_n) * (sin_turn * cos_step_ / sin_step_ + cos_turn);
+  const double cosine2 = 0.5 + 0.5 * std::clamp(sum / beams, -1.0, 1.0);
+  return noise_.floor_m * noise_.floor_m * (cosine2 + kMinCosineOfFit * kMinCosineOfFit) +
+         noise_.slope * noise_.slope * fit.r_m * fit.r_m;
 }
 
-bool FastExtractor::is_near(const LineFit& fit, int first, int last) const {
-  const auto across = fit.normal.x() * run(x_, first, last) + fit.normal.y() * run(y_, first, last);
+bool FastExtractor::is_near(const LineFit& fit, int first, int last, double sigmas) const {
+  const Eigen::Vector2f normal = fit.normal.cast<float>();
+  const auto r = static_cast<float>(fit.r_m);
+  const auto k2 = static_cast<float>(sigmas * sigmas);
   const double slack = params_.straightness_m * params_.straightness_m +
                        kMinCosineOfFit * kMinCosineOfFit * noise_.floor_m * noise_.floor_m;
-  const double k2 = params_.split_sigmas * params_.split_sigmas;
-  const auto taken = (run(weight_, first, last) > 0.0).cast<double>();
-  const auto excess =
-      (across - fit.r_m).square() * taken - k2 * (run(variance_, first, last) * across.square() + slack);
-  return excess.maxCoeff() <= 0.0;
+  const auto across = normal.x() * run(x_, first, last) + normal.y() * run(y_, first, last);
+  const auto excess = (across - r).square() - k2 * run(variance_, first, last) * across.square();
+  return excess.maxCoeff() <= k2 * static_cast<float>(slack);
 }
 
 bool FastExtractor::is_one_line(double across_m2, const Moments& a, const Moments& b, double points,
@@ -71,14 +93,16 @@ bool FastExtractor::is_one_line(double across_m2, const Moments& a, const Moment
 }
 
 bool FastExtractor::is_line(const Piece& whole) const {
-  if (!is_near(whole.fit, whole.first, whole.last)) {
+  // The mean square has the relative standard deviation sqrt(2 / n). First without looking at the points.
+  const double n = whole.points;
+  const double straightness2 = params_.straightness_m * params_.straightness_m;
+  const double factor = 1.0 + params_.excess_sigmas * std::sqrt(2.0 / n);
+  if (whole.fit.mean_square_m2 > ((1.0 + kMinCosineOfFit) * max_variance_m2_ + straightness2) * factor ||
+      !is_near(whole.fit, whole.first, whole.last, params_.split_sigmas)) {
     return false;
   }
-  // The mean square has the relative standard deviation sqrt(2 / n).
-  const double n = whole.points;
   const double variance = mean_variance(whole.fit, whole.first, whole.last);
-  const double straightness2 = params_.straightness_m * params_.straightness_m;
-  if (whole.fit.mean_square_m2 > (variance + straightness2) * (1.0 + params_.excess_sigmas * std::sqrt(2.0 / n))) {
+  if (whole.fit.mean_square_m2 > (variance + straightness2) * factor) {
     return false;
   }
   constexpr int kMinHalf = 4;
@@ -97,18 +121,16 @@ bool FastExtractor::is_line(const Piece& whole) const {
 }
 
 int FastExtractor::farthest_from_chord(int first, int last) const {
-  const double dx = x_[at(last)] - x_[at(first)];
-  const double dy = y_[at(last)] - y_[at(first)];
-  int farthest = (first + last) / 2;
-  double distance = 0.0;
-  for (int i = first + 1; i < last; ++i) {
-    const double d = std::abs(dx * (y_[at(i)] - y_[at(first)]) - dy * (x_[at(i)] - x_[at(first)]));
-    if (d > distance) {
-      distance = d;
-      farthest = i;
+  const float dx = x_[at(last)] - x_[at(first)];
+  const float dy = y_[at(last)] - y_[at(first)];
+  const auto aside = (dx * (run(y_, first, last) - y_[at(first)]) - dy * (run(x_, first, last) - x_[at(first)])).abs();
+  const float farthest = aside.maxCoeff();
+  for (int i = 1; i < last - first; ++i) {
+    if (aside.coeff(i) >= farthest) {
+      return first + i;
     }
   }
-  return farthest;
+  return (first + last) / 2;
 }
 
 void FastExtractor::split(int first, int last) {
@@ -131,34 +153,41 @@ void FastExtractor::split(int first, int last) {
 void FastExtractor::split_groups() {
   pieces_.clear();
   const auto count = static_cast<int>(x_.size());
+  const auto gap2 = static_cast<float>(params_.max_gap_m * params_.max_gap_m);
   int first = start_;
-  for (int i = start_ + 1; i <= count; ++i) {
-    if (i == count || breaks_before(i)) {
+  for (int i = start_ + 1; i < count; ++i) {
+    const float dx = x_[at(i)] - x_[at(i - 1)];
+    const float dy = y_[at(i)] - y_[at(i - 1)];
+    const bool close = dx * dx + dy * dy <= gap2 && rank_[at(i)] - rank_[at(i - 1)] == 1;
+    if (!close && breaks_before(i)) {
       split(first, i - 1);
       first = i;
     }
   }
+  if (first < count) {
+    split(first, count - 1);
+  }
 }
 
 bool FastExtractor::absorb(Piece& piece, const Piece& next) {
-  const double dx = x_[at(next.first)] - x_[at(piece.last)];
-  const double dy = y_[at(next.first)] - y_[at(piece.last)];
   const bool neighbours = next.first == piece.last + 1 && !breaks_before(next.first);
-  if (!neighbours && dx * dx + dy * dy > params_.max_merge_gap_m * params_.max_merge_gap_m) {
+  if (!neighbours && (point(next.first) - point(piece.last)).norm() > params_.max_merge_gap_m) {
     return false;
   }
   const Moments sums = piece.sums + next.sums;
   const LineFit fit = fit_line(sums);
   const int points = piece.points + next.points;
-  const double variance = (piece.points * mean_variance(fit, piece.first, piece.last) +
-                           next.points * mean_variance(fit, next.first, next.last)) /
-                          points;
-  if (!is_one_line(fit.across_m2, piece.sums, next.sums, points, variance) || !is_near(fit, piece.first, piece.last) ||
-      !is_near(fit, next.first, next.last)) {
+  const double variance = mean_variance(fit, piece.first, next.last);
+  if (!is_one_line(fit.across_m2, piece.sums, next.sums, points, variance) ||
+      !is_near(fit, piece.first, piece.last, params_.merge_sigmas) ||
+      !is_near(fit, next.first, next.last, params_.merge_sigmas)) {
     return false;
   }
   for (int i = piece.last + 1; i < next.first; ++i) {
-    weight_[at(i)] = 0.0;
+    // In the place of a neighbour and without weight it does no harm.
+    weight_[at(i)] = 0.0F;
+    x_[at(i)] = x_[at(piece.last)];
+    y_[at(i)] = y_[at(piece.last)];
   }
   piece = {piece.first, next.last, points, sums, fit};
   return true;
@@ -184,18 +213,18 @@ void FastExtractor::merge_pieces() {
 }
 
 double FastExtractor::range_residual2(const LineFit& fit, int i) const {
-  const double across = fit.normal.x() * x_[at(i)] + fit.normal.y() * y_[at(i)];
+  const double across = fit.normal.dot(point(i));
   const double cosine = std::max(std::abs(across) / static_cast<double>(range_[at(i)]), kMinCosine);
   const double residual = (across - fit.r_m) / cosine;
   return residual * residual;
 }
 
-void FastExtractor::move_corner(Piece& from, Piece& to, int point) {
+void FastExtractor::move_corner(Piece& from, Piece& to, int i) {
   Moments sums;
-  sums.add(x_[at(point)], y_[at(point)], weight_[at(point)]);
+  sums.add(point(i).x(), point(i).y(), static_cast<double>(weight_[at(i)]));
   from.sums = from.sums - sums;
   to.sums = to.sums + sums;
-  const int one = weight_[at(point)] > 0.0 ? 1 : 0;
+  const int one = weight_[at(i)] > 0.0F ? 1 : 0;
   from.points -= one;
   to.points += one;
 }
@@ -232,66 +261,73 @@ void FastExtractor::settle_corners() {
   }
 }
 
+std::size_t FastExtractor::rank_in_circle(int i) const {
+  const auto rank = static_cast<std::size_t>(rank_[at(i)]);
+  return rank < beams_ ? rank : rank - beams_;
+}
+
 std::size_t FastExtractor::beam_of(int i) const {
-  const std::size_t rank = static_cast<std::size_t>(rank_[at(i)]) % beams_;
+  const std::size_t rank = rank_in_circle(i);
   return clockwise_ ? beams_ - 1 - rank : rank;
 }
 
-Line FastExtractor::finish(const LaserScan& scan, const Piece& piece) const {
-  const LineFit& fit = piece.fit;
-  const Point2 tangent = fit.tangent();
-  const double middle = tangent.dot(fit.mean);
-  const double bearing2 = params_.bearing_sigma_rad * params_.bearing_sigma_rad;
-  const double slack = kMinCosine * kMinCosine * noise_.floor_m * noise_.floor_m;
+NoiseSums FastExtractor::noise_of(const Piece& piece) {
+  const auto x = run(x_, piece.first, piece.last);
+  const auto y = run(y_, piece.first, piece.last);
+  const auto weight = run(weight_, piece.first, piece.last);
+  const Eigen::Vector2f normal = piece.fit.normal.cast<float>();
+  const auto middle = static_cast<float>(piece.fit.tangent().dot(piece.fit.mean));
+  const auto bearing2 = static_cast<float>(params_.bearing_sigma_rad * params_.bearing_sigma_rad);
+  const auto slack = static_cast<float>(kMinCosine * kMinCosine * noise_.floor_m * noise_.floor_m);
+  along_ = normal.x() * y - normal.y() * x;
+  weighted_ = weight * (run(variance_, piece.first, piece.last) * (normal.x() * x + normal.y() * y).square() +
+                        bearing2 * along_.square() + slack);
+  along_ -= middle;
   NoiseSums noise;
-  for (int i = piece.first; i <= piece.last; ++i) {
-    const double across = fit.normal.x() * x_[at(i)] + fit.normal.y() * y_[at(i)];
-    const double along = tangent.x() * x_[at(i)] + tangent.y() * y_[at(i)];
-    const double variance = variance_[at(i)] * across * across + bearing2 * along * along + slack;
-    const double w = weight_[at(i)];
-    const double wv = w * variance;
-    const double w2vs = w * wv * (along - middle);
-    noise.wv += wv;
-    noise.w2v += w * wv;
-    noise.w2vs += w2vs;
-    noise.w2vss += w2vs * (along - middle);
-  }
-  Line line;
-  line.covariance = line_covariance(fit, piece.sums.w, noise);
+  noise.wv = static_cast<double>(weighted_.sum());
+  weighted_ *= weight;
+  noise.w2v = static_cast<double>(weighted_.sum());
+  weighted_ *= along_;
+  noise.w2vs = static_cast<double>(weighted_.sum());
+  noise.w2vss = static_cast<double>((weighted_ * along_).sum());
+  return noise;
+}
+
+void FastExtractor::finish(const LaserScan& scan, const Piece& piece, Line& line) {
+  const NoiseSums noise = noise_of(piece);
+  line.covariance = line_covariance(piece.fit, piece.sums.w, noise);
   // A worse fit than the noise explains says that the wall or the noise is worse than believed.
   const double dof = std::max(1.0, piece.points - 2.0);
-  const double excess = fit.across_m2 / noise.wv * (piece.points / dof);
+  const double excess = piece.fit.across_m2 / noise.wv * (piece.points / dof);
   if (excess > 1.0 + params_.inflation_sigmas * std::sqrt(2.0 / dof)) {
     line.covariance *= excess;
   }
-  describe_line(fit, {x_[at(piece.first)], y_[at(piece.first)]}, {x_[at(piece.last)], y_[at(piece.last)]}, line);
+  describe_line(piece.fit, point(piece.first), point(piece.last), line);
   line.first_beam = beam_of(piece.first);
   line.last_beam = beam_of(piece.last);
   line.start_rad = scan.angle_rad(line.first_beam);
   line.end_rad = scan.angle_rad(line.last_beam);
   line.points = piece.points;
-  return line;
 }
 
 void FastExtractor::write(const LaserScan& scan, ScanLines& found) {
-  const auto first_past_cut = std::find_if(merged_.begin(), merged_.end(), [this](const Piece& p) {
-    return rank_[at(p.first)] >= static_cast<std::int32_t>(beams_);
-  });
-  std::rotate(merged_.begin(), first_past_cut, merged_.end());
+  const auto turn = static_cast<std::int32_t>(beams_);
+  const auto beyond_cut = [&](const Piece& piece) { return rank_[at(piece.first)] >= turn; };
+  std::rotate(merged_.begin(), std::find_if(merged_.begin(), merged_.end(), beyond_cut), merged_.end());
+  constexpr double kShortest_m = 1e-3;
+  const double min_length_m = std::max(params_.min_length_m, kShortest_m);
   for (const Piece& piece : merged_) {
-    const double dx = x_[at(piece.last)] - x_[at(piece.first)];
-    const double dy = y_[at(piece.last)] - y_[at(piece.first)];
-    const double least = std::max(params_.min_length_m, 1e-3);
-    if (piece.points < std::max(params_.min_points, 3) || dx * dx + dy * dy < least * least) {
+    if (piece.points < std::max(params_.min_points, 3) ||
+        (point(piece.last) - point(piece.first)).squaredNorm() < min_length_m * min_length_m) {
       continue;
     }
     const auto index = static_cast<std::int32_t>(found.lines.size());
     for (int i = piece.first; i <= piece.last; ++i) {
-      if (weight_[at(i)] > 0.0) {
+      if (weight_[at(i)] > 0.0F) {
         found.line_of_beam[beam_of(i)] = index;
       }
     }
-    found.lines.push_back(finish(scan, piece));
+    finish(scan, piece, found.lines.emplace_back());
   }
 }
 
@@ -302,7 +338,8 @@ void FastExtractor::extract(const LaserScan& scan, ScanLines& found) {
   found.line_of_beam.assign(scan.ranges_m.size(), kNoLine);
   use_geometry(scan);
   load(scan);
-  estimator_.differences(range_, rank_, step_rad_, squares_);
+  estimator_.differences(range_, rank_, step_rad_, full_circle_ && even_seam_ ? static_cast<std::int32_t>(beams_) : 0,
+                         squares_);
   noise_ = estimator_.estimate(range_, squares_, params_.noise);
   open_circle();
   sum_up();

@@ -22,6 +22,7 @@ struct FastParams {
   int max_missing_beams = 2;       ///< more beams without return begin a new group
   double split_sigmas = 4.0;       ///< a point farther from the line splits it
   double excess_sigmas = 4.0;      ///< ... as does a mean square that is over the noise by so many standard deviations
+  double merge_sigmas = 5.0;       ///< ... but two pieces of one line may have one so far off
   double bend_chi2 = 16.0;         ///< two parts are one line unless two lines explain them better than by this
   double max_merge_gap_m = 0.2;    ///< ends of two pieces of one line are not farther apart (spec S5.6)
   double inflation_sigmas = 2.0;   ///< the covariance grows with a mean square that is over the noise by more than this
@@ -64,20 +65,23 @@ class FastExtractor {
   void split_groups();
   void split(int first, int last);
   [[nodiscard]] bool is_line(const Piece& whole) const;
-  [[nodiscard]] bool is_near(const LineFit& fit, int first, int last) const;
+  [[nodiscard]] bool is_near(const LineFit& fit, int first, int last, double sigmas) const;
   [[nodiscard]] double mean_variance(const LineFit& fit, int first, int last) const;
   [[nodiscard]] bool is_one_line(double across_m2, const Moments& a, const Moments& b, double points,
                                  double variance_m2) const;
   [[nodiscard]] int farthest_from_chord(int first, int last) const;
+  [[nodiscard]] Point2 point(int i) const;
   [[nodiscard]] Piece piece(int first, int last) const;
   void merge_pieces();
   [[nodiscard]] bool absorb(Piece& piece, const Piece& next);
   void settle_corners();
   bool settle_corner(Piece& a, Piece& b);
-  void move_corner(Piece& from, Piece& to, int point);
+  void move_corner(Piece& from, Piece& to, int i);
   [[nodiscard]] double range_residual2(const LineFit& fit, int i) const;
-  [[nodiscard]] Line finish(const LaserScan& scan, const Piece& piece) const;
+  [[nodiscard]] NoiseSums noise_of(const Piece& piece);
+  void finish(const LaserScan& scan, const Piece& piece, Line& line);
   void write(const LaserScan& scan, ScanLines& found);
+  [[nodiscard]] std::size_t rank_in_circle(int i) const;
   [[nodiscard]] std::size_t beam_of(int i) const;
 
   FastParams params_;
@@ -87,24 +91,29 @@ class FastExtractor {
   std::size_t beams_ = 0;
   double first_rad_ = 0.0;
   double step_rad_ = 0.0;
+  double cos_step_ = 1.0;
+  double sin_step_ = 0.0;
   bool clockwise_ = false;
   bool full_circle_ = false;
   bool even_seam_ = false;  ///< the step over the cut is like any other
-  std::vector<double> cos_;
-  std::vector<double> sin_;
+  std::vector<float> cos_;
+  std::vector<float> sin_;
   // The returns of the scan, counter-clockwise; on a full circle those before start_ once more behind the last.
   int start_ = 0;
   std::vector<std::int32_t> rank_;  ///< beam, counted counter-clockwise; goes on beyond the cut
   std::vector<float> range_;
   std::vector<float> squares_;  ///< NoiseEstimator::differences()
-  std::vector<double> x_;
-  std::vector<double> y_;
-  std::vector<double> weight_;    ///< 0: left out
-  std::vector<double> variance_;  ///< sigma_rho^2 / rho^2
-  std::vector<Moments> sums_;     ///< entry i: of the returns before i
+  std::vector<float> x_;
+  std::vector<float> y_;
+  std::vector<float> weight_;    ///< 0: left out
+  std::vector<float> variance_;  ///< sigma_rho^2 / rho^2
+  std::vector<Moments> sums_;    ///< entry i: of the returns before i
   std::vector<Piece> pieces_;
   std::vector<Piece> merged_;
   std::vector<std::pair<int, int>> stack_;
+  Eigen::ArrayXf along_;  ///< scratch of noise_of()
+  Eigen::ArrayXf weighted_;
+  double max_variance_m2_ = 0.0;  ///< of any return of the scan
 };
 
 }  // namespace seeker::lines

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/core/angle.hpp"
+#include "server/lines/scan_circle.hpp"
 
 namespace seeker::lines {
 namespace {
@@ -27,12 +28,6 @@ struct End {
   std::size_t beam = 0;
   int outward = 0;  ///< +1 or -1
 };
-
-bool covers_full_circle(const LaserScan& scan) {
-  constexpr double kSeamSteps = 3.5;
-  const auto n = static_cast<double>(scan.ranges_m.size());
-  return std::abs(kTwoPi - std::abs(scan.angle_step_rad) * (n - 1.0)) <= kSeamSteps * std::abs(scan.angle_step_rad);
-}
 
 End end_of(const Line& line, bool at_end, const LaserScan& scan) {
   const int counter_clockwise = scan.angle_step_rad > 0.0 ? 1 : -1;
@@ -154,7 +149,7 @@ std::vector<SegmentObservation> observe(const LaserScan& scan, const ScanLines& 
   context.range_limit_m = params.max_range_m > 0.0 ? params.max_range_m
                           : scan.range_max_m > 0.0 ? scan.range_max_m
                                                    : std::numeric_limits<double>::infinity();
-  context.full_circle = covers_full_circle(scan);
+  context.full_circle = circle_of(scan).closed;
   std::vector<SegmentObservation> observations;
   observations.reserve(found.lines.size());
   for (std::size_t k = 0; k < found.lines.size(); ++k) {

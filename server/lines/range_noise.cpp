@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Core>
 
@@ -27,7 +28,7 @@ std::size_t clamp_index(std::int64_t index, std::size_t count) {
 }  // namespace
 
 void NoiseEstimator::differences(std::span<const float> ranges_m, std::span<const std::int32_t> beams, double step_rad,
-                                 std::vector<float>& squares_m2) {
+                                 std::int32_t circle, std::vector<float>& squares_m2) {
   constexpr float kUnknown = std::numeric_limits<float>::infinity();
   const auto n = static_cast<Eigen::Index>(ranges_m.size());
   squares_m2.resize(ranges_m.size());
@@ -48,6 +49,18 @@ void NoiseEstimator::differences(std::span<const float> ranges_m, std::span<cons
   Map(squares_m2.data() + 1, n - 2) = (before - factor * middle + after).square() / gain;
   squares_m2.front() = kUnknown;
   squares_m2.back() = kUnknown;
+  const std::size_t last = beams.size() - 1;
+  if (circle > 0 && beams[0] == 0 && beams[last] == circle - 1) {
+    if (beams[1] == 1) {
+      squares_m2[0] = difference(ranges_m[last], ranges_m[0], ranges_m[1], step_rad);
+    }
+    if (beams[last - 1] == circle - 2) {
+      squares_m2[last] = difference(ranges_m[last - 1], ranges_m[last], ranges_m[0], step_rad);
+    }
+  }
+  if (beams[last] - beams[0] == static_cast<std::int32_t>(n) - 1) {
+    return;
+  }
   for (std::size_t i = 1; i + 1 < beams.size(); ++i) {
     if (beams[i + 1] - beams[i - 1] != 2) {
       squares_m2[i] = kUnknown;
@@ -72,11 +85,10 @@ double NoiseEstimator::robust_variance(const Octave& octave) {
   double variance = 0.0;
   std::size_t limit = kBins;
   // The second median is of what the first one takes for noise: edges then count as little as they should.
-  for (int pass = 0; pass < 3; ++pass) {
-    int count = 0;
-    for (std::size_t bin = 0; bin < limit; ++bin) {
-      count += octave.bins[bin];
-    }
+  for (int pass = 0; pass < 2; ++pass) {
+    const int count = limit == kBins ? octave.count
+                                     : std::accumulate(octave.bins.begin(),
+                                                       octave.bins.begin() + static_cast<std::ptrdiff_t>(limit), 0);
     double left = 0.5 * count;
     std::size_t bin = 0;
     while (bin + 1 < limit && left > octave.bins[bin]) {
@@ -136,17 +148,33 @@ RangeNoise NoiseEstimator::estimate(std::span<const float> ranges_m, std::span<c
     return {params.sigma_m, params.slope};
   }
   octaves_.fill(Octave{});
+  // Neighbours are mostly in the same octave: its sums stay in registers.
+  std::size_t current = 0;
+  int count = 0;
+  double range2 = 0.0;
+  const auto put_down = [&] {
+    octaves_[current].count += count;
+    octaves_[current].range2_m2 += range2;
+    count = 0;
+    range2 = 0.0;
+  };
   for (std::size_t i = 0; i < squares_m2.size(); ++i) {
-    const auto bits = std::bit_cast<std::uint32_t>(squares_m2[i]);
     // Corners and unknowns: nothing above 1 m is noise.
-    if (squares_m2[i] < 1.0F) {
-      const auto exponent = std::bit_cast<std::uint32_t>(ranges_m[i]) >> 23U;
-      Octave& octave = octaves_[clamp_index(static_cast<std::int64_t>(exponent) - kFirstOctave, kOctaves)];
-      ++octave.bins[clamp_index(static_cast<std::int64_t>(bits >> kBinShift) - kFirstBin, kBins)];
-      ++octave.count;
-      octave.range2_m2 += static_cast<double>(ranges_m[i]) * static_cast<double>(ranges_m[i]);
+    if (!(squares_m2[i] < 1.0F)) {
+      continue;
     }
+    const auto exponent = std::bit_cast<std::uint32_t>(ranges_m[i]) >> 23U;
+    const std::size_t octave = clamp_index(static_cast<std::int64_t>(exponent) - kFirstOctave, kOctaves);
+    if (octave != current) {
+      put_down();
+      current = octave;
+    }
+    const auto bits = std::bit_cast<std::uint32_t>(squares_m2[i]) >> kBinShift;
+    ++octaves_[octave].bins[clamp_index(static_cast<std::int64_t>(bits) - kFirstBin, kBins)];
+    ++count;
+    range2 += static_cast<double>(ranges_m[i] * ranges_m[i]);
   }
+  put_down();
   return fit_law(params);
 }
 

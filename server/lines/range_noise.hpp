@@ -36,10 +36,11 @@ struct NoiseParams {
 /// is noise, and corners and edges are the few outliers that a median ignores. O(n): the medians come from histograms.
 class NoiseEstimator {
  public:
-  /// Squared second differences of 1/range in units of m^2 of range variance, entry i about point i; +inf at both ends
-  /// and where beams are missing. `beams` are the indices of the returns, one step apart each.
+  /// Squared second differences of 1/range in units of m^2 of range variance, entry i about point i; +inf where a
+  /// neighbour is missing. `beams` ascend; neighbours differ by one. `circle`: number of beams of a scanner whose last
+  /// beam is as far from the first as any two, else 0.
   void differences(std::span<const float> ranges_m, std::span<const std::int32_t> beams, double step_rad,
-                   std::vector<float>& squares_m2);
+                   std::int32_t circle, std::vector<float>& squares_m2);
   /// The same for one point and its two neighbours.
   [[nodiscard]] static float difference(float before_m, float range_m, float after_m, double step_rad);
   [[nodiscard]] RangeNoise estimate(std::span<const float> ranges_m, std::span<const float> squares_m2,

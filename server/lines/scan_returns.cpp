@@ -3,14 +3,14 @@
 #include <cmath>
 #include <limits>
 
-#include "common/core/angle.hpp"
 #include "server/lines/fast_extractor.hpp"
+#include "server/lines/scan_circle.hpp"
 
 namespace seeker::lines {
 namespace {
 
-/// The cut of a full circle is at most so many steps wide.
-constexpr double kMaxSeamSteps = 3.5;
+/// Keeps quotients finite; no scanner has such beams.
+constexpr double kSmallestStep = 1e-9;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -29,22 +29,21 @@ void FastExtractor::use_geometry(const LaserScan& scan) {
   sin_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const double angle_rad = scan.angle_rad(clockwise_ ? n - 1 - k : k);
-    cos_[k] = std::cos(angle_rad);
-    sin_[k] = std::sin(angle_rad);
+    cos_[k] = static_cast<float>(std::cos(angle_rad));
+    sin_[k] = static_cast<float>(std::sin(angle_rad));
   }
   const double step = std::abs(step_rad_);
-  const double seam = kTwoPi - step * (static_cast<double>(n) - 1.0);
-  full_circle_ = n > 2 && std::abs(seam) <= kMaxSeamSteps * step;
-  constexpr double kEven = 0.02;
-  even_seam_ = std::abs(seam - step) < kEven * step;
+  cos_step_ = std::cos(step);
+  sin_step_ = std::max(std::sin(step), kSmallestStep);
+  full_circle_ = circle_of(scan).closed;
+  even_seam_ = circle_of(scan).even;
 }
 
 void FastExtractor::load(const LaserScan& scan) {
   const std::size_t n = scan.ranges_m.size();
-  for (auto* values : {&x_, &y_, &weight_}) {
+  for (auto* values : {&x_, &y_, &weight_, &range_}) {
     values->resize(n);
   }
-  range_.resize(n);
   rank_.resize(n);
   const auto low = static_cast<float>(std::max(scan.range_min_m, params_.min_range_m));
   double limit = scan.range_max_m > 0.0 ? scan.range_max_m : std::numeric_limits<float>::max();
@@ -55,18 +54,17 @@ void FastExtractor::load(const LaserScan& scan) {
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t beam = clockwise_ ? n - 1 - k : k;
     const float range = scan.ranges_m[beam];
-    const double weight = graded ? scan.quality[beam] : 1.0;
+    const float weight = graded ? static_cast<float>(scan.quality[beam]) : 1.0F;
     range_[m] = range;
     rank_[m] = static_cast<std::int32_t>(k);
-    x_[m] = static_cast<double>(range) * cos_[k];
-    y_[m] = static_cast<double>(range) * sin_[k];
+    x_[m] = range * cos_[k];
+    y_[m] = range * sin_[k];
     weight_[m] = weight;
-    m += (range >= low && range <= high && weight > 0.0) ? 1U : 0U;
+    m += (range >= low && range <= high && weight > 0.0F) ? 1U : 0U;
   }
-  for (auto* values : {&x_, &y_, &weight_}) {
+  for (auto* values : {&x_, &y_, &weight_, &range_}) {
     values->resize(m);
   }
-  range_.resize(m);
   rank_.resize(m);
 }
 
@@ -77,11 +75,15 @@ bool FastExtractor::breaks_before(int i) const {
   if (step > params_.max_missing_beams + 1) {
     return true;
   }
-  const double dx = x_[b] - x_[a];
-  const double dy = y_[b] - y_[a];
+  const double dx = static_cast<double>(x_[b] - x_[a]);
+  const double dy = static_cast<double>(y_[b] - y_[a]);
+  const double distance2 = dx * dx + dy * dy;
+  if (distance2 <= params_.max_gap_m * params_.max_gap_m) {
+    return false;
+  }
   const double spacing = std::abs(step_rad_) * step * static_cast<double>(std::min(range_[a], range_[b]));
-  const double gap = std::max(params_.max_gap_m, params_.max_gap_spacings * spacing);
-  if (dx * dx + dy * dy <= gap * gap) {
+  const double gap = params_.max_gap_spacings * spacing;
+  if (distance2 <= gap * gap) {
     return false;
   }
   const double limit = params_.in_line_sigmas * params_.in_line_sigmas;
@@ -91,11 +93,11 @@ bool FastExtractor::breaks_before(int i) const {
 
 int FastExtractor::widest_gap(int count) const {
   int widest = 0;
-  double width2 = 0.0;
+  float width2 = 0.0F;
   for (int i = 1; i < count; ++i) {
-    const double dx = x_[at(i)] - x_[at(i - 1)];
-    const double dy = y_[at(i)] - y_[at(i - 1)];
-    const double gap2 = dx * dx + dy * dy;
+    const float dx = x_[at(i)] - x_[at(i - 1)];
+    const float dy = y_[at(i)] - y_[at(i - 1)];
+    const float gap2 = dx * dx + dy * dy;
     if (gap2 > width2 && breaks_before(i)) {
       width2 = gap2;
       widest = i;
@@ -129,12 +131,6 @@ void FastExtractor::open_circle() {
   const auto turn = static_cast<std::int32_t>(beams_);
   for (std::size_t i = at(count); i < rank_.size(); ++i) {
     rank_[i] += turn;
-  }
-  // The two entries that see over the cut.
-  for (const std::size_t i : {at(count) - 1, at(count)}) {
-    if (even_seam_ && i > 0 && i + 1 < rank_.size() && rank_[i + 1] - rank_[i - 1] == 2) {
-      squares_[i] = NoiseEstimator::difference(range_[i - 1], range_[i], range_[i + 1], step_rad_);
-    }
   }
 }
 
