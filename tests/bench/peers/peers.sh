@@ -9,7 +9,7 @@ usage() {
 the recorded logs, scores all of them with seeker-lab score, and prints one table with the ratios Seeker / peer (below 1:
 Seeker is better). Leaves everything in build/bench/peers. SEEKER_DATA names the folder of the recordings.
 icp-slam runs twice: with the values of its own classic example, and with every point matched every 0.1 m ("dense").
-Wall time includes reading the log. ms per scan is on the wall: keep the machine free of other work.
+Wall time includes reading the log. "processor s" is not lengthened by other work on the machine; ms per scan is.
 TEXT
 }
 
@@ -59,11 +59,11 @@ rate() {
   "$lab" score "$2" --relations "$data/$1.relations.gz" --time-offset "${offset[$1]}" --json >"$3"
 }
 
-# row LOG NAME WALL MEAN P99 MEMORY SCORE
+# row LOG NAME WALL PROCESSOR MEAN P99 MEMORY SCORE
 row() {
-  printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$1" "$2" "$3" "$4" "$5" "$6" \
-    "$(number "$7" all translation_m mean)" "$(number "$7" all translation_m std)" \
-    "$(number "$7" all translation_m median)" "$(number "$7" all rotation_deg mean)"
+  printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "${@:1:7}" \
+    "$(number "$8" all translation_m mean)" "$(number "$8" all translation_m std)" \
+    "$(number "$8" all translation_m median)" "$(number "$8" all rotation_deg mean)"
 }
 
 # run_seeker LOG ESTIMATOR
@@ -72,7 +72,7 @@ run_seeker() {
   "$lab" slam "$data/$1.clf.gz" --out "$folder" ${2:+--estimator "$2"} >"$folder.txt" 2>&1 || { cat "$folder.txt" >&2; return 1; }
   rate "$1" "$folder/trajectory.tum" "$folder/score.json"
   row "$1" "seeker${2:+ $2}" "$(number "$folder/report.json" cost wall_s)" \
-    "$(number "$folder/report.json" cost scan mean_ms)" "$(number "$folder/report.json" cost scan p99_ms)" \
+    "$(number "$folder/report.json" cost processor_s)" "$(number "$folder/report.json" cost scan mean_ms)" "$(number "$folder/report.json" cost scan p99_ms)" \
     "$(number "$folder/report.json" cost memory_peak_mb)" "$folder/score.json"
 }
 
@@ -97,7 +97,7 @@ run_mrpt() {
   for setting in "$@"; do
     sed -i -E "s|^(${setting%%=*}) *=.*|\1 = ${setting#*=}|" "$folder.ini"
   done
-  /usr/bin/time -f '%e %M' -o "$folder.cost" icp-slam "$folder.ini" >"$folder.txt" 2>&1 ||
+  /usr/bin/time -f '%e %U %S %M' -o "$folder.cost" icp-slam "$folder.ini" >"$folder.txt" 2>&1 ||
     { tail -n 5 "$folder.txt" >&2; return 1; }
   # Records are numbered from 0, odometry and scan in turn.
   awk 'NR == FNR { t[n++] = $(NF - 2); next }
@@ -106,9 +106,10 @@ run_mrpt() {
   rate "$log" "$folder.tum" "$folder.json"
   # Milliseconds a record.
   awk 'NR % 2 == 1 { odometry = $1 } NR % 2 == 0 { print odometry + $1 }' "$folder/log_times.txt" | sort -g >"$folder.ms"
-  row "$log" "icp-slam $name" "$(cut -d ' ' -f 1 "$folder.cost")" "$(awk '{ s += $1 } END { print s / NR }' "$folder.ms")" \
+  row "$log" "icp-slam $name" "$(awk '{ print $1 }' "$folder.cost")" "$(awk '{ print $2 + $3 }' "$folder.cost")" \
+    "$(awk '{ s += $1 } END { print s / NR }' "$folder.ms")" \
     "$(awk '{ a[NR] = $1 } END { k = int(0.99 * NR); print a[k < 0.99 * NR ? k + 1 : k] }' "$folder.ms")" \
-    "$(awk '{ print $2 / 1024 }' "$folder.cost")" "$folder.json"
+    "$(awk '{ print $4 / 1024 }' "$folder.cost")" "$folder.json"
 }
 
 : >"$out/rows.tsv"
