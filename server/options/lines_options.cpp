@@ -1,0 +1,82 @@
+#include "server/options/lines_options.hpp"
+
+namespace seeker::lines {
+
+void describe(config::Fields& f, NoiseParams& params) {
+  f.field("sigma_m", params.sigma_m);
+  f.field("slope", params.slope);
+  f.field("nominal_sigma_m", params.nominal_sigma_m);
+  f.field("min_sigma_m", params.min_sigma_m);
+  f.field("max_sigma_m", params.max_sigma_m);
+  f.field("min_samples", params.min_samples);
+  f.field("slope_significance", params.slope_significance);
+  f.check("sigma_m", params.sigma_m >= 0.0, "must not be negative; 0 estimates the noise from each scan");
+  f.check("nominal_sigma_m", params.nominal_sigma_m > 0.0, "must be positive");
+  f.check("min_sigma_m", params.min_sigma_m > 0.0 && params.min_sigma_m <= params.max_sigma_m,
+          "must be positive and not above max_sigma_m");
+}
+
+void describe(config::Fields& f, FastParams& params) {
+  f.section("noise", params.noise);
+  f.angle_deg("bearing_sigma_deg", params.bearing_sigma_rad);
+  f.field("straightness_m", params.straightness_m);
+  f.field("max_gap_m", params.max_gap_m);
+  f.field("max_gap_spacings", params.max_gap_spacings);
+  f.field("in_line_sigmas", params.in_line_sigmas);
+  f.field("max_missing_beams", params.max_missing_beams);
+  f.field("split_sigmas", params.split_sigmas);
+  f.field("excess_sigmas", params.excess_sigmas);
+  f.field("merge_sigmas", params.merge_sigmas);
+  f.field("bend_chi2", params.bend_chi2);
+  f.field("max_merge_gap_m", params.max_merge_gap_m);
+  f.field("inflation_sigmas", params.inflation_sigmas);
+  f.field("max_outliers", params.max_outliers);
+  f.field("min_points", params.min_points);
+  f.field("min_length_m", params.min_length_m);
+  f.field("min_range_m", params.min_range_m);
+  f.field("max_range_m", params.max_range_m);
+  f.check("min_points", params.min_points >= 3, "a line has at least 3 points");
+  f.check("split_sigmas", params.split_sigmas > 0.0, "must be positive");
+}
+
+void describe(config::Fields& f, ObservationParams& params) {
+  f.angle_deg("grazing_deg", params.grazing_rad);
+  f.field("depth_step_m", params.depth_step_m);
+  f.field("corner_gap_m", params.corner_gap_m);
+  f.angle_deg("corner_angle_deg", params.corner_angle_rad);
+  f.field("range_margin_m", params.range_margin_m);
+  f.field("max_range_m", params.max_range_m);
+  f.field("wall_sigma_m", params.wall_sigma_m);
+  f.angle_deg("wall_sigma_deg", params.wall_sigma_rad);
+  f.check("grazing_deg", params.grazing_rad > 0.0, "must be positive");
+}
+
+void describe(config::Fields& f, LineThresholds& params) {
+  f.field("gap_m", params.gap_m);
+  f.field("turn_m", params.turn_m);
+  f.check("gap_m", params.gap_m > 0.0, "must be positive");
+  f.check("turn_m", params.turn_m > 0.0, "must be positive");
+}
+
+void describe(config::Fields& f, PaperParams& params) {
+  f.section("start", params.start);
+  f.section("noise", params.noise);
+  f.angle_deg("bearing_sigma_deg", params.bearing_sigma_rad);
+  f.field("seed_points", params.seed_points);
+  f.field("look_ahead", params.look_ahead);
+  f.field("max_fit_error_m", params.max_fit_error_m);
+  f.field("fit_error_sigmas", params.fit_error_sigmas);
+  f.field("turn_sigmas", params.turn_sigmas);
+  f.field("shrink", params.shrink);
+  f.field("max_rounds", params.max_rounds);
+  f.field("min_gap_spacings", params.min_gap_spacings);
+  f.field("min_turn_m", params.min_turn_m);
+  f.field("min_points", params.min_points);
+  f.field("min_length_m", params.min_length_m);
+  f.field("merge_distance", params.merge_distance);
+  f.field("merge_gap_m", params.merge_gap_m);
+  f.check("seed_points", params.seed_points >= 2, "a seed has at least 2 points");
+  f.check("shrink", params.shrink > 0.0 && params.shrink < 1.0, "must lie between 0 and 1");
+}
+
+}  // namespace seeker::lines
