@@ -13,7 +13,7 @@ struct GlobalSearchParams {
   std::size_t max_points = 120;  ///< points compared, at most 250
   double thin_cell_m = 0.15;     ///< of points with like normals one is kept a cell: near walls do not outvote far ones
   int leaf_level = 1;            ///< candidates are blocks of 2^level cells: what an ICP afterwards makes good
-  double min_step_rad = 0.0105;  ///< headings are tried at steps that move far points by a leaf, within these limits
+  double min_step_rad = 0.0145;  ///< headings are tried at steps that move far points by a leaf, within these limits
   double max_step_rad = 0.035;
   double far_quantile = 0.8;  ///< this share of the points is nearer than those that set the step
   double min_score = 0.35;    ///< candidates below it are none

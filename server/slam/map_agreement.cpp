@@ -135,4 +135,24 @@ Agreement agreement_of(const LikelihoodPyramid& map, const FreeSpace& free_space
   return {static_cast<double>(through) / total, static_cast<double>(in_free) / total};
 }
 
+Fit fit_of(const LikelihoodPyramid& map, const FreeSpace& free_space, const std::vector<OrientedPoint>& points_base,
+           const Pose2& map_T_base) {
+  constexpr double kFull = 255.0;
+  double all = 0.0;
+  double standing = 0.0;
+  std::size_t count = 0;
+  for (const OrientedPoint& point_base : points_base) {
+    const OrientedPoint point = transform(map_T_base, point_base);
+    const int direction = map.direction_of(std::atan2(point.normal.y(), point.normal.x()));
+    const double likelihood = map.value(point.p, direction) / kFull;
+    all += likelihood;
+    if (!free_space.is_free(point.p)) {
+      standing += likelihood;
+      ++count;
+    }
+  }
+  const auto mean = [](double sum, std::size_t n) { return n == 0 ? 0.0 : sum / static_cast<double>(n); };
+  return {mean(all, points_base.size()), mean(standing, count)};
+}
+
 }  // namespace seeker::slam

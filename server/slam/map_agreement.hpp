@@ -68,4 +68,14 @@ struct Agreement {
                                      const std::vector<SeenPoints>& seen_base, const Pose2& map_T_base,
                                      const AgreementParams& params = {});
 
+/// Mean likelihood of points at a pose, 0 to 1.
+struct Fit {
+  double all = 0.0;
+  double standing = 0.0;  ///< without the points in free space: what does not move
+};
+
+/// Give it points thinned by cells, so that near walls do not outvote far ones. Zero for no points.
+[[nodiscard]] Fit fit_of(const LikelihoodPyramid& map, const FreeSpace& free_space,
+                         const std::vector<OrientedPoint>& points_base, const Pose2& map_T_base);
+
 }  // namespace seeker::slam

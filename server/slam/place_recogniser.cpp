@@ -47,29 +47,36 @@ std::string_view to_string(PlaceVerdict verdict) {
   return "unknown";
 }
 
-PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t points, const JudgeParams& params) {
+PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, const JudgeParams& params) {
   PlaceAnswer answer;
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const PlaceCandidate& a, const PlaceCandidate& b) { return a.support() > b.support(); });
   answer.candidates = std::move(candidates);
+  answer.cells = cells;
   if (answer.candidates.empty()) {
     answer.reason = "no place of the map explains the points";
     return answer;
   }
   const PlaceCandidate& best = answer.candidates.front();
-  answer.lead = answer.candidates.size() > 1 ? best.support() - answer.candidates[1].support() : best.support();
-  if (best.match.inlier_ratio < params.min_inliers || best.support() < params.min_support ||
+  answer.lead = best.fit.all;
+  for (std::size_t k = 1; k < answer.candidates.size(); ++k) {
+    const PlaceCandidate& rival = answer.candidates[k];
+    if (rival.agreement.through <= params.refuted) {
+      answer.lead = std::min(answer.lead, best.fit.all - rival.fit.all);
+    }
+  }
+  if (best.fit.all < params.min_fit || best.fit.standing < params.min_standing ||
       best.agreement.through > params.max_through) {
-    answer.reason = "the best place contradicts too many of the points";
+    answer.reason = "the points contradict even the best place";
     return answer;
   }
   answer.verdict = PlaceVerdict::kAmbiguous;
-  if (points < params.min_points) {
-    answer.reason = "too few points on surfaces";
-  } else if (best.match.degenerate_direction) {
+  if (best.match.degenerate_direction) {
     answer.reason = "the points say nothing along one direction, as in a corridor";
   } else if (answer.lead < params.min_lead) {
     answer.reason = "another place fits nearly as well";
+  } else if (answer.lead * static_cast<double>(cells) < params.min_lead_cells) {
+    answer.reason = "too little was seen to tell this place from others";
   } else {
     answer.verdict = PlaceVerdict::kUnique;
     answer.reason = "one place fits far better than any other";
@@ -85,21 +92,24 @@ PlaceAnswer PlaceRecogniser::locate(const PlaceMap& map, const std::vector<SeenP
   const std::vector<OrientedPoint> points = all_points(seen_base);
   const GlobalSearchResult found = search_.search(map.pyramid(), points, window);
   const std::vector<OrientedPoint> sparse = thin_out(points, params_.match_points);
+  const std::vector<OrientedPoint> cells =
+      thin_by_cells(points, params_.search.thin_cell_m, std::numeric_limits<std::size_t>::max());
   std::vector<PlaceCandidate> candidates;
   for (const GlobalCandidate& start : found.candidates) {
     PlaceCandidate candidate;
     candidate.match = matcher_.match(map.cloud(), sparse, start.map_T_base);
     candidate.score = start.score;
+    const Pose2& pose = candidate.match.map_T_base;
     const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const PlaceCandidate& other) {
-      return same_place(other.match.map_T_base, candidate.match.map_T_base, params_.search);
+      return same_place(other.match.map_T_base, pose, params_.search);
     });
     if (!known && candidate.match.pairs >= params_.match.min_pairs) {
-      candidate.agreement =
-          agreement_of(map.pyramid(), map.free_space(), seen_base, candidate.match.map_T_base, params_.agreement);
+      candidate.fit = fit_of(map.pyramid(), map.free_space(), cells, pose);
+      candidate.agreement = agreement_of(map.pyramid(), map.free_space(), seen_base, pose, params_.agreement);
       candidates.push_back(std::move(candidate));
     }
   }
-  PlaceAnswer answer = judge(std::move(candidates), found.points, params_.judge);
+  PlaceAnswer answer = judge(std::move(candidates), cells.size(), params_.judge);
   answer.complete = found.complete;
   return answer;
 }

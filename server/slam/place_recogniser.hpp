@@ -42,17 +42,21 @@ class PlaceMap {
 struct PlaceCandidate {
   MatchResult match;   ///< pose, covariance, degenerate direction
   double score = 0.0;  ///< of the search
+  Fit fit;
   Agreement agreement;
-  /// Share of the points on the map's surfaces, less the share that contradicts it: at most 1.
-  [[nodiscard]] double support() const { return match.inlier_ratio - agreement.disagreement(); }
+  /// What candidates are ranked by: mean likelihood of the points, less the share of beams through walls.
+  [[nodiscard]] double support() const { return fit.all - agreement.through; }
 };
 
+/// Chosen on three buildings and three scanners (180 degrees with 180 and 360 beams, 240 degrees), so that no scan of
+/// one building is taken for a place of another, and checked on held-out halves of the logs.
 struct JudgeParams {
-  std::size_t min_points = 40;
-  double min_inliers = 0.6;   ///< of the best candidate
-  double max_through = 0.12;  ///< beams through the map's walls
-  double min_support = 0.45;
-  double min_lead = 0.15;  ///< of the best candidate's support over the next one's
+  double min_fit = 0.5;        ///< of all points: people may hide half of the walls
+  double min_standing = 0.75;  ///< of the points that do not lie in space known to be free
+  double max_through = 0.12;   ///< beams through the map's walls
+  double refuted = 0.3;        ///< a candidate with more of them is no rival
+  double min_lead = 0.1;       ///< of the best candidate's fit over that of the next one
+  double min_lead_cells = 12;  ///< lead times cells seen (GlobalSearchParams::thin_cell_m): small views prove little
 };
 
 enum class PlaceVerdict : std::uint8_t {
@@ -67,13 +71,14 @@ enum class PlaceVerdict : std::uint8_t {
 struct PlaceAnswer {
   PlaceVerdict verdict = PlaceVerdict::kNone;
   std::string_view reason;                 ///< one sentence
-  std::vector<PlaceCandidate> candidates;  ///< best support first
-  double lead = 0.0;                       ///< support of the first less that of the second
+  std::vector<PlaceCandidate> candidates;  ///< best first
+  double lead = 0.0;                       ///< fit of the first less that of the next one
+  std::size_t cells = 0;                   ///< with points: how much was seen
   bool complete = true;
 };
 
-/// Sets verdict and reason from the candidates, whatever order they come in.
-[[nodiscard]] PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t points,
+/// Verdict and reason from the candidates, whatever order they come in, and the number of cells with points.
+[[nodiscard]] PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells,
                                 const JudgeParams& params = {});
 
 struct PlaceParams {

@@ -20,7 +20,7 @@ namespace seeker::slam {
 /// A log as the tracker sees it: every scan with its pose, and which of them made the map.
 struct RecordedWalk {
   std::vector<Pose2> poses;
-  std::vector<Pose2> odometry;
+  std::vector<Pose2> tracked;  ///< as the tracker gave them
   std::vector<SeenPoints> seen_base;
   std::vector<bool> keyframe;
   std::vector<double> stamps_s;
@@ -35,17 +35,17 @@ struct RecordedWalk {
     return scans;
   }
 
-  /// The scans over the last `travel_m` up to scan k, in its base's frame, put together by odometry alone.
+  /// The scans over the last `travel_m` up to scan k, in its base's frame, put together by the tracker.
   [[nodiscard]] std::vector<SeenPoints> gathered(std::size_t k, double travel_m, double spacing_m = 0.3) const {
     std::vector<SeenPoints> scans{seen_base[k]};
     double travelled_m = 0.0;
     double since_m = 0.0;
     for (std::size_t i = k; i-- > 0 && travelled_m < travel_m;) {
-      const double step_m = distance_m(odometry[i], odometry[i + 1]);
+      const double step_m = distance_m(tracked[i], tracked[i + 1]);
       travelled_m += step_m;
       since_m += step_m;
       if (since_m >= spacing_m) {
-        scans.push_back(transform(inverse(odometry[k]) * odometry[i], seen_base[i]));
+        scans.push_back(transform(inverse(tracked[k]) * tracked[i], seen_base[i]));
         since_m = 0.0;
       }
     }
@@ -75,7 +75,7 @@ inline std::optional<RecordedWalk> walk_through(const std::filesystem::path& pat
     (void)tracker.update(laser);
     walk.poses.push_back(tracker.estimate().map_T_base);
     walk.stamps_s.push_back(scan->stamp_s);
-    walk.odometry.push_back(*scan->odom_T_base);
+    walk.tracked.push_back(walk.poses.back());
     walk.seen_base.push_back(seen_points(laser));
     walk.keyframe.push_back(tracker.keyframe_count() != keyframes);
     keyframes = tracker.keyframe_count();

@@ -1,0 +1,259 @@
+#include "server/slam/place_recogniser.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "rooms.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace seeker::slam {
+namespace {
+
+using testing::Pose2Near;
+
+std::vector<Wall> shifted(std::vector<Wall> walls, double x_m) {
+  for (auto& [a, b] : walls) {
+    a.x() += x_m;
+    b.x() += x_m;
+  }
+  return walls;
+}
+
+std::vector<Wall> both(std::vector<Wall> walls, const std::vector<Wall>& more) {
+  walls.insert(walls.end(), more.begin(), more.end());
+  return walls;
+}
+
+/// What a robot saw from these places, looking all around.
+std::vector<SeenPoints> seen_from(const std::vector<Wall>& walls, const std::vector<Pose2>& poses, Rng& rng) {
+  std::vector<SeenPoints> seen;
+  for (const Pose2& pose : poses) {
+    seen.push_back(transform(pose, seen_points(scan_at(walls, pose, 0.0, rng, kTwoPi))));
+  }
+  return seen;
+}
+
+const std::vector<Pose2> kViews{{1.5, 1.5, 0.0}, {2.5, 4.5, 1.0}, {6.0, 3.0, 2.0},
+                                {8.5, 5.0, 3.0}, {8.0, 1.5, 0.5}, {4.5, 3.0, 0.0}};
+
+std::vector<Pose2> shifted(std::vector<Pose2> poses, double x_m) {
+  for (Pose2& pose : poses) {
+    pose.x_m += x_m;
+  }
+  return poses;
+}
+
+/// The furnished room is nearly the same turned by half a turn; a real one has more in it.
+std::vector<Wall> office() {
+  std::vector<Wall> walls = furnished_room();
+  for (const auto& piece : {box(0.0, 5.0, 1.8, 6.0), box(9.2, 0.0, 10.0, 2.2), box(5.2, 5.5, 6.8, 6.0)}) {
+    walls.insert(walls.end(), piece.begin(), piece.end());
+  }
+  return walls;
+}
+
+PlaceMap room_map(Rng& rng) { return *PlaceMap::build(seen_from(office(), kViews, rng)); }
+
+/// People: `share` of the beams end on bodies of about 0.4 m, one to two metres away.
+LaserScan with_people(LaserScan scan, double share, Rng& rng) {
+  const std::size_t beams = scan.ranges_m.size();
+  std::size_t hidden = 0;
+  std::vector<bool> taken(beams, false);
+  while (static_cast<double>(hidden) < share * static_cast<double>(beams)) {
+    const auto range_m = static_cast<float>(rng.uniform(1.0, 2.0));
+    const auto width = static_cast<std::size_t>(0.4 / (range_m * scan.angle_step_rad));
+    const std::size_t first = rng.below(beams - width);
+    for (std::size_t k = first; k < first + width; ++k) {
+      if (!taken[k] && range_m < scan.ranges_m[k]) {
+        taken[k] = true;
+        ++hidden;
+        scan.ranges_m[k] = range_m + static_cast<float>(rng.normal(0.01));
+      }
+    }
+  }
+  return scan;
+}
+
+TEST(PlaceRecogniser, FindsItselfInAFurnishedRoomWhateverTheScannersView) {
+  Rng rng(1);
+  const PlaceMap map = room_map(rng);
+  for (const double fov_deg : {360.0, 240.0, 180.0}) {
+    int unique = 0;
+    constexpr int kQueries = 25;
+    for (int k = 0; k < kQueries; ++k) {
+      const Pose2 truth{rng.uniform(1.0, 3.5), rng.uniform(1.0, 5.0), rng.uniform(-kPi, kPi)};
+      const auto answer =
+          PlaceRecogniser().locate(map, {seen_points(scan_at(office(), truth, 1.0, rng, deg_to_rad(fov_deg)))});
+      if (answer.verdict == PlaceVerdict::kUnique) {
+        ++unique;
+        EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02)) << fov_deg;
+      }
+    }
+    // A scanner that does not look behind itself sees bare walls from some places: these must not be guessed.
+    EXPECT_GE(unique, fov_deg > 300.0 ? kQueries - 2 : kQueries / 3) << fov_deg;
+  }
+}
+
+TEST(PlaceRecogniser, TwoEqualRoomsAreAmbiguous) {
+  Rng rng(2);
+  const auto walls = both(furnished_room(), shifted(furnished_room(), 14.0));
+  auto poses = kViews;
+  for (const Pose2& pose : shifted(kViews, 14.0)) {
+    poses.push_back(pose);
+  }
+  const auto map = PlaceMap::build(seen_from(walls, poses, rng));
+  ASSERT_TRUE(map);
+  for (const double x_m : {3.0, 17.0}) {
+    const Pose2 truth{x_m, 3.2, 0.7};
+    const auto answer = PlaceRecogniser().locate(*map, {seen_points(scan_at(walls, truth, 1.0, rng, kTwoPi))});
+    EXPECT_EQ(answer.verdict, PlaceVerdict::kAmbiguous) << answer.reason;
+    ASSERT_GE(answer.candidates.size(), 2U);
+    std::vector<double> found{answer.candidates[0].match.map_T_base.x_m, answer.candidates[1].match.map_T_base.x_m};
+    std::sort(found.begin(), found.end());
+    EXPECT_NEAR(found[0], 3.0, 0.05);
+    EXPECT_NEAR(found[1], 17.0, 0.05);
+  }
+}
+
+TEST(PlaceRecogniser, OneCupboardTellsTwoRoomsApart) {
+  Rng rng(3);
+  const auto other = shifted(both(furnished_room(), box(0.0, 4.6, 1.0, 6.0)), 14.0);
+  const auto walls = both(furnished_room(), other);
+  auto poses = kViews;
+  for (const Pose2& pose : shifted(kViews, 14.0)) {
+    poses.push_back(pose);
+  }
+  const auto map = PlaceMap::build(seen_from(walls, poses, rng));
+  ASSERT_TRUE(map);
+  const Pose2 truth{17.0, 3.2, 0.7};
+  const auto answer = PlaceRecogniser().locate(*map, {seen_points(scan_at(walls, truth, 1.0, rng, kTwoPi))});
+  ASSERT_FALSE(answer.candidates.empty());
+  EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02));
+}
+
+TEST(PlaceRecogniser, ACorridorIsAmbiguousAlongItself) {
+  Rng rng(4);
+  const auto walls = box(0.0, 0.0, 40.0, 2.0);
+  std::vector<Pose2> poses;
+  for (int k = 1; k < 20; ++k) {
+    poses.push_back({2.0 * k, 1.0, 0.0});
+  }
+  const auto map = PlaceMap::build(seen_from(walls, poses, rng));
+  ASSERT_TRUE(map);
+  const auto scan = scan_at(walls, {20.0, 1.1, 0.1}, 1.0, rng, kTwoPi, 8.0);
+  const auto answer = PlaceRecogniser().locate(*map, {seen_points(scan)});
+  EXPECT_EQ(answer.verdict, PlaceVerdict::kAmbiguous) << answer.reason;
+  EXPECT_GT(answer.candidates.front().fit.all, 0.8);
+}
+
+TEST(PlaceRecogniser, PeopleInFrontOfAThirdOfTheBeamsDoNotHideThePlace) {
+  Rng rng(5);
+  const PlaceMap map = room_map(rng);
+  for (int k = 0; k < 15; ++k) {
+    const Pose2 truth{rng.uniform(2.0, 3.5), rng.uniform(2.2, 4.0), rng.uniform(-kPi, kPi)};
+    const LaserScan scan = with_people(scan_at(office(), truth, 1.0, rng, kTwoPi), 0.3, rng);
+    const auto answer = PlaceRecogniser().locate(map, {seen_points(scan)});
+    EXPECT_EQ(answer.verdict, PlaceVerdict::kUnique) << truth << " " << answer.reason;
+    ASSERT_FALSE(answer.candidates.empty());
+    EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.08, 0.03));
+    EXPECT_GT(answer.candidates.front().agreement.in_free, 0.1);
+  }
+}
+
+TEST(PlaceRecogniser, AnotherRoomIsNotFound) {
+  Rng rng(6);
+  const PlaceMap map = room_map(rng);
+  auto walls = box(0.0, 0.0, 7.3, 9.1);
+  walls = both(both(walls, box(2.0, 5.0, 3.4, 5.8)), box(5.5, 1.0, 6.1, 2.6));
+  for (int k = 0; k < 10; ++k) {
+    const Pose2 pose{rng.uniform(1.0, 5.0), rng.uniform(1.5, 4.5), rng.uniform(-kPi, kPi)};
+    const auto answer = PlaceRecogniser().locate(map, {seen_points(scan_at(walls, pose, 1.0, rng, kTwoPi))});
+    EXPECT_NE(answer.verdict, PlaceVerdict::kUnique) << pose;
+  }
+}
+
+TEST(PlaceRecogniser, AWindowKeepsTheSearchWhereTheRobotMayBe) {
+  Rng rng(7);
+  const auto walls = both(furnished_room(), shifted(furnished_room(), 14.0));
+  auto poses = kViews;
+  for (const Pose2& pose : shifted(kViews, 14.0)) {
+    poses.push_back(pose);
+  }
+  const auto map = PlaceMap::build(seen_from(walls, poses, rng));
+  ASSERT_TRUE(map);
+  const Pose2 truth{17.0, 3.2, 0.7};
+  const SearchWindow window{truth * Pose2{1.0, -0.8, 0.3}, 4.0, 0.5};
+  const auto answer = PlaceRecogniser().locate(*map, {seen_points(scan_at(walls, truth, 1.0, rng, kTwoPi))}, window);
+  EXPECT_EQ(answer.verdict, PlaceVerdict::kUnique) << answer.reason;
+  EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02));
+}
+
+TEST(PlaceRecogniser, NothingSeenIsNoPlace) {
+  Rng rng(8);
+  const PlaceMap map = room_map(rng);
+  EXPECT_EQ(PlaceRecogniser().locate(map, {}).verdict, PlaceVerdict::kNone);
+  EXPECT_EQ(PlaceRecogniser().locate(map, {SeenPoints{}}).verdict, PlaceVerdict::kNone);
+  EXPECT_FALSE(PlaceMap::build({}));
+}
+
+PlaceCandidate candidate(double fit, double through) {
+  PlaceCandidate out;
+  out.fit = {fit, fit};
+  out.agreement.through = through;
+  return out;
+}
+
+TEST(Judge, NamesTheReasonOfEachVerdict) {
+  const JudgeParams params;
+  EXPECT_EQ(judge({}, 200).verdict, PlaceVerdict::kNone);
+  EXPECT_EQ(judge({candidate(0.95, 0.0)}, 200).verdict, PlaceVerdict::kUnique);
+  EXPECT_EQ(judge({candidate(0.7, 0.0)}, 200).verdict, PlaceVerdict::kNone);
+  EXPECT_EQ(judge({candidate(0.95, 0.2)}, 200).verdict, PlaceVerdict::kNone);
+  EXPECT_EQ(judge({candidate(0.9, 0.0), candidate(0.95, 0.0)}, 200).verdict, PlaceVerdict::kAmbiguous);
+  EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.9, 0.0)}, 200).reason, "another place fits nearly as well");
+  EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.75, 0.0)}, 50).reason,
+            "too little was seen to tell this place from others");
+  // A rival whose walls the beams go through is none.
+  const auto answer = judge({candidate(0.94, 0.5), candidate(0.95, 0.0)}, 200);
+  EXPECT_EQ(answer.verdict, PlaceVerdict::kUnique);
+  EXPECT_EQ(answer.candidates.front().fit.all, 0.95);
+  auto blind = candidate(0.95, 0.0);
+  blind.match.degenerate_direction = Point2(1.0, 0.0);
+  EXPECT_EQ(judge({blind}, 200).verdict, PlaceVerdict::kAmbiguous);
+}
+
+TEST(MapAgreement, BeamsThroughAWallAndPointsInTheOpenAreCounted) {
+  Rng rng(9);
+  const PlaceMap map = room_map(rng);
+  const Pose2 truth{3.0, 3.0, 0.0};
+  const SeenPoints seen = seen_points(scan_at(office(), truth, 1.0, rng, kTwoPi));
+  const Agreement right = agreement_of(map.pyramid(), map.free_space(), {seen}, truth);
+  EXPECT_LT(right.disagreement(), 0.02);
+  // One metre to the left: beams to the left go through the wall, those to the right end in the room.
+  const Agreement wrong = agreement_of(map.pyramid(), map.free_space(), {seen}, {3.0, 4.5, 0.0});
+  EXPECT_GT(wrong.through, 0.2);
+  EXPECT_GT(wrong.in_free, 0.1);
+  EXPECT_EQ(agreement_of(map.pyramid(), map.free_space(), {}, truth).disagreement(), 0.0);
+  const Fit fit = fit_of(map.pyramid(), map.free_space(), seen.points, truth);
+  EXPECT_GT(fit.all, 0.8);
+  EXPECT_LT(fit_of(map.pyramid(), map.free_space(), seen.points, {3.0, 4.5, 0.0}).all, 0.6);
+}
+
+TEST(MapAgreement, FreeIsWhereBeamsWentAndSolidIsWhereTheyEnded) {
+  Rng rng(10);
+  const PlaceMap map = room_map(rng);
+  EXPECT_TRUE(map.free_space().is_free({3.0, 3.0}));
+  EXPECT_FALSE(map.free_space().is_solid({3.0, 3.0}));
+  EXPECT_FALSE(map.free_space().is_free({0.0, 3.0}));
+  EXPECT_FALSE(map.free_space().is_free({-5.0, 3.0}));
+  EXPECT_FALSE(map.free_space().is_free({500.0, 3.0}));
+  int solid = 0;
+  for (double y = 0.5; y < 5.5; y += 0.1) {
+    solid += map.free_space().is_solid({0.0, y}) || map.free_space().is_solid({-0.05, y}) ? 1 : 0;
+  }
+  EXPECT_GT(solid, 40);
+}
+
+}  // namespace
+}  // namespace seeker::slam
