@@ -102,6 +102,7 @@ class Search {
     const std::vector<Point2> few = thinned();
     for (double t = theta.low; t <= theta.high; t += params_.coarse_step_rad) {
       std::vector<Point2> turned;
+      turned.reserve(few.size());
       for (const Point2& point : few) {
         turned.push_back(Pose2{0.0, 0.0, t} * point);
       }
@@ -236,6 +237,7 @@ Result<MapScore> score_map(const std::vector<Point2>& points_map, const RosMap& 
     centre += point / static_cast<double>(points_map.size());
   }
   std::vector<Point2> points;
+  points.reserve(points_map.size());
   for (const Point2& point : points_map) {
     points.emplace_back(point - centre);
   }
