@@ -27,6 +27,7 @@ class ReferenceCloud {
     return presence_.contains(cell) && presence_[cell] != 0;
   }
   [[nodiscard]] std::size_t size() const { return points_.size(); }
+  [[nodiscard]] const std::vector<OrientedPoint>& points() const { return points_; }
 
  private:
   struct Tree;

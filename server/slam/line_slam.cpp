@@ -1,0 +1,386 @@
+#include "server/slam/line_slam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/core/angle.hpp"
+#include "common/core/assert.hpp"
+
+namespace seeker::slam {
+namespace {
+
+/// chi-square of 3 dof at 99.9 %: a match farther from the prediction says that the odometry was wrong.
+constexpr double kContradiction = 16.27;
+
+Matrix3 with_floor(const Matrix3& covariance, double sigma_m, double sigma_rad) {
+  return covariance + Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2().asDiagonal().toDenseMatrix();
+}
+
+seeker::MapSegment to_value(const SpMap& map, const MapSegment& segment, std::uint32_t node, std::uint64_t id_base,
+                            RobotTime now) {
+  seeker::MapSegment value;
+  value.id = id_base + segment.id;
+  value.node = node;
+  value.map_T_segment = segment.map_T_segment;
+  value.length_m = segment.length_m;
+  value.left_real = segment.real[lines::kLeft];
+  value.right_real = segment.real[lines::kRight];
+  value.covariance = map.segment_covariance(segment.id).topLeftCorner<2, 2>();
+  value.hits = static_cast<std::uint32_t>(segment.hits);
+  value.created = now;
+  value.last_seen = now;
+  return value;
+}
+
+}  // namespace
+
+struct LineSlam::Scan {
+  const LaserScan& scan;
+  lines::ScanLines found;
+  std::vector<lines::SegmentObservation> observations;
+  std::vector<OrientedPoint> all_points;  ///< in `base`
+  std::vector<OrientedPoint> points;      ///< thinned
+  Pose2 predicted;                        ///< node_T_base by odometry
+  bool gap = false;                       ///< after more way than a match bridges safely
+};
+
+LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
+    : params_(params),
+      extractor_(params.extractor),
+      matcher_(params.points.match),
+      travelled_(params.odometry),
+      cloud_(params.points.cloud),
+      backend_(params.loops) {
+  begin(map_T_base, RobotTime{});
+}
+
+void LineSlam::reset(const Pose2& map_T_base) {
+  travelled_.reset({});
+  begin(map_T_base, last_scan_.value_or(RobotTime{}));
+}
+
+void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
+  backend_ = MapBackend(params_.loops);
+  backend_.begin_first(map_T_base, stamp);
+  lines_ = std::make_unique<SpMap>(Pose2{}, Matrix3::Zero(), params_.lines);
+  cloud_.clear();
+  travelled_.correct({}, Matrix3::Zero());
+  quality_ = LocalisationQuality::kUnknown;
+  cause_ = "no odometry yet";
+  failures_ = 0;
+  repeats_ = 0;
+  way_m_ = 0.0;
+  way_since_loops_m_ = 0.0;
+  ++revision_;
+  poses_.clear();
+  counts_ = {};
+}
+
+Status LineSlam::predict(const Pose2& odom_T_base, RobotTime stamp) {
+  const Status taken = travelled_.predict(odom_T_base, stamp);
+  const PoseEstimate& travelled = travelled_.estimate();
+  if (quality_ == LocalisationQuality::kUnknown || travelled.quality == LocalisationQuality::kDegraded) {
+    quality_ = travelled.quality;
+    cause_ = travelled.cause;
+  }
+  return taken;
+}
+
+PoseEstimate LineSlam::estimate() const {
+  const PoseEstimate travelled = travelled_.estimate();
+  const Pose2& map_T_node = backend_.pose(backend_.maps().back().id);
+  const Pose2& node_T_base = lines_->robot();
+  const Pose2 node_T_now = node_T_base * travelled.map_T_base;
+  const Matrix3 to_a = compose_jacobian_a(node_T_base, travelled.map_T_base);
+  const Matrix3 to_b = compose_jacobian_b(node_T_base, travelled.map_T_base);
+  const Matrix3 in_node =
+      to_a * lines_->robot_covariance_map() * to_a.transpose() + to_b * travelled.covariance * to_b.transpose();
+  const Matrix3 node_a = compose_jacobian_a(map_T_node, node_T_now);
+  const Matrix3 node_b = compose_jacobian_b(map_T_node, node_T_now);
+  PoseEstimate estimate;
+  estimate.stamp = travelled.stamp;
+  estimate.map_T_base = map_T_node * node_T_now;
+  estimate.covariance =
+      node_a * backend_.newest_covariance() * node_a.transpose() + node_b * in_node * node_b.transpose();
+  estimate.quality = quality_;
+  estimate.cause = cause_;
+  estimate.map_epoch = backend_.epoch();
+  return estimate;
+}
+
+Status LineSlam::check_repeats(const LaserScan& scan) {
+  if (last_scan_ && scan.stamp <= *last_scan_) {
+    return fail(Errc::kInvalidArgument, "the scan is not newer than the last one; the laser's driver repeats itself");
+  }
+  last_scan_ = scan.stamp;
+  const Pose2& increment = travelled_.estimate().map_T_base;
+  const bool driving = moved({}, increment, params_.min_move_m, params_.min_turn_rad);
+  repeats_ = scan.ranges_m == last_ranges_ && driving ? repeats_ + 1 : 0;
+  last_ranges_ = scan.ranges_m;
+  if (repeats_ >= params_.repeats_fault) {
+    quality_ = LocalisationQuality::kDegraded;
+    cause_ = "the laser repeats one scan while the robot moves";
+    return fail(Errc::kInvalidArgument,
+                "the laser repeats one scan while the robot moves; restart it. The pose goes on by odometry");
+  }
+  return {};
+}
+
+Status LineSlam::update(const LaserScan& scan) {
+  if (Status valid = validate(scan); !valid) {
+    return valid;
+  }
+  if (Status fresh = check_repeats(scan); !fresh) {
+    return fresh;
+  }
+  ++counts_.scans;
+  const PoseEstimate travelled = travelled_.estimate();
+  const Pose2& increment = travelled.map_T_base;
+  const bool healthy = failures_ == 0 && quality_ == LocalisationQuality::kLocalised;
+  if (healthy && !cloud_.empty() && !moved({}, increment, params_.min_move_m, params_.min_turn_rad)) {
+    ++counts_.still;
+    if (recording_) {
+      poses_.push_back({scan.stamp, backend_.newest().id, lines_->robot() * increment});
+    }
+    return {};
+  }
+  lines_->predict(increment, to_base_frame(travelled.covariance, increment));
+  travelled_.correct({}, Matrix3::Zero());
+  const double way_m = std::hypot(increment.x_m, increment.y_m);
+  way_m_ += way_m;
+  way_since_loops_m_ += way_m;
+
+  Scan step{
+      .scan = scan, .found = {}, .observations = {}, .all_points = {}, .points = {}, .predicted = lines_->robot()};
+  step.gap = moved({}, increment, params_.points.gap_m, params_.points.gap_rad);
+  step.all_points = oriented_points(scan, params_.points.normals);
+  Status outcome;
+  if (step.all_points.size() < static_cast<std::size_t>(params_.points.match.min_pairs)) {
+    quality_ = LocalisationQuality::kDegraded;
+    cause_ = "too few returns: the pose goes on by odometry";
+    outcome = fail(Errc::kNotReady, "the scan has too few returns on surfaces to say where the robot is");
+  } else {
+    step.points = thin_out(step.all_points, params_.points.match_points);
+    extractor_.extract(scan, step.found);
+    step.observations = lines::observe(scan, step.found, params_.observation);
+    counts_.lines += step.observations.size();
+    follow(step);
+  }
+  if (recording_) {
+    poses_.push_back({scan.stamp, backend_.newest().id, lines_->robot()});
+  }
+  return outcome;
+}
+
+void LineSlam::follow(Scan& scan) {
+  if (cloud_.empty()) {
+    lines_->update(scan.observations, lines_->associate(scan.observations));
+    quality_ = LocalisationQuality::kLocalised;
+    cause_.clear();
+    keep(scan);
+    return;
+  }
+  const MatchResult match = match_points(scan);
+  if (!believable(match, scan.predicted)) {
+    ++counts_.unbelieved;
+    note_failure(scan);
+    return;
+  }
+  correct(scan, match);
+  failures_ = 0;
+  note_quality(match);
+  keep(scan);
+  if (way_since_loops_m_ >= params_.loops.every_m) {
+    way_since_loops_m_ = 0.0;
+    std::vector<OrientedPoint> points_node;
+    for (const OrientedPoint& point : thin_out(cloud_.around(lines_->robot()).points(), params_.loops.query_points)) {
+      points_node.push_back(point);
+    }
+    backend_.close_loops(points_node, lines_->robot());
+  }
+  if (map_is_full()) {
+    begin_next_map(scan.scan.stamp);
+  }
+}
+
+MatchResult LineSlam::match_points(Scan& scan) {
+  const ReferenceCloud& reference = cloud_.around(scan.predicted);
+  MatchResult match = matcher_.match(reference, scan.points, scan.predicted);
+  // After a gap even a fair match may be a wrong one: look at the whole window and let the inliers decide.
+  const bool poor = match.inlier_ratio < params_.points.good_ratio;
+  const bool unsure = failures_ > 0 || quality_ != LocalisationQuality::kLocalised;
+  if (!scan.gap && !(poor && unsure)) {
+    return match;
+  }
+  ++counts_.searched;
+  if (const auto start = matcher_.search(reference, scan.points, scan.predicted)) {
+    MatchResult other = matcher_.match(reference, scan.points, *start);
+    if (other.inliers > match.inliers) {
+      match = std::move(other);
+    }
+  }
+  return match;
+}
+
+bool LineSlam::believable(const MatchResult& match, const Pose2& predicted) const {
+  return match.pairs >= params_.points.match.min_pairs && match.inlier_ratio >= params_.points.accept_ratio &&
+         !moved(predicted, match.map_T_base, params_.points.max_correction_m, params_.points.max_correction_rad);
+}
+
+void LineSlam::use_points(const Scan& scan, const MatchResult& match) {
+  const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
+  if (lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction) {
+    // The wheels slipped more than their noise admits: the prediction is widened by what the match says it was off.
+    const Pose2 off = inverse(scan.predicted) * match.map_T_base;
+    lines_->predict({}, Eigen::Vector3d(off.x_m * off.x_m + off.y_m * off.y_m, off.x_m * off.x_m + off.y_m * off.y_m,
+                                        off.theta_rad * off.theta_rad)
+                            .asDiagonal());
+  }
+  lines_->observe_pose(match.map_T_base, covariance, match.degenerate_direction);
+}
+
+void LineSlam::correct(Scan& scan, const MatchResult& match) {
+  const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
+  const bool contradicted = lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction;
+  const bool points_first = params_.points.use == PointUse::kAll || scan.gap || contradicted;
+  if (points_first) {
+    use_points(scan, match);
+  }
+  const Association association = lines_->associate(scan.observations);
+  const SpUpdateReport report = lines_->update(scan.observations, association);
+  counts_.paired += static_cast<std::uint64_t>(report.paired);
+  ++revision_;
+  if (!points_first && params_.points.use == PointUse::kLeftover) {
+    LaserScan rest = scan.scan;
+    for (std::size_t beam = 0; beam < rest.ranges_m.size(); ++beam) {
+      const std::int32_t line = scan.found.line_of_beam[beam];
+      if (line == lines::kNoLine) {
+        continue;
+      }
+      for (std::size_t k = 0; k < scan.observations.size(); ++k) {
+        if (scan.observations[k].line == static_cast<std::size_t>(line) &&
+            association.matches[k].verdict == SpVerdict::kPaired) {
+          rest.ranges_m[beam] = kNoReturn;
+        }
+      }
+    }
+    const std::vector<OrientedPoint> points =
+        thin_out(oriented_points(rest, params_.points.normals), params_.points.match_points);
+    const MatchResult leftover = matcher_.match(cloud_.around(lines_->robot()), points, lines_->robot());
+    const Matrix3 left_covariance =
+        with_floor(leftover.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
+    if (leftover.pairs >= params_.points.match.min_pairs &&
+        lines_->pose_d2(leftover.map_T_base, left_covariance, leftover.degenerate_direction) < kContradiction) {
+      lines_->observe_pose(leftover.map_T_base, left_covariance, leftover.degenerate_direction);
+    }
+  }
+  lines_->observe_free_space(scan.scan);
+}
+
+void LineSlam::note_quality(const MatchResult& match) {
+  const bool corridor = match.degenerate_direction && lines_->observability().degenerate_direction;
+  counts_.corridor += corridor ? 1 : 0;
+  quality_ = corridor ? LocalisationQuality::kDegraded : LocalisationQuality::kLocalised;
+  cause_ = corridor ? "the scan says nothing along the corridor: odometry only in that direction" : "";
+}
+
+void LineSlam::note_failure(const Scan& scan) {
+  const Pose2 pose = lines_->robot();
+  const ReferenceCloud& reference = cloud_.around(pose);
+  const auto known = std::count_if(scan.points.begin(), scan.points.end(), [&](const OrientedPoint& point) {
+    return reference.nearest(pose * point.p, params_.points.match.first_gate_m) != nullptr;
+  });
+  if (static_cast<double>(known) < params_.points.new_space_ratio * static_cast<double>(scan.points.size())) {
+    failures_ = 0;
+    quality_ = LocalisationQuality::kDegraded;
+    cause_ = "unseen space: the pose goes on by odometry";
+    lines_->update(scan.observations, lines_->associate(scan.observations));
+    keep(scan);
+    return;
+  }
+  ++failures_;
+  const bool lost = failures_ >= params_.lost_after;
+  quality_ = lost ? LocalisationQuality::kLost : LocalisationQuality::kDegraded;
+  cause_ = lost ? std::to_string(failures_) + " scans in a row do not fit the map" : "the scan does not fit the map";
+}
+
+void LineSlam::keep(const Scan& scan) {
+  const Pose2& pose = lines_->robot();
+  if (cloud_.needs_keyframe(pose)) {
+    cloud_.add(pose, scan.all_points);
+  }
+  std::vector<MapKeyframe>& kept = backend_.newest().keyframes;
+  const bool fresh = std::none_of(kept.begin(), kept.end(), [&](const MapKeyframe& keyframe) {
+    return !moved(keyframe.node_T_base, pose, params_.local.keyframe_distance_m, params_.local.keyframe_turn_rad);
+  });
+  if (fresh) {
+    kept.push_back(pack_keyframe(scan.scan, backend_.newest().id, pose));
+  }
+}
+
+bool LineSlam::map_is_full() const {
+  return way_m_ >= params_.local.max_way_m || lines_->segments().size() >= params_.local.max_segments;
+}
+
+void LineSlam::store_segments() {
+  LocalMap& newest = backend_.newest();
+  newest.segments_node.clear();
+  for (const MapSegment& segment : lines_->segments()) {
+    newest.segments_node.push_back(to_value(*lines_, segment, newest.id, next_id_, last_scan_.value_or(RobotTime{})));
+  }
+}
+
+void LineSlam::begin_next_map(RobotTime stamp) {
+  store_segments();
+  std::uint64_t last_id = 0;
+  for (const MapSegment& segment : lines_->segments()) {
+    last_id = std::max(last_id, segment.id);
+  }
+  next_id_ += last_id;
+  const Pose2 last_T_new = lines_->robot();
+  const Matrix3 covariance =
+      with_floor(lines_->robot_covariance_map(), params_.local.joint_sigma_m, params_.local.joint_sigma_rad);
+  backend_.begin_next(last_T_new, covariance, stamp);
+  lines_ = std::make_unique<SpMap>(Pose2{}, Matrix3::Zero(), params_.lines);
+  cloud_.move_to(inverse(last_T_new), {}, params_.points.carried_keyframes);
+  way_m_ = 0.0;
+}
+
+std::vector<seeker::MapSegment> LineSlam::segments() const { return map().segments; }
+
+LineMap LineSlam::map() const {
+  LineMap whole = backend_.assemble();
+  const std::uint32_t newest = backend_.maps().back().id;
+  const Pose2& map_T_node = backend_.pose(newest);
+  for (const MapSegment& segment : lines_->segments()) {
+    seeker::MapSegment value = to_value(*lines_, segment, newest, next_id_, last_scan_.value_or(RobotTime{}));
+    value.map_T_segment = map_T_node * value.map_T_segment;
+    whole.segments.push_back(value);
+    whole.next_id = std::max(whole.next_id, value.id + 1);
+  }
+  return whole;
+}
+
+Status LineSlam::load(const LineMap& /*map*/, MapUse /*use*/) { return fail(Errc::kNotReady, "not yet"); }
+
+Status LineSlam::relocalise(const std::optional<Pose2>& /*map_T_base*/) { return fail(Errc::kNotReady, "not yet"); }
+
+void LineSlam::for_each_scan(const std::function<void(const LaserScan&, const Pose2&)>& visit) const {
+  for (const LocalMap& map : backend_.maps()) {
+    for (const MapKeyframe& keyframe : map.keyframes) {
+      visit(unpack_scan(keyframe), backend_.pose(map.id) * keyframe.node_T_base);
+    }
+  }
+}
+
+std::vector<std::pair<RobotTime, Pose2>> LineSlam::trajectory() const {
+  std::vector<std::pair<RobotTime, Pose2>> poses;
+  poses.reserve(poses_.size());
+  for (const ScanPose& pose : poses_) {
+    poses.emplace_back(pose.stamp, backend_.pose(pose.node) * pose.node_T_base);
+  }
+  return poses;
+}
+
+}  // namespace seeker::slam

@@ -1,0 +1,103 @@
+/// \file
+/// Line SLAM: the SPmap of the place around the robot, points as its safety net, and a graph of such places.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/slam/line_slam_params.hpp"
+#include "server/slam/map_backend.hpp"
+#include "server/slam/map_tracker.hpp"
+#include "server/slam/sp_map.hpp"
+
+namespace seeker::slam {
+
+/// Where the robot was at a scan: in which local map, and where in it. The place of the local map may still move.
+struct ScanPose {
+  RobotTime stamp;
+  std::uint32_t node = 0;
+  Pose2 node_T_base;
+};
+
+/// Sums over all scans, for reports.
+struct LineSlamCounts {
+  std::uint64_t scans = 0;
+  std::uint64_t still = 0;     ///< not used: the robot had not moved
+  std::uint64_t lines = 0;     ///< observations
+  std::uint64_t paired = 0;    ///< with a segment
+  std::uint64_t searched = 0;  ///< scans after a gap or a poor match
+  std::uint64_t unbelieved = 0;
+  std::uint64_t corridor = 0;  ///< scans that said nothing along one direction
+};
+
+/// Predicts by odometry, corrects by lines (SPmap EKF, spec S1.1-S1.10) and by points, closes loops between local maps.
+/// A scan costs the same however large the building is; closing a loop costs time in the number of local maps.
+///
+/// Quality: kLocalised; kDegraded with its cause (corridor, unseen space, odometry jump, a scan that does not fit);
+/// kLost after `lost_after` scans that contradict the map, searching on until one fits again.
+class LineSlam final : public MapTracker {
+ public:
+  explicit LineSlam(const LineSlamParams& params = {}, const Pose2& map_T_base = {});
+
+  [[nodiscard]] Status predict(const Pose2& odom_T_base, RobotTime stamp) override;
+  [[nodiscard]] Status update(const LaserScan& scan) override;
+  [[nodiscard]] PoseEstimate estimate() const override;
+  void reset(const Pose2& map_T_base) override;
+
+  [[nodiscard]] std::vector<seeker::MapSegment> segments() const override;
+  [[nodiscard]] std::uint64_t revision() const override { return revision_; }
+  [[nodiscard]] LineMap map() const override;
+  [[nodiscard]] Status load(const LineMap& map, MapUse use) override;
+  [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base) override;
+  void for_each_scan(const std::function<void(const LaserScan&, const Pose2&)>& visit) const override;
+
+  /// Keeps every scan's pose from now on, for trajectories: grows with time.
+  void record_trajectory() { recording_ = true; }
+  /// The recorded poses, with all that was learnt since.
+  [[nodiscard]] std::vector<std::pair<RobotTime, Pose2>> trajectory() const;
+  [[nodiscard]] const LineSlamCounts& counts() const { return counts_; }
+  [[nodiscard]] const LoopCounts& loops() const { return backend_.loops(); }
+  [[nodiscard]] const SpMap& local_map() const { return *lines_; }
+
+ private:
+  struct Scan;  ///< one scan as the steps below see it
+
+  void begin(const Pose2& map_T_base, RobotTime stamp);
+  [[nodiscard]] Status check_repeats(const LaserScan& scan);
+  void follow(Scan& scan);
+  [[nodiscard]] MatchResult match_points(Scan& scan);
+  [[nodiscard]] bool believable(const MatchResult& match, const Pose2& predicted) const;
+  void correct(Scan& scan, const MatchResult& match);
+  void use_points(const Scan& scan, const MatchResult& match);
+  void note_failure(const Scan& scan);
+  void note_quality(const MatchResult& match);
+  void keep(const Scan& scan);
+  void begin_next_map(RobotTime stamp);
+  void store_segments();
+  [[nodiscard]] bool map_is_full() const;
+
+  LineSlamParams params_;
+  lines::FastExtractor extractor_;
+  ScanMatcher matcher_;
+  OdometryTracker travelled_;     ///< since the last scan: its pose is the increment
+  std::unique_ptr<SpMap> lines_;  ///< of the newest local map, in its frame
+  LocalCloud cloud_;              ///< in the same frame
+  MapBackend backend_;
+  LocalisationQuality quality_ = LocalisationQuality::kUnknown;
+  std::string cause_;
+  std::optional<RobotTime> last_scan_;
+  std::vector<float> last_ranges_;
+  int repeats_ = 0;
+  int failures_ = 0;
+  double way_m_ = 0.0;  ///< driven in the newest local map
+  double way_since_loops_m_ = 0.0;
+  std::uint64_t revision_ = 0;
+  std::uint64_t next_id_ = 1;
+  bool recording_ = false;
+  std::vector<ScanPose> poses_;
+  LineSlamCounts counts_;
+};
+
+}  // namespace seeker::slam

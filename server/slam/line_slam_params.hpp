@@ -1,0 +1,80 @@
+/// \file
+/// Parameters of line SLAM: one set for every building and every laser.
+#pragma once
+
+#include "server/lines/fast_extractor.hpp"
+#include "server/lines/observation.hpp"
+#include "server/slam/local_cloud.hpp"
+#include "server/slam/odometry_tracker.hpp"
+#include "server/slam/scan_matcher.hpp"
+#include "server/slam/sp_params.hpp"
+
+namespace seeker::slam {
+
+/// Which points of a scan correct the pose besides its lines.
+enum class PointUse : std::uint8_t {
+  kNone,      ///< lines only, as the paper has it; points still verify and bridge gaps
+  kLeftover,  ///< points that lie on no line: independent of the lines, so the covariance stays honest
+  kAll,       ///< every point
+};
+
+struct PointNetParams {
+  PointUse use = PointUse::kLeftover;
+  NormalParams normals;
+  MatchParams match;
+  LocalCloudParams cloud;
+  std::size_t match_points = 180;  ///< points of a scan that are matched
+  double good_ratio = 0.5;         ///< inlier ratio that needs no second look
+  double accept_ratio = 0.25;      ///< below it the match is not believed
+  double gap_m = 0.3;              ///< way since the last scan beyond which a poor match is searched for
+  double gap_rad = 0.2;
+  double new_space_ratio = 0.25;  ///< fewer points than this near known ones: unseen space, not a contradiction
+  double max_correction_m = 1.2;  ///< a match farther from the prediction is not believed
+  double max_correction_rad = 0.6;
+  std::size_t carried_keyframes = 6;  ///< of one local map into the next
+  double map_sigma_m = 0.005;         ///< error of the keyframes themselves, added to every match
+  double map_sigma_rad = 0.002;
+};
+
+/// When a local map is full and the next one begins: what keeps the cost of a scan flat however large the building.
+struct LocalMapParams {
+  double max_way_m = 10.0;  ///< driven in it
+  std::size_t max_segments = 120;
+  double keyframe_distance_m = 0.25;  ///< scans kept for occupancy, loops and relocalisation
+  double keyframe_turn_rad = 0.35;
+  double joint_sigma_m = 0.003;  ///< what the way from one to the next may be off, beside the filter's covariance
+  double joint_sigma_rad = 0.001;
+};
+
+/// Loops between local maps.
+struct LoopParams {
+  double every_m = 2.0;         ///< looked for after so much way
+  double max_distance_m = 4.0;  ///< between where the robot is and a keyframe of the other map
+  double sigmas = 3.0;          ///< of the relative pose that the search looks at
+  std::size_t keyframes = 12;   ///< of either map that are compared
+  std::size_t query_points = 300;
+  double min_overlap = 0.5;  ///< inlier ratio that a loop needs
+  double max_rms_m = 0.05;
+  int max_candidates = 3;  ///< tried at a time
+  double sigma_m = 0.02;   ///< a loop is not believed to be better than this
+  double sigma_rad = 0.005;
+  double kernel_width = 3.0;  ///< deviations beyond which a loop loses its say
+  double moved_m = 0.01;      ///< the map has a new epoch when the robot moves by more than this
+  double moved_rad = 0.002;
+};
+
+struct LineSlamParams {
+  OdometryParams odometry;
+  lines::FastParams extractor;
+  lines::ObservationParams observation;
+  SpMapParams lines;
+  PointNetParams points;
+  LocalMapParams local;
+  LoopParams loops;
+  double min_move_m = 0.02;  ///< a scan after less motion than this says nothing new
+  double min_turn_rad = 0.01;
+  int lost_after = 10;    ///< consecutive scans without a believed match
+  int repeats_fault = 3;  ///< so many equal scans while the robot moves: the laser repeats itself
+};
+
+}  // namespace seeker::slam

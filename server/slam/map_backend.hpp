@@ -1,0 +1,74 @@
+/// \file
+/// The sparse graph over local maps: their places, the loops between them, and the whole map they make.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "common/core/line_map.hpp"
+#include "server/slam/line_slam_params.hpp"
+#include "server/slam/oriented_points.hpp"
+#include "server/slam/pose_graph.hpp"
+
+namespace seeker::slam {
+
+/// What one local map leaves behind.
+struct LocalMap {
+  std::uint32_t id = 0;
+  RobotTime created;
+  std::vector<seeker::MapSegment> segments_node;  ///< poses in the frame of the local map, whatever their field says
+  std::vector<MapKeyframe> keyframes;
+};
+
+struct LoopCounts {
+  int tried = 0;
+  int closed = 0;
+  int refused = 0;
+};
+
+/// Local maps are numbered from 0 and keep their numbers. Poses rise in epochs: each optimisation that moves the map.
+class MapBackend {
+ public:
+  explicit MapBackend(const LoopParams& params = {}) : params_(params) {}
+
+  /// Begins a local map; with a predecessor, by the measured pose of its frame there and the covariance of that.
+  std::uint32_t begin_first(const Pose2& map_T_node, RobotTime stamp);
+  std::uint32_t begin_next(const Pose2& last_T_new, const Matrix3& covariance, RobotTime stamp);
+  [[nodiscard]] LocalMap& newest() { return maps_.back(); }
+  [[nodiscard]] const std::vector<LocalMap>& maps() const { return maps_; }
+  [[nodiscard]] const Pose2& pose(std::uint32_t id) const { return graph_.pose(id); }
+  /// Of (x, y, theta) of the newest local map's frame in the frame `map`.
+  [[nodiscard]] const Matrix3& newest_covariance() const { return newest_covariance_; }
+  [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
+  [[nodiscard]] const LoopCounts& loops() const { return counts_; }
+
+  /// Looks for older local maps that show what the newest shows around the robot, and optimises when one is found.
+  /// True when the map has moved.
+  bool close_loops(const std::vector<OrientedPoint>& points_node, const Pose2& node_T_base);
+
+  /// Places and relations of all local maps, their segments and scans; the frame is `map`.
+  [[nodiscard]] LineMap assemble() const;
+
+ private:
+  struct Candidate {
+    std::uint32_t id = 0;
+    double distance_m = 0.0;
+  };
+
+  [[nodiscard]] std::vector<Candidate> candidates(const Pose2& map_T_base) const;
+  bool try_loop(const Candidate& candidate, const std::vector<OrientedPoint>& points_node, const Pose2& node_T_base);
+  void add_loop(std::uint32_t from, const Pose2& from_T_newest, const Matrix3& covariance);
+  bool optimise();
+
+  LoopParams params_;
+  std::vector<LocalMap> maps_;
+  PoseGraph graph_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> loop_of_pair_;
+  Matrix3 newest_covariance_ = Matrix3::Zero();
+  std::uint32_t epoch_ = 0;
+  LoopCounts counts_;
+};
+
+}  // namespace seeker::slam
