@@ -116,8 +116,8 @@ Status LineSlam::check_repeats(const LaserScan& scan) {
   last_scan_ = scan.stamp;
   const Pose2& increment = travelled_.estimate().map_T_base;
   const bool driving = moved({}, increment, params_.min_move_m, params_.min_turn_rad);
-  repeats_ = scan.ranges_m == last_ranges_ && driving ? repeats_ + 1 : 0;
-  last_ranges_ = scan.ranges_m;
+  repeats_ = scan.ranges_m == newest_ranges_ && driving ? repeats_ + 1 : 0;
+  newest_ranges_ = scan.ranges_m;
   if (repeats_ >= params_.repeats_fault) {
     quality_ = LocalisationQuality::kDegraded;
     cause_ = "the laser repeats one scan while the robot moves";
@@ -125,6 +125,24 @@ Status LineSlam::check_repeats(const LaserScan& scan) {
                 "the laser repeats one scan while the robot moves; restart it. The pose goes on by odometry");
   }
   return {};
+}
+
+bool LineSlam::stands_still(const LaserScan& scan) const {
+  const bool healthy = failures_ == 0 && quality_ == LocalisationQuality::kLocalised && !cloud_.empty();
+  if (!healthy || moved({}, travelled_.estimate().map_T_base, params_.min_move_m, params_.min_turn_rad)) {
+    return false;
+  }
+  // Wheels may say nothing while the robot is pushed or slips: the view must be the same too.
+  if (scan.ranges_m.size() != used_ranges_.size()) {
+    return false;
+  }
+  std::size_t changed = 0;
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    const bool same = scan.ranges_m[beam] == used_ranges_[beam] ||
+                      std::abs(scan.ranges_m[beam] - used_ranges_[beam]) <= static_cast<float>(params_.still_range_m);
+    changed += same ? 0 : 1;
+  }
+  return static_cast<double>(changed) <= params_.still_share * static_cast<double>(scan.ranges_m.size());
 }
 
 Status LineSlam::update(const LaserScan& scan) {
@@ -137,15 +155,15 @@ Status LineSlam::update(const LaserScan& scan) {
   ++counts_.scans;
   const PoseEstimate travelled = travelled_.estimate();
   const Pose2& increment = travelled.map_T_base;
-  const bool healthy = failures_ == 0 && quality_ == LocalisationQuality::kLocalised;
-  if (healthy && !cloud_.empty() && !moved({}, increment, params_.min_move_m, params_.min_turn_rad)) {
+  if (stands_still(scan)) {
     ++counts_.still;
     if (recording_) {
       poses_.push_back({scan.stamp, backend_.newest().id, lines_->robot() * increment});
     }
     return {};
   }
-  lines_->predict(increment, to_base_frame(travelled.covariance, increment));
+  used_ranges_ = scan.ranges_m;
+  lines_->predict(increment, odometry_scale_ * to_base_frame(travelled.covariance, increment));
   travelled_.correct({}, Matrix3::Zero());
   const double way_m = std::hypot(increment.x_m, increment.y_m);
   way_m_ += way_m;
@@ -240,9 +258,21 @@ void LineSlam::use_points(const Scan& scan, const MatchResult& match) {
   lines_->observe_pose(match.map_T_base, covariance, match.degenerate_direction);
 }
 
+void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covariance) {
+  if (match.degenerate_direction) {
+    return;
+  }
+  // With the right noise the mean of d2 / 3 is 1; the scale follows what was seen, fast upwards.
+  const double ratio = lines_->pose_d2(match.map_T_base, covariance) / 3.0;
+  const double wanted = std::clamp(odometry_scale_ * ratio, 1.0, params_.max_odometry_scale);
+  const double rate = wanted > odometry_scale_ ? params_.odometry_scale_up : params_.odometry_scale_down;
+  odometry_scale_ += rate * (wanted - odometry_scale_);
+}
+
 void LineSlam::correct(Scan& scan, const MatchResult& match) {
   const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
   const bool contradicted = lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction;
+  learn_odometry(match, covariance);
   const bool points_first = params_.points.use == PointUse::kAll || scan.gap || contradicted;
   if (points_first) {
     use_points(scan, match);

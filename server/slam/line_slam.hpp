@@ -66,6 +66,8 @@ class LineSlam final : public MapTracker {
 
   void begin(const Pose2& map_T_base, RobotTime stamp);
   [[nodiscard]] Status check_repeats(const LaserScan& scan);
+  [[nodiscard]] bool stands_still(const LaserScan& scan) const;
+  void learn_odometry(const MatchResult& match, const Matrix3& covariance);
   void follow(Scan& scan);
   [[nodiscard]] MatchResult match_points(Scan& scan);
   [[nodiscard]] bool believable(const MatchResult& match, const Pose2& predicted) const;
@@ -88,7 +90,9 @@ class LineSlam final : public MapTracker {
   LocalisationQuality quality_ = LocalisationQuality::kUnknown;
   std::string cause_;
   std::optional<RobotTime> last_scan_;
-  std::vector<float> last_ranges_;
+  std::vector<float> newest_ranges_;  ///< of the last scan,
+  std::vector<float> used_ranges_;    ///< and of the last that was not taken for one more of the same
+  double odometry_scale_ = 1.0;       ///< of its covariance: learnt from how far matches lie from predictions
   int repeats_ = 0;
   int failures_ = 0;
   double way_m_ = 0.0;  ///< driven in the newest local map

@@ -73,6 +73,11 @@ struct LineSlamParams {
   LoopParams loops;
   double min_move_m = 0.02;  ///< a scan after less motion than this says nothing new
   double min_turn_rad = 0.01;
+  double still_range_m = 0.04;  ///< ... unless more than this share of its ranges changed by more than this
+  double still_share = 0.15;
+  double max_odometry_scale = 100.0;  ///< of the odometry's variances, when it turns out worse than said
+  double odometry_scale_up = 0.3;     ///< how fast the scale follows, per scan
+  double odometry_scale_down = 0.02;
   int lost_after = 10;    ///< consecutive scans without a believed match
   int repeats_fault = 3;  ///< so many equal scans while the robot moves: the laser repeats itself
 };
