@@ -211,11 +211,7 @@ void LineSlam::follow(Scan& scan) {
   keep(scan);
   if (way_since_loops_m_ >= params_.loops.every_m) {
     way_since_loops_m_ = 0.0;
-    std::vector<OrientedPoint> points_node;
-    for (const OrientedPoint& point : thin_out(cloud_.around(lines_->robot()).points(), params_.loops.query_points)) {
-      points_node.push_back(point);
-    }
-    backend_.close_loops(points_node, lines_->robot());
+    backend_.close_loops(lines_->robot());
   }
   if (map_is_full()) {
     begin_next_map(scan.scan.stamp);

@@ -5,6 +5,7 @@
 #include "server/lines/fast_extractor.hpp"
 #include "server/lines/observation.hpp"
 #include "server/slam/local_cloud.hpp"
+#include "server/slam/loop_detector.hpp"
 #include "server/slam/odometry_tracker.hpp"
 #include "server/slam/scan_matcher.hpp"
 #include "server/slam/sp_params.hpp"
@@ -46,20 +47,21 @@ struct LocalMapParams {
   double joint_sigma_rad = 0.001;
 };
 
-/// Loops between local maps.
-struct LoopParams {
-  double every_m = 2.0;         ///< looked for after so much way
-  double max_distance_m = 4.0;  ///< between where the robot is and a keyframe of the other map
-  double sigmas = 3.0;          ///< of the relative pose that the search looks at
-  std::size_t keyframes = 12;   ///< of either map that are compared
-  std::size_t query_points = 300;
-  double min_overlap = 0.5;  ///< inlier ratio that a loop needs
-  double max_rms_m = 0.05;
-  int max_candidates = 3;  ///< tried at a time
-  double sigma_m = 0.02;   ///< a loop is not believed to be better than this
-  double sigma_rad = 0.005;
-  double kernel_width = 3.0;  ///< deviations beyond which a loop loses its say
-  double moved_m = 0.01;      ///< the map has a new epoch when the robot moves by more than this
+/// When loops between local maps are looked for and what makes one believed.
+struct LoopPolicy {
+  LoopParams detector;
+  PlaceMapParams place;
+  double every_m = 2.0;             ///< looked for after so much way
+  double max_distance_m = 4.0;      ///< between the robot and a keyframe of the other map, beside the uncertainty
+  int max_candidates = 3;           ///< local maps looked at each time, nearest first
+  std::size_t query_keyframes = 8;  ///< the newest ones, compared with a whole local map
+  std::size_t cached_places = 12;   ///< local maps that are kept ready for comparison
+  /// A loop that moves the map by more than its uncertainty says (3 dof, 99 %) waits for others that agree with it.
+  double surprise_chi2 = 11.345;
+  std::size_t witnesses = 2;     ///< loops that must agree on a surprise
+  std::size_t max_pending = 12;  ///< the oldest is forgotten
+  double kernel_width = 3.0;     ///< deviations beyond which a loop loses its say
+  double moved_m = 0.01;         ///< the map has a new epoch when the robot moves by more than this
   double moved_rad = 0.002;
 };
 
@@ -70,7 +72,7 @@ struct LineSlamParams {
   SpMapParams lines;
   PointNetParams points;
   LocalMapParams local;
-  LoopParams loops;
+  LoopPolicy loops;
   double min_move_m = 0.02;  ///< a scan after less motion than this says nothing new
   double min_turn_rad = 0.01;
   double still_range_m = 0.04;  ///< ... unless more than this share of its ranges changed by more than this

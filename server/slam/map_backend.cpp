@@ -7,8 +7,6 @@
 
 #include "common/core/angle.hpp"
 #include "common/core/assert.hpp"
-#include "server/slam/reference_cloud.hpp"
-#include "server/slam/scan_matcher.hpp"
 
 namespace seeker::slam {
 namespace {
@@ -16,10 +14,6 @@ namespace {
 Matrix3 information_of(const Matrix3& covariance) {
   const Matrix3 information = covariance.inverse();
   return 0.5 * (information + information.transpose());
-}
-
-Matrix3 with_floor(const Matrix3& covariance, double sigma_m, double sigma_rad) {
-  return covariance + Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2().asDiagonal().toDenseMatrix();
 }
 
 }  // namespace
@@ -69,64 +63,117 @@ std::vector<MapBackend::Candidate> MapBackend::candidates(const Pose2& map_T_bas
   return near;
 }
 
-bool MapBackend::close_loops(const std::vector<OrientedPoint>& points_node, const Pose2& node_T_base) {
+std::vector<SeenPoints> MapBackend::query() const {
+  std::vector<SeenPoints> seen;
+  const Pose2& map_T_newest = pose(maps_.back().id);
+  // A local map that has just begun shows little: the end of the one before it belongs to the view.
+  for (std::size_t k = maps_.size(); k-- > 0 && k + 2 >= maps_.size();) {
+    const Pose2 newest_T_node = inverse(map_T_newest) * pose(maps_[k].id);
+    const std::vector<MapKeyframe>& keyframes = maps_[k].keyframes;
+    for (std::size_t i = keyframes.size(); i-- > 0 && seen.size() < params_.query_keyframes;) {
+      seen.push_back(transform(newest_T_node * keyframes[i].node_T_base, seen_points(unpack_scan(keyframes[i]))));
+    }
+  }
+  return seen;
+}
+
+std::shared_ptr<const PlaceMap> MapBackend::place_of(std::uint32_t id) {
+  const auto known = std::find_if(places_.begin(), places_.end(), [&](const auto& place) { return place.first == id; });
+  if (known != places_.end()) {
+    std::rotate(places_.begin(), known, known + 1);
+    return places_.front().second;
+  }
+  std::vector<SeenPoints> seen;
+  for (const MapKeyframe& keyframe : maps_[id].keyframes) {
+    seen.push_back(transform(keyframe.node_T_base, seen_points(unpack_scan(keyframe))));
+  }
+  Result<PlaceMap> built = PlaceMap::build(seen, params_.place);
+  if (!built) {
+    return nullptr;  // nothing but open space was seen there
+  }
+  places_.emplace_front(id, std::make_shared<const PlaceMap>(*std::move(built)));
+  if (places_.size() > params_.cached_places) {
+    places_.pop_back();
+  }
+  return places_.front().second;
+}
+
+UncertainPose MapBackend::relative(std::size_t from, std::size_t to) {
+  const Pose2 from_T_to = inverse(graph_.pose(from)) * graph_.pose(to);
+  const Result<Matrix3> covariance = graph_.relative_covariance(from, to);
+  SEEKER_ASSERT(covariance.has_value());
+  return {from_T_to, *covariance};
+}
+
+bool MapBackend::close_loops(const Pose2& node_T_base) {
+  const std::uint32_t newest = maps_.back().id;
+  const std::vector<Candidate> near = candidates(pose(newest) * node_T_base);
+  if (near.empty()) {
+    return false;
+  }
+  const std::vector<SeenPoints> seen = query();
   bool found = false;
-  for (const Candidate& candidate : candidates(pose(maps_.back().id) * node_T_base)) {
+  for (const Candidate& candidate : near) {
     ++counts_.tried;
-    const bool closed = try_loop(candidate, points_node, node_T_base);
-    ++(closed ? counts_.closed : counts_.refused);
-    found = found || closed;
+    const std::shared_ptr<const PlaceMap> place = place_of(candidate.id);
+    if (!place) {
+      continue;
+    }
+    const auto loop =
+        detector_.verify(seen, {.id = candidate.id, .place = place, .target_T_query = relative(candidate.id, newest)});
+    if (!loop) {
+      continue;
+    }
+    for (const LoopEdge& edge : believed({candidate.id, newest, loop->target_T_query})) {
+      add_loop(edge);
+      found = true;
+    }
   }
   return found && optimise();
 }
 
-bool MapBackend::try_loop(const Candidate& candidate, const std::vector<OrientedPoint>& points_node,
-                          const Pose2& node_T_base) {
-  const LocalMap& map = maps_[candidate.id];
-  const Pose2 guess = inverse(pose(map.id)) * pose(maps_.back().id);  // old_T_newest
-  const Pose2 old_T_base = guess * node_T_base;
-  std::vector<std::pair<double, const MapKeyframe*>> order;
-  for (const MapKeyframe& keyframe : map.keyframes) {
-    order.emplace_back(distance_m(keyframe.node_T_base, old_T_base), &keyframe);
+std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop) {
+  const UncertainPose expected = relative(loop.a, loop.b);
+  const Pose2 off = inverse(expected.a_T_b) * loop.a_T_b.a_T_b;
+  const Matrix3 turn = compose_jacobian_b(expected.a_T_b, {});
+  const Eigen::Vector3d residual = turn * Eigen::Vector3d(off.x_m, off.y_m, off.theta_rad);
+  const Matrix3 covariance = expected.covariance + loop.a_T_b.covariance;
+  if (residual.dot(covariance.inverse() * residual) <= params_.surprise_chi2) {
+    return {loop};
   }
-  std::sort(order.begin(), order.end());
-  std::vector<OrientedPoint> reference_points;
-  for (std::size_t k = 0; k < std::min(order.size(), params_.keyframes); ++k) {
-    const MapKeyframe& keyframe = *order[k].second;
-    for (const OrientedPoint& point : oriented_points(unpack_scan(keyframe))) {
-      reference_points.push_back(transform(keyframe.node_T_base, point));
-    }
+  ++counts_.surprises;
+  pending_.push_back(loop);
+  if (pending_.size() > params_.max_pending) {
+    pending_.erase(pending_.begin());
   }
-  const ReferenceCloud reference(std::move(reference_points));
-  const ScanMatcher matcher;
-  MatchResult match = matcher.match(reference, points_node, guess);
-  if (const auto start = matcher.search(reference, points_node, guess)) {
-    MatchResult other = matcher.match(reference, points_node, *start);
-    if (other.inliers > match.inliers) {
-      match = std::move(other);
-    }
+  const ConsistentSet agreed = largest_consistent_set(
+      pending_, [this](std::size_t from, std::size_t to) { return from == to ? UncertainPose{} : relative(from, to); });
+  const bool includes_newest = !agreed.members.empty() && agreed.members.back() + 1 == pending_.size();
+  if (agreed.members.size() < params_.witnesses || agreed.rival_size >= agreed.members.size() || !includes_newest) {
+    return {};
   }
-  if (match.inlier_ratio < params_.min_overlap || match.rms_m > params_.max_rms_m || !match.converged) {
-    return false;
+  std::vector<LoopEdge> loops;
+  for (const std::size_t member : agreed.members) {
+    loops.push_back(pending_[member]);
   }
-  add_loop(map.id, match.map_T_base, with_floor(match.covariance, params_.sigma_m, params_.sigma_rad));
-  return true;
+  pending_.clear();
+  return loops;
 }
 
-void MapBackend::add_loop(std::uint32_t from, const Pose2& from_T_newest, const Matrix3& covariance) {
-  const std::uint32_t to = maps_.back().id;
-  const auto old = loop_of_pair_.find({from, to});
+void MapBackend::add_loop(const LoopEdge& loop) {
+  const auto old = loop_of_pair_.find({loop.a, loop.b});
   if (old != loop_of_pair_.end()) {
     graph_.remove_edge(old->second);
   }
-  const Result<std::size_t> edge = graph_.add_edge({.i = from,
-                                                    .j = to,
-                                                    .i_T_j = from_T_newest,
-                                                    .information = information_of(covariance),
+  const Result<std::size_t> edge = graph_.add_edge({.i = loop.a,
+                                                    .j = loop.b,
+                                                    .i_T_j = loop.a_T_b.a_T_b,
+                                                    .information = information_of(loop.a_T_b.covariance),
                                                     .kernel = EdgeKernel::kSwitchable,
                                                     .kernel_width = params_.kernel_width});
   SEEKER_ASSERT(edge.has_value());
-  loop_of_pair_[{from, to}] = *edge;
+  loop_of_pair_[{loop.a, loop.b}] = *edge;
+  ++counts_.closed;
 }
 
 bool MapBackend::optimise() {

@@ -3,13 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
-#include <optional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/core/line_map.hpp"
 #include "server/slam/line_slam_params.hpp"
-#include "server/slam/oriented_points.hpp"
 #include "server/slam/pose_graph.hpp"
 
 namespace seeker::slam {
@@ -24,14 +25,14 @@ struct LocalMap {
 
 struct LoopCounts {
   int tried = 0;
-  int closed = 0;
-  int refused = 0;
+  int closed = 0;     ///< believed and part of the graph
+  int surprises = 0;  ///< that had to wait for witnesses
 };
 
 /// Local maps are numbered from 0 and keep their numbers. Poses rise in epochs: each optimisation that moves the map.
 class MapBackend {
  public:
-  explicit MapBackend(const LoopParams& params = {}) : params_(params) {}
+  explicit MapBackend(const LoopPolicy& params = {}) : params_(params), detector_(params.detector) {}
 
   /// Begins a local map; with a predecessor, by the measured pose of its frame there and the covariance of that.
   std::uint32_t begin_first(const Pose2& map_T_node, RobotTime stamp);
@@ -46,7 +47,7 @@ class MapBackend {
 
   /// Looks for older local maps that show what the newest shows around the robot, and optimises when one is found.
   /// True when the map has moved.
-  bool close_loops(const std::vector<OrientedPoint>& points_node, const Pose2& node_T_base);
+  bool close_loops(const Pose2& node_T_base);
 
   /// Places and relations of all local maps, their segments and scans; the frame is `map`.
   [[nodiscard]] LineMap assemble() const;
@@ -58,14 +59,20 @@ class MapBackend {
   };
 
   [[nodiscard]] std::vector<Candidate> candidates(const Pose2& map_T_base) const;
-  bool try_loop(const Candidate& candidate, const std::vector<OrientedPoint>& points_node, const Pose2& node_T_base);
-  void add_loop(std::uint32_t from, const Pose2& from_T_newest, const Matrix3& covariance);
+  [[nodiscard]] std::vector<SeenPoints> query() const;
+  [[nodiscard]] std::shared_ptr<const PlaceMap> place_of(std::uint32_t id);
+  [[nodiscard]] UncertainPose relative(std::size_t from, std::size_t to);
+  [[nodiscard]] std::vector<LoopEdge> believed(const LoopEdge& loop);
+  void add_loop(const LoopEdge& loop);
   bool optimise();
 
-  LoopParams params_;
+  LoopPolicy params_;
   std::vector<LocalMap> maps_;
   PoseGraph graph_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> loop_of_pair_;
+  LoopDetector detector_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> loop_of_pair_;       ///< edge of the graph
+  std::vector<LoopEdge> pending_;                                                 ///< surprises without witnesses
+  std::deque<std::pair<std::uint32_t, std::shared_ptr<const PlaceMap>>> places_;  ///< used last first
   Matrix3 newest_covariance_ = Matrix3::Zero();
   std::uint32_t epoch_ = 0;
   LoopCounts counts_;

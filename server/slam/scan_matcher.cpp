@@ -89,6 +89,21 @@ Matrix3 covariance_of(const NormalEquations& sum, const std::optional<Point2>& u
   return 0.5 * (covariance + covariance.transpose());
 }
 
+/// Points that lie near the reference; fewer when more than `wanted` cannot be reached any more.
+double hits_above(const ReferenceCloud& reference, const std::vector<Point2>& turned, const Point2& at, double wanted) {
+  const auto allowed_misses = static_cast<double>(turned.size()) - wanted;
+  int hits = 0;
+  int misses = 0;
+  for (const Point2& p : turned) {
+    if (reference.has_near(p + at)) {
+      ++hits;
+    } else if (++misses > allowed_misses) {
+      break;
+    }
+  }
+  return hits;
+}
+
 }  // namespace
 
 MatchResult ScanMatcher::match(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
@@ -140,11 +155,9 @@ std::optional<Pose2> ScanMatcher::search(const ReferenceCloud& reference, const 
     for (int j = -moves; j <= moves; ++j) {
       for (int i = -moves; i <= moves; ++i) {
         const Point2 at = guess.translation() + params_.search_step_m * Point2(i, j);
-        const auto hits =
-            std::count_if(turned.begin(), turned.end(), [&](const Point2& p) { return reference.has_near(p + at); });
         // Of equals the nearest to the guess: a corridor fits anywhere along itself.
         const double far = std::hypot(i, j) / moves + std::abs(t) / static_cast<double>(turns);
-        const double score = static_cast<double>(hits) - far;
+        const double score = hits_above(reference, turned, at, best_score + far) - far;
         if (score > best_score) {
           best_score = score;
           best = Pose2{at.x(), at.y(), rotation.theta_rad};
