@@ -4,34 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "common/core/angle.hpp"
-#include "common/core/assert.hpp"
+#include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
 namespace {
 
 /// chi-square of 3 dof at 99.9 %: a match farther from the prediction says that the odometry was wrong.
 constexpr double kContradiction = 16.27;
-
-Matrix3 with_floor(const Matrix3& covariance, double sigma_m, double sigma_rad) {
-  return covariance + Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2().asDiagonal().toDenseMatrix();
-}
-
-seeker::MapSegment to_value(const SpMap& map, const MapSegment& segment, std::uint32_t node, std::uint64_t id_base,
-                            RobotTime now) {
-  seeker::MapSegment value;
-  value.id = id_base + segment.id;
-  value.node = node;
-  value.map_T_segment = segment.map_T_segment;
-  value.length_m = segment.length_m;
-  value.left_real = segment.real[lines::kLeft];
-  value.right_real = segment.real[lines::kRight];
-  value.covariance = map.segment_covariance(segment.id).topLeftCorner<2, 2>();
-  value.hits = static_cast<std::uint32_t>(segment.hits);
-  value.created = now;
-  value.last_seen = now;
-  return value;
-}
 
 }  // namespace
 
@@ -51,7 +30,8 @@ LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
       matcher_(params.points.match),
       travelled_(params.odometry),
       cloud_(params.points.cloud),
-      backend_(params.loops) {
+      backend_(params.loops),
+      recogniser_(params.relocalise.place) {
   begin(map_T_base, RobotTime{});
 }
 
@@ -63,24 +43,33 @@ void LineSlam::reset(const Pose2& map_T_base) {
 void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   backend_ = MapBackend(params_.loops);
   backend_.begin_first(map_T_base, stamp);
-  lines_ = std::make_unique<SpMap>(Pose2{}, Matrix3::Zero(), params_.lines);
+  start_local_map();
   cloud_.clear();
   travelled_.correct({}, Matrix3::Zero());
+  next_id_ = 1;
+  place_.reset();
+  hint_.reset();
+  read_only_.reset();
   quality_ = LocalisationQuality::kUnknown;
   cause_ = "no odometry yet";
   failures_ = 0;
   repeats_ = 0;
-  way_m_ = 0.0;
   way_since_loops_m_ = 0.0;
   ++revision_;
   poses_.clear();
   counts_ = {};
 }
 
+void LineSlam::start_local_map() {
+  lines_ = std::make_unique<SpMap>(Pose2{}, Matrix3::Zero(), params_.lines);
+  way_m_ = 0.0;
+}
+
 Status LineSlam::predict(const Pose2& odom_T_base, RobotTime stamp) {
   const Status taken = travelled_.predict(odom_T_base, stamp);
   const PoseEstimate& travelled = travelled_.estimate();
-  if (quality_ == LocalisationQuality::kUnknown || travelled.quality == LocalisationQuality::kDegraded) {
+  const bool first = quality_ == LocalisationQuality::kUnknown && !backend_.apart();
+  if (first || travelled.quality == LocalisationQuality::kDegraded) {
     quality_ = travelled.quality;
     cause_ = travelled.cause;
   }
@@ -185,6 +174,11 @@ Status LineSlam::update(const LaserScan& scan) {
     counts_.lines += step.observations.size();
     follow(step);
   }
+  if (failures_ >= params_.relocalise.lost_scans && !backend_.apart()) {
+    (void)relocalise(std::nullopt);
+  } else if (backend_.apart()) {
+    look_for_robot(scan);
+  }
   if (recording_) {
     poses_.push_back({scan.stamp, backend_.newest().id, lines_->robot()});
   }
@@ -211,7 +205,10 @@ void LineSlam::follow(Scan& scan) {
   keep(scan);
   if (way_since_loops_m_ >= params_.loops.every_m) {
     way_since_loops_m_ = 0.0;
-    backend_.close_loops(lines_->robot());
+    backend_.plan_loops(lines_->robot());
+  }
+  if (backend_.step_loops()) {
+    ++revision_;
   }
   if (map_is_full()) {
     begin_next_map(scan.scan.stamp);
@@ -349,64 +346,20 @@ bool LineSlam::map_is_full() const {
   return way_m_ >= params_.local.max_way_m || lines_->segments().size() >= params_.local.max_segments;
 }
 
-void LineSlam::store_segments() {
-  LocalMap& newest = backend_.newest();
-  newest.segments_node.clear();
-  for (const MapSegment& segment : lines_->segments()) {
-    newest.segments_node.push_back(to_value(*lines_, segment, newest.id, next_id_, last_scan_.value_or(RobotTime{})));
-  }
-}
-
 void LineSlam::begin_next_map(RobotTime stamp) {
-  store_segments();
-  std::uint64_t last_id = 0;
-  for (const MapSegment& segment : lines_->segments()) {
-    last_id = std::max(last_id, segment.id);
-  }
-  next_id_ += last_id;
+  store_local_map();
   const Pose2 last_T_new = lines_->robot();
   const Matrix3 covariance =
       with_floor(lines_->robot_covariance_map(), params_.local.joint_sigma_m, params_.local.joint_sigma_rad);
   backend_.begin_next(last_T_new, covariance, stamp);
-  lines_ = std::make_unique<SpMap>(Pose2{}, Matrix3::Zero(), params_.lines);
+  start_local_map();
   cloud_.move_to(inverse(last_T_new), {}, params_.points.carried_keyframes);
-  way_m_ = 0.0;
-}
-
-std::vector<seeker::MapSegment> LineSlam::segments() const { return map().segments; }
-
-LineMap LineSlam::map() const {
-  LineMap whole = backend_.assemble();
-  const std::uint32_t newest = backend_.maps().back().id;
-  const Pose2& map_T_node = backend_.pose(newest);
-  for (const MapSegment& segment : lines_->segments()) {
-    seeker::MapSegment value = to_value(*lines_, segment, newest, next_id_, last_scan_.value_or(RobotTime{}));
-    value.map_T_segment = map_T_node * value.map_T_segment;
-    whole.segments.push_back(value);
-    whole.next_id = std::max(whole.next_id, value.id + 1);
+  last_try_ = inverse(last_T_new) * last_try_;
+  last_witness_ = inverse(last_T_new) * last_witness_;
+  claim_ = claim_ ? std::optional(*claim_ * last_T_new) : std::nullopt;
+  if (read_only_) {
+    backend_.forget_scans_from(*read_only_);
   }
-  return whole;
-}
-
-Status LineSlam::load(const LineMap& /*map*/, MapUse /*use*/) { return fail(Errc::kNotReady, "not yet"); }
-
-Status LineSlam::relocalise(const std::optional<Pose2>& /*map_T_base*/) { return fail(Errc::kNotReady, "not yet"); }
-
-void LineSlam::for_each_scan(const std::function<void(const LaserScan&, const Pose2&)>& visit) const {
-  for (const LocalMap& map : backend_.maps()) {
-    for (const MapKeyframe& keyframe : map.keyframes) {
-      visit(unpack_scan(keyframe), backend_.pose(map.id) * keyframe.node_T_base);
-    }
-  }
-}
-
-std::vector<std::pair<RobotTime, Pose2>> LineSlam::trajectory() const {
-  std::vector<std::pair<RobotTime, Pose2>> poses;
-  poses.reserve(poses_.size());
-  for (const ScanPose& pose : poses_) {
-    poses.emplace_back(pose.stamp, backend_.pose(pose.node) * pose.node_T_base);
-  }
-  return poses;
 }
 
 }  // namespace seeker::slam

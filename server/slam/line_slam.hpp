@@ -77,8 +77,14 @@ class LineSlam final : public MapTracker {
   void note_quality(const MatchResult& match);
   void keep(const Scan& scan);
   void begin_next_map(RobotTime stamp);
-  void store_segments();
+  void store_local_map();
   [[nodiscard]] bool map_is_full() const;
+  void start_local_map();
+  void look_for_robot(const LaserScan& scan);
+  [[nodiscard]] PlaceAnswer find_place() const;
+  [[nodiscard]] bool is_confirmed(const Pose2& map_T_node);
+  void settle(const PlaceAnswer& answer);
+  [[nodiscard]] std::uint32_t map_end() const;
 
   LineSlamParams params_;
   lines::FastExtractor extractor_;
@@ -99,6 +105,17 @@ class LineSlam final : public MapTracker {
   double way_since_loops_m_ = 0.0;
   std::uint64_t revision_ = 0;
   std::uint64_t next_id_ = 1;
+  // Looking for the robot in a map; place_ is there only meanwhile.
+  PlaceRecogniser recogniser_;
+  std::unique_ptr<PlaceMap> place_;
+  std::optional<Pose2> hint_;  ///< map_T_base that somebody has named
+  Pose2 last_try_;             ///< node_T_base
+  int scans_since_try_ = 0;
+  int tries_ = 0;
+  std::optional<Pose2> claim_;              ///< where the last unique answer puts the newest local map,
+  Pose2 last_witness_;                      ///< node_T_base
+  int witnesses_ = 0;                       ///< and how many answers in a row have said so
+  std::optional<std::uint32_t> read_only_;  ///< local maps from this one on are forgotten: the map is only read
   bool recording_ = false;
   std::vector<ScanPose> poses_;
   LineSlamCounts counts_;

@@ -7,7 +7,9 @@
 #include "server/slam/local_cloud.hpp"
 #include "server/slam/loop_detector.hpp"
 #include "server/slam/odometry_tracker.hpp"
+#include "server/slam/place_recogniser.hpp"
 #include "server/slam/scan_matcher.hpp"
+#include "server/slam/segment_fusion.hpp"
 #include "server/slam/sp_params.hpp"
 
 namespace seeker::slam {
@@ -43,8 +45,10 @@ struct LocalMapParams {
   std::size_t max_segments = 120;
   double keyframe_distance_m = 0.25;  ///< scans kept for occupancy, loops and relocalisation
   double keyframe_turn_rad = 0.35;
-  double joint_sigma_m = 0.003;  ///< what the way from one to the next may be off, beside the filter's covariance
-  double joint_sigma_rad = 0.001;
+  /// What the way from one to the next may be off, beside the filter's covariance: real scanners are not set quite
+  /// straight and floors not quite level, so a local map bends.
+  double joint_sigma_m = 0.03;
+  double joint_sigma_rad = 0.01;
 };
 
 /// When loops between local maps are looked for and what makes one believed.
@@ -65,14 +69,38 @@ struct LoopPolicy {
   double moved_rad = 0.002;
 };
 
+/// Finding the robot in a map it was not followed in.
+struct RelocaliseParams {
+  /// Stricter than for one question: corridors of other buildings fit with a lead of up to 0.2.
+  PlaceParams place{.search = {}, .match = {}, .agreement = {}, .judge = {.min_inliers = 0.75, .min_lead = 0.25}};
+  double every_m = 0.4;              ///< looked for after so much way,
+  double every_rad = 0.5;            ///< or turn,
+  int every_scans = 20;              ///< or so many scans
+  std::size_t query_keyframes = 12;  ///< the newest ones together are the view
+  double hint_m = 1.0;               ///< half width of the search about a place that somebody has named
+  double hint_rad = 0.5;
+  int witnesses = 3;     ///< answers in a row that must name the same place
+  double agree_m = 0.3;  ///< to within this
+  double agree_rad = 0.1;
+  int max_tries = 30;           ///< then the robot is lost: it is not in this map
+  double joint_sigma_m = 0.03;  ///< of the place found, beside the match's covariance
+  double joint_sigma_rad = 0.01;
+  int lost_scans = 40;  ///< a robot that is lost for so long is looked for everywhere
+};
+
+/// Errors of observed walls that are not noise of the laser: skirting boards, crooked plaster, beams that err together.
+inline constexpr lines::ObservationParams kRealWalls{.wall_sigma_m = 0.02, .wall_sigma_rad = 0.02};
+
 struct LineSlamParams {
   OdometryParams odometry;
   lines::FastParams extractor;
-  lines::ObservationParams observation;
+  lines::ObservationParams observation = kRealWalls;
   SpMapParams lines;
   PointNetParams points;
   LocalMapParams local;
   LoopPolicy loops;
+  RelocaliseParams relocalise;
+  FusionParams fusion;
   double min_move_m = 0.02;  ///< a scan after less motion than this says nothing new
   double min_turn_rad = 0.01;
   double still_range_m = 0.04;  ///< ... unless more than this share of its ranges changed by more than this

@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
 #include "common/core/angle.hpp"
 #include "common/core/assert.hpp"
+#include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
-namespace {
-
-Matrix3 information_of(const Matrix3& covariance) {
-  const Matrix3 information = covariance.inverse();
-  return 0.5 * (information + information.transpose());
-}
-
-}  // namespace
-
 std::uint32_t MapBackend::begin_first(const Pose2& map_T_node, RobotTime stamp) {
   SEEKER_ASSERT(maps_.empty());
   const std::size_t node = graph_.add_node(map_T_node);
@@ -39,6 +32,99 @@ std::uint32_t MapBackend::begin_next(const Pose2& last_T_new, const Matrix3& cov
   newest_covariance_ = to_a * newest_covariance_ * to_a.transpose() + to_b * covariance * to_b.transpose();
   maps_.push_back({static_cast<std::uint32_t>(node), stamp, {}, {}});
   return maps_.back().id;
+}
+
+void MapBackend::load(const LineMap& map) {
+  *this = MapBackend(params_);
+  std::map<std::uint32_t, std::uint32_t> number;  // ids in a file may have gaps
+  for (const MapNode& node : map.nodes) {
+    const auto id = static_cast<std::uint32_t>(graph_.add_node(node.map_T_node));
+    number[node.id] = id;
+    maps_.push_back({id, node.created, {}, {}});
+  }
+  for (const MapEdge& edge : map.edges) {
+    const Result<std::size_t> added =
+        graph_.add_edge({.i = number.at(edge.from),
+                         .j = number.at(edge.to),
+                         .i_T_j = edge.from_T_to,
+                         .information = information_of(edge.covariance),
+                         .kernel = edge.loop ? EdgeKernel::kSwitchable : EdgeKernel::kNone,
+                         .kernel_width = params_.kernel_width});
+    if (added && !edge.enabled) {
+      graph_.set_enabled(*added, false);
+    }
+  }
+  for (seeker::MapSegment segment : map.segments) {
+    const std::uint32_t node = number.at(segment.node);
+    segment.node = node;
+    segment.map_T_segment = inverse(pose(node)) * segment.map_T_segment;
+    maps_[node].segments_node.push_back(segment);
+  }
+  for (MapKeyframe keyframe : map.keyframes) {
+    keyframe.node = number.at(keyframe.node);
+    maps_[keyframe.node].keyframes.push_back(std::move(keyframe));
+  }
+  epoch_ = map.epoch + 1;
+}
+
+std::uint32_t MapBackend::begin_apart(RobotTime stamp) {
+  const auto id = static_cast<std::uint32_t>(graph_.add_node({}));
+  maps_.push_back({id, stamp, {}, {}});
+  apart_from_ = apart_from_.value_or(id);
+  newest_covariance_ = Matrix3::Zero();
+  return id;
+}
+
+void MapBackend::anchor(const Pose2& map_T_newest, const Matrix3& covariance) {
+  SEEKER_ASSERT(apart_from_ && *apart_from_ > 0);
+  const std::uint32_t newest = maps_.back().id;
+  const Pose2 move = map_T_newest * inverse(pose(newest));
+  for (std::uint32_t id = *apart_from_; id <= newest; ++id) {
+    graph_.set_pose(id, move * pose(id));
+  }
+  // The relation is to the local map that shows this place: the one with the nearest scan.
+  std::uint32_t nearest = 0;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::uint32_t id = 0; id < *apart_from_; ++id) {
+    for (const MapKeyframe& keyframe : maps_[id].keyframes) {
+      const double away_m = distance_m(pose(id) * keyframe.node_T_base, map_T_newest);
+      if (away_m < nearest_m) {
+        nearest = id;
+        nearest_m = away_m;
+      }
+    }
+  }
+  const Pose2 turn{0.0, 0.0, -pose(nearest).theta_rad};
+  const Matrix3 rotation = compose_jacobian_b(turn, {});
+  const Result<std::size_t> edge =
+      graph_.add_edge({.i = nearest,
+                       .j = newest,
+                       .i_T_j = inverse(pose(nearest)) * map_T_newest,
+                       .information = information_of(rotation * covariance * rotation.transpose())});
+  SEEKER_ASSERT(edge.has_value());
+  apart_from_.reset();
+  newest_covariance_ = covariance;
+  ++epoch_;
+}
+
+std::vector<SeenPoints> MapBackend::seen() const {
+  std::vector<SeenPoints> all;
+  for (const LocalMap& map : maps_) {
+    if (apart_from_ && map.id >= *apart_from_) {
+      break;
+    }
+    for (const MapKeyframe& keyframe : map.keyframes) {
+      all.push_back(transform(pose(map.id) * keyframe.node_T_base, seen_points(unpack_scan(keyframe))));
+    }
+  }
+  return all;
+}
+
+void MapBackend::forget_scans_from(std::uint32_t first) {
+  for (std::size_t id = first; id + 2 < maps_.size(); ++id) {
+    maps_[id].keyframes = {};
+    maps_[id].segments_node = {};
+  }
 }
 
 std::vector<MapBackend::Candidate> MapBackend::candidates(const Pose2& map_T_base) const {
@@ -105,31 +191,37 @@ UncertainPose MapBackend::relative(std::size_t from, std::size_t to) {
   return {from_T_to, *covariance};
 }
 
-bool MapBackend::close_loops(const Pose2& node_T_base) {
-  const std::uint32_t newest = maps_.back().id;
-  const std::vector<Candidate> near = candidates(pose(newest) * node_T_base);
-  if (near.empty()) {
+void MapBackend::plan_loops(const Pose2& node_T_base) {
+  if (apart()) {
+    return;
+  }
+  for (const Candidate& candidate : candidates(pose(maps_.back().id) * node_T_base)) {
+    planned_.push_back(candidate.id);
+  }
+}
+
+bool MapBackend::step_loops() {
+  if (planned_.empty() || apart()) {
+    planned_.clear();
     return false;
   }
-  const std::vector<SeenPoints> seen = query();
-  bool found = false;
-  for (const Candidate& candidate : near) {
-    ++counts_.tried;
-    const std::shared_ptr<const PlaceMap> place = place_of(candidate.id);
-    if (!place) {
-      continue;
-    }
-    const auto loop =
-        detector_.verify(seen, {.id = candidate.id, .place = place, .target_T_query = relative(candidate.id, newest)});
-    if (!loop) {
-      continue;
-    }
-    for (const LoopEdge& edge : believed({candidate.id, newest, loop->target_T_query})) {
+  const std::uint32_t id = planned_.front();
+  planned_.pop_front();
+  const std::uint32_t newest = maps_.back().id;
+  ++counts_.tried;
+  const std::shared_ptr<const PlaceMap> place = place_of(id);
+  if (id + 1 < newest && place) {
+    const auto loop = detector_.verify(query(), {.id = id, .place = place, .target_T_query = relative(id, newest)});
+    for (const LoopEdge& edge : loop ? believed({id, newest, loop->target_T_query}) : std::vector<LoopEdge>{}) {
       add_loop(edge);
-      found = true;
+      unsettled_ = true;
     }
   }
-  return found && optimise();
+  if (!planned_.empty() || !unsettled_) {
+    return false;
+  }
+  unsettled_ = false;
+  return optimise();
 }
 
 std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop) {
@@ -195,21 +287,27 @@ bool MapBackend::optimise() {
   return moved;
 }
 
-LineMap MapBackend::assemble() const {
+LineMap MapBackend::assemble(std::uint32_t end) const {
   LineMap whole;
   whole.epoch = epoch_;
   for (const LocalMap& map : maps_) {
+    if (map.id >= end) {
+      break;
+    }
     whole.nodes.push_back({map.id, pose(map.id), map.created});
     for (seeker::MapSegment segment : map.segments_node) {
       segment.map_T_segment = pose(map.id) * segment.map_T_segment;
+      whole.next_id = std::max(whole.next_id, segment.id + 1);
       whole.segments.push_back(segment);
     }
     whole.keyframes.insert(whole.keyframes.end(), map.keyframes.begin(), map.keyframes.end());
   }
   for (std::size_t k = 0; k < graph_.edge_count(); ++k) {
     const PoseEdge& edge = graph_.edge(k);
-    whole.edges.push_back({static_cast<std::uint32_t>(edge.i), static_cast<std::uint32_t>(edge.j), edge.i_T_j,
-                           edge.information.inverse(), edge.kernel != EdgeKernel::kNone, graph_.enabled(k)});
+    if (graph_.enabled(k) && edge.i < end && edge.j < end) {
+      whole.edges.push_back({static_cast<std::uint32_t>(edge.i), static_cast<std::uint32_t>(edge.j), edge.i_T_j,
+                             edge.information.inverse(), edge.kernel != EdgeKernel::kNone, true});
+    }
   }
   return whole;
 }

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,19 @@ class MapBackend {
   /// Begins a local map; with a predecessor, by the measured pose of its frame there and the covariance of that.
   std::uint32_t begin_first(const Pose2& map_T_node, RobotTime stamp);
   std::uint32_t begin_next(const Pose2& last_T_new, const Matrix3& covariance, RobotTime stamp);
+  /// Replaces everything by a map that has passed validate(). The next local map must be begun with begin_apart().
+  void load(const LineMap& map);
+  /// Begins a local map whose place in the whole is not known: nothing joins it to the others until anchor().
+  std::uint32_t begin_apart(RobotTime stamp);
+  [[nodiscard]] bool apart() const { return apart_from_.has_value(); }
+  [[nodiscard]] bool is_apart(std::uint32_t id) const { return apart_from_ && id >= *apart_from_; }
+  /// Puts what was begun apart where it belongs: the newest local map is at map_T_newest, as found by comparing it with
+  /// the others; `covariance` as in newest_covariance().
+  void anchor(const Pose2& map_T_newest, const Matrix3& covariance);
+  /// Scans of all local maps but those begun apart, in the frame `map`: what a place is searched in.
+  [[nodiscard]] std::vector<SeenPoints> seen() const;
+  /// Forgets what the local maps between `first` and the newest two have seen; their places stay.
+  void forget_scans_from(std::uint32_t first);
   [[nodiscard]] LocalMap& newest() { return maps_.back(); }
   [[nodiscard]] const std::vector<LocalMap>& maps() const { return maps_; }
   [[nodiscard]] const Pose2& pose(std::uint32_t id) const { return graph_.pose(id); }
@@ -45,12 +59,14 @@ class MapBackend {
   [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
   [[nodiscard]] const LoopCounts& loops() const { return counts_; }
 
-  /// Looks for older local maps that show what the newest shows around the robot, and optimises when one is found.
-  /// True when the map has moved.
-  bool close_loops(const Pose2& node_T_base);
+  /// Notes which older local maps may show what the newest shows around the robot.
+  void plan_loops(const Pose2& node_T_base);
+  /// Compares with one of them, so that no scan has to wait for all, and optimises after the last when a loop was
+  /// found. True when the map has moved.
+  bool step_loops();
 
-  /// Places and relations of all local maps, their segments and scans; the frame is `map`.
-  [[nodiscard]] LineMap assemble() const;
+  /// Places and relations of the local maps below `end`, their segments and scans; the frame is `map`.
+  [[nodiscard]] LineMap assemble(std::uint32_t end) const;
 
  private:
   struct Candidate {
@@ -71,8 +87,11 @@ class MapBackend {
   PoseGraph graph_;
   LoopDetector detector_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> loop_of_pair_;       ///< edge of the graph
+  std::deque<std::uint32_t> planned_;                                             ///< local maps to compare with
+  bool unsettled_ = false;                                                        ///< loops were added since optimise()
   std::vector<LoopEdge> pending_;                                                 ///< surprises without witnesses
   std::deque<std::pair<std::uint32_t, std::shared_ptr<const PlaceMap>>> places_;  ///< used last first
+  std::optional<std::uint32_t> apart_from_;  ///< this local map and those after it are not joined to the others
   Matrix3 newest_covariance_ = Matrix3::Zero();
   std::uint32_t epoch_ = 0;
   LoopCounts counts_;

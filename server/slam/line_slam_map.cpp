@@ -1,0 +1,204 @@
+// The map of line SLAM as a whole: handed out, loaded, and searched for the robot.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "server/slam/covariance.hpp"
+#include "server/slam/line_slam.hpp"
+#include "server/slam/segment_fusion.hpp"
+
+namespace seeker::slam {
+namespace {
+
+seeker::MapSegment to_value(const SpMap& map, const MapSegment& segment, std::uint32_t node, std::uint64_t id_base,
+                            RobotTime now) {
+  seeker::MapSegment value;
+  value.id = id_base + segment.id;
+  value.node = node;
+  value.map_T_segment = segment.map_T_segment;
+  value.length_m = segment.length_m;
+  value.left_real = segment.real[lines::kLeft];
+  value.right_real = segment.real[lines::kRight];
+  value.covariance = map.segment_covariance(segment.id).topLeftCorner<2, 2>();
+  value.hits = static_cast<std::uint32_t>(segment.hits);
+  value.created = now;
+  value.last_seen = now;
+  return value;
+}
+
+}  // namespace
+
+void LineSlam::store_local_map() {
+  LocalMap& newest = backend_.newest();
+  newest.segments_node.clear();
+  std::uint64_t last_id = 0;
+  for (const MapSegment& segment : lines_->segments()) {
+    newest.segments_node.push_back(to_value(*lines_, segment, newest.id, next_id_, last_scan_.value_or(RobotTime{})));
+    last_id = std::max(last_id, segment.id);
+  }
+  next_id_ += last_id;
+}
+
+std::uint32_t LineSlam::map_end() const {
+  const std::vector<LocalMap>& maps = backend_.maps();
+  const auto apart = std::find_if(maps.begin(), maps.end(), [&](const LocalMap& m) { return backend_.is_apart(m.id); });
+  const auto joined = static_cast<std::uint32_t>(apart - maps.begin());
+  return std::min(joined, read_only_.value_or(joined));
+}
+
+std::vector<seeker::MapSegment> LineSlam::segments() const { return fuse(map().segments, params_.fusion); }
+
+LineMap LineSlam::map() const {
+  const std::uint32_t newest = backend_.maps().back().id;
+  LineMap whole = backend_.assemble(map_end());
+  whole.next_id = std::max(whole.next_id, next_id_);
+  if (newest >= map_end()) {
+    return whole;
+  }
+  const Pose2& map_T_node = backend_.pose(newest);
+  for (const MapSegment& segment : lines_->segments()) {
+    seeker::MapSegment value = to_value(*lines_, segment, newest, next_id_, last_scan_.value_or(RobotTime{}));
+    value.map_T_segment = map_T_node * value.map_T_segment;
+    whole.segments.push_back(value);
+    whole.next_id = std::max(whole.next_id, value.id + 1);
+  }
+  return whole;
+}
+
+Status LineSlam::load(const LineMap& map, MapUse use) {
+  if (Status valid = validate(map); !valid) {
+    return valid;
+  }
+  if (map.nodes.empty() || map.keyframes.empty()) {
+    return fail(Errc::kInvalidArgument, "the map holds no scans, so that nothing can be found in it; save it again");
+  }
+  begin({}, last_scan_.value_or(RobotTime{}));
+  backend_.load(map);
+  next_id_ = map.next_id;
+  if (use == MapUse::kLocalise) {
+    read_only_ = static_cast<std::uint32_t>(backend_.maps().size());
+  }
+  return relocalise(std::nullopt);
+}
+
+Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
+  if (map_T_base && !is_finite(*map_T_base)) {
+    return fail(Errc::kInvalidArgument, "the place to look at is not a number");
+  }
+  if (!backend_.apart()) {
+    if (backend_.maps().front().keyframes.empty()) {
+      return fail(Errc::kNotReady, "there is no map yet to look for the robot in; drive a little or load one");
+    }
+    store_local_map();
+    backend_.begin_apart(last_scan_.value_or(RobotTime{}));
+    start_local_map();
+    cloud_.clear();
+    failures_ = 0;
+  }
+  hint_ = map_T_base;
+  claim_.reset();
+  witnesses_ = 0;
+  place_.reset();
+  tries_ = 0;
+  scans_since_try_ = params_.relocalise.every_scans;  // the next scan is a try
+  quality_ = LocalisationQuality::kUnknown;
+  cause_ = "looking for the robot in the map";
+  ++revision_;
+  return {};
+}
+
+void LineSlam::look_for_robot(const LaserScan& /*scan*/) {
+  const bool lost = tries_ >= params_.relocalise.max_tries;
+  if (!lost) {
+    quality_ = LocalisationQuality::kUnknown;
+    cause_ = "looking for the robot in the map";
+  }
+  const bool fresh = ++scans_since_try_ >= params_.relocalise.every_scans ||
+                     moved(last_try_, lines_->robot(), params_.relocalise.every_m, params_.relocalise.every_rad);
+  if (!fresh || backend_.newest().keyframes.empty()) {
+    return;
+  }
+  scans_since_try_ = 0;
+  last_try_ = lines_->robot();
+  ++tries_;
+  if (!place_) {
+    Result<PlaceMap> built = PlaceMap::build(backend_.seen(), params_.loops.place);
+    if (!built) {
+      quality_ = LocalisationQuality::kLost;
+      cause_ = "the map cannot be searched: " + built.error().message;
+      return;
+    }
+    place_ = std::make_unique<PlaceMap>(*std::move(built));
+  }
+  settle(find_place());
+}
+
+PlaceAnswer LineSlam::find_place() const {
+  const Pose2 base_T_node = inverse(lines_->robot());
+  std::vector<SeenPoints> seen;
+  const std::vector<LocalMap>& maps = backend_.maps();
+  const Pose2 newest_T_map = inverse(backend_.pose(maps.back().id));
+  for (std::size_t k = maps.size(); k-- > 0 && backend_.is_apart(maps[k].id);) {
+    const Pose2 base_T_other = base_T_node * (newest_T_map * backend_.pose(maps[k].id));
+    const std::vector<MapKeyframe>& keyframes = maps[k].keyframes;
+    for (std::size_t i = keyframes.size(); i-- > 0 && seen.size() < params_.relocalise.query_keyframes;) {
+      seen.push_back(transform(base_T_other * keyframes[i].node_T_base, seen_points(unpack_scan(keyframes[i]))));
+    }
+  }
+  std::optional<SearchWindow> window;
+  if (hint_) {
+    window = SearchWindow{*hint_, params_.relocalise.hint_m, params_.relocalise.hint_rad};
+  }
+  return recogniser_.locate(*place_, seen, window);
+}
+
+bool LineSlam::is_confirmed(const Pose2& map_T_node) {
+  // One view may look like a place that it is not; views farther on must name the same place.
+  const bool agrees = claim_ && !moved(*claim_, map_T_node, params_.relocalise.agree_m, params_.relocalise.agree_rad);
+  witnesses_ = agrees ? witnesses_ + 1 : 1;
+  claim_ = map_T_node;
+  return witnesses_ >= params_.relocalise.witnesses;
+}
+
+void LineSlam::settle(const PlaceAnswer& answer) {
+  const Pose2 base_T_node = inverse(lines_->robot());
+  if (answer.verdict == PlaceVerdict::kUnique &&
+      is_confirmed(answer.candidates.front().match.map_T_base * base_T_node)) {
+    const MatchResult& match = answer.candidates.front().match;
+    const Matrix3 to_a = compose_jacobian_a(match.map_T_base, base_T_node);
+    backend_.anchor(match.map_T_base * base_T_node,
+                    with_floor(to_a * match.covariance * to_a.transpose(), params_.relocalise.joint_sigma_m,
+                               params_.relocalise.joint_sigma_rad));
+    place_.reset();
+    quality_ = LocalisationQuality::kLocalised;
+    cause_.clear();
+    ++revision_;
+    return;
+  }
+  const bool lost = tries_ >= params_.relocalise.max_tries;
+  quality_ = lost ? LocalisationQuality::kLost : LocalisationQuality::kUnknown;
+  cause_ = (lost ? "the robot was not found in the map: " : "looking for the robot in the map: ") +
+           std::string(answer.reason);
+}
+
+void LineSlam::for_each_scan(const std::function<void(const LaserScan&, const Pose2&)>& visit) const {
+  for (const LocalMap& map : backend_.maps()) {
+    if (map.id >= map_end()) {
+      break;
+    }
+    for (const MapKeyframe& keyframe : map.keyframes) {
+      visit(unpack_scan(keyframe), backend_.pose(map.id) * keyframe.node_T_base);
+    }
+  }
+}
+
+std::vector<std::pair<RobotTime, Pose2>> LineSlam::trajectory() const {
+  std::vector<std::pair<RobotTime, Pose2>> poses;
+  poses.reserve(poses_.size());
+  for (const ScanPose& pose : poses_) {
+    poses.emplace_back(pose.stamp, backend_.pose(pose.node) * pose.node_T_base);
+  }
+  return poses;
+}
+
+}  // namespace seeker::slam
