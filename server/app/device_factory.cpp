@@ -1,11 +1,11 @@
 #include "server/app/device_factory.hpp"
 
 #include "common/core/rng.hpp"
+#include "server/app/estimators.hpp"
 #include "server/app/tracker_estimator.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
-#include "server/slam/odometry_tracker.hpp"
 
 namespace seeker::app {
 namespace {
@@ -61,13 +61,6 @@ Status make_replay(const RobotOptions& options, Assembly& assembly) {
   return {};
 }
 
-std::unique_ptr<Estimator> make_estimator(const RobotOptions& options) {
-  if (options.estimator == EstimatorType::kOdometry) {
-    return std::make_unique<TrackerEstimator>(std::make_unique<slam::OdometryTracker>(options.tracking.odometry));
-  }
-  return std::make_unique<TrackerEstimator>(std::make_unique<slam::ScanMapTracker>(options.tracking));
-}
-
 /// Makes behaviours; holds what they share over missions.
 class Behaviours {
  public:
@@ -114,8 +107,8 @@ Result<Assembly> assemble(const RobotOptions& options) {
     return fail_with_context("control_table", table.error());
   }
   LoopParts& parts = assembly.parts;
-  parts.estimator = make_estimator(options);
-  parts.estimator_type = options.estimator == EstimatorType::kOdometry ? "odometry" : "scan_match";
+  parts.estimator = std::make_unique<TrackerEstimator>(make_tracker(options.estimator, options));
+  parts.estimator_type = to_string(options.estimator);
   parts.occupancy = options.occupancy;
   parts.behaviours = Behaviours(options, std::make_shared<const search::ControlTable>(std::move(*table)),
                                 parts.devices.camera != nullptr);

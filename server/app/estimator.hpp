@@ -27,6 +27,6 @@ class Estimator {
 };
 
 /// Which estimator a robot uses.
-enum class EstimatorType : std::uint8_t { kOdometry, kScanMatch };
+enum class EstimatorType : std::uint8_t { kOdometry, kScanMatch, kLineSlam };
 
 }  // namespace seeker::app

@@ -1,5 +1,7 @@
 #include "server/app/robot_options.hpp"
 
+#include "server/app/estimators.hpp"
+#include "server/options/line_slam_options.hpp"
 #include "server/options/nav_options.hpp"
 #include "server/options/search_options.hpp"
 #include "server/options/sim_options.hpp"
@@ -118,10 +120,9 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("sim", options.sim);
   f.section("replay", options.replay);
   f.section("loop", options.loop);
-  f.choice("estimator", options.estimator,
-           config::Choices<EstimatorType>{{"odometry", EstimatorType::kOdometry},
-                                          {"scan_match", EstimatorType::kScanMatch}});
+  f.choice("estimator", options.estimator, estimator_names());
   f.section("tracking", options.tracking);
+  f.section("slam", options.slam);
   f.section("occupancy", options.occupancy);
   f.section("goto", options.go);
   f.section("search", options.search);

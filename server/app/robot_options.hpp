@@ -15,6 +15,7 @@
 #include "server/drivers/sim/sim_devices.hpp"
 #include "server/net/server.hpp"
 #include "server/sim/robot_model.hpp"
+#include "server/slam/line_slam_params.hpp"
 #include "server/slam/scan_map_tracker.hpp"
 
 namespace seeker::app {
@@ -49,6 +50,7 @@ struct RobotOptions {
   LoopParams loop;
   EstimatorType estimator = EstimatorType::kScanMatch;
   slam::ScanMapParams tracking;  ///< its `odometry` part also drives pure dead reckoning
+  slam::LineSlamParams slam;
   nav::OccupancyParams occupancy;
   GotoParams go;
   SearchBehaviourParams search;

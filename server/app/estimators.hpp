@@ -1,0 +1,22 @@
+/// \file
+/// The estimators a robot file may name.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "server/app/robot_options.hpp"
+#include "server/slam/pose_tracker.hpp"
+
+namespace seeker::app {
+
+/// Names as in the field `estimator` of a robot file.
+[[nodiscard]] const std::vector<std::pair<std::string_view, EstimatorType>>& estimator_names();
+[[nodiscard]] std::string_view to_string(EstimatorType type);
+
+/// An estimator with the parameters of the robot file, at the origin of `map`.
+[[nodiscard]] std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotOptions& options);
+
+}  // namespace seeker::app

@@ -1,0 +1,118 @@
+#include "server/options/line_slam_options.hpp"
+
+#include "server/options/slam_options.hpp"
+
+namespace seeker::slam {
+
+void describe(config::Fields& f, PointNetParams& params) {
+  f.choice(
+      "use", params.use,
+      config::Choices<PointUse>{{"none", PointUse::kNone}, {"leftover", PointUse::kLeftover}, {"all", PointUse::kAll}});
+  f.section("normals", params.normals);
+  f.section("match", params.match);
+  f.section("cloud", params.cloud);
+  f.field("match_points", params.match_points);
+  f.field("good_ratio", params.good_ratio);
+  f.field("accept_ratio", params.accept_ratio);
+  f.field("gap_m", params.gap_m);
+  f.angle_deg("gap_deg", params.gap_rad);
+  f.field("new_space_ratio", params.new_space_ratio);
+  f.field("max_correction_m", params.max_correction_m);
+  f.angle_deg("max_correction_deg", params.max_correction_rad);
+  f.field("carried_keyframes", params.carried_keyframes);
+  f.field("map_sigma_m", params.map_sigma_m);
+  f.angle_deg("map_sigma_deg", params.map_sigma_rad);
+}
+
+void describe(config::Fields& f, LocalMapParams& params) {
+  f.field("max_way_m", params.max_way_m);
+  f.field("max_segments", params.max_segments);
+  f.field("keyframe_distance_m", params.keyframe_distance_m);
+  f.angle_deg("keyframe_turn_deg", params.keyframe_turn_rad);
+  f.field("joint_sigma_m", params.joint_sigma_m);
+  f.angle_deg("joint_sigma_deg", params.joint_sigma_rad);
+}
+
+void describe(config::Fields& f, LoopParams& params) {
+  f.field("window_sigmas", params.window_sigmas);
+  f.field("min_window_m", params.min_window_m);
+  f.field("max_window_m", params.max_window_m);
+  f.angle_deg("min_window_deg", params.min_window_rad);
+  f.angle_deg("max_window_deg", params.max_window_rad);
+  f.field("match_points", params.match_points);
+  f.field("min_inliers", params.min_inliers);
+  f.field("min_overlap", params.min_overlap);
+  f.field("min_consistency", params.min_consistency);
+  f.field("rival_consistency", params.rival_consistency);
+  f.field("sigma_floor_m", params.sigma_floor_m);
+  f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
+}
+
+void describe(config::Fields& f, LoopPolicy& params) {
+  f.section("detector", params.detector);
+  f.field("every_m", params.every_m);
+  f.field("max_distance_m", params.max_distance_m);
+  f.field("max_candidates", params.max_candidates);
+  f.field("query_keyframes", params.query_keyframes);
+  f.field("cached_places", params.cached_places);
+  f.field("surprise_chi2", params.surprise_chi2);
+  f.field("witnesses", params.witnesses);
+  f.field("max_pending", params.max_pending);
+  f.field("kernel_width", params.kernel_width);
+  f.field("moved_m", params.moved_m);
+  f.angle_deg("moved_deg", params.moved_rad);
+}
+
+void describe(config::Fields& f, JudgeParams& params) {
+  f.field("min_points", params.min_points);
+  f.field("min_inliers", params.min_inliers);
+  f.field("max_through", params.max_through);
+  f.field("min_support", params.min_support);
+  f.field("min_lead", params.min_lead);
+}
+
+void describe(config::Fields& f, RelocaliseParams& params) {
+  f.section("judge", params.place.judge);
+  f.field("every_m", params.every_m);
+  f.angle_deg("every_deg", params.every_rad);
+  f.field("every_scans", params.every_scans);
+  f.field("query_keyframes", params.query_keyframes);
+  f.field("hint_m", params.hint_m);
+  f.angle_deg("hint_deg", params.hint_rad);
+  f.field("witnesses", params.witnesses);
+  f.field("agree_m", params.agree_m);
+  f.angle_deg("agree_deg", params.agree_rad);
+  f.field("max_tries", params.max_tries);
+  f.field("joint_sigma_m", params.joint_sigma_m);
+  f.angle_deg("joint_sigma_deg", params.joint_sigma_rad);
+  f.field("lost_scans", params.lost_scans);
+}
+
+void describe(config::Fields& f, FusionParams& params) {
+  f.field("max_offset_m", params.max_offset_m);
+  f.angle_deg("max_angle_deg", params.max_angle_rad);
+  f.field("max_gap_m", params.max_gap_m);
+}
+
+void describe(config::Fields& f, LineSlamParams& params) {
+  f.section("odometry", params.odometry);
+  f.section("lines", params.lines);
+  f.section("points", params.points);
+  f.section("local", params.local);
+  f.section("loops", params.loops);
+  f.section("relocalise", params.relocalise);
+  f.section("fusion", params.fusion);
+  f.field("wall_sigma_m", params.observation.wall_sigma_m);
+  f.angle_deg("wall_sigma_deg", params.observation.wall_sigma_rad);
+  f.field("min_move_m", params.min_move_m);
+  f.angle_deg("min_turn_deg", params.min_turn_rad);
+  f.field("still_range_m", params.still_range_m);
+  f.field("still_share", params.still_share);
+  f.field("max_odometry_scale", params.max_odometry_scale);
+  f.field("odometry_scale_up", params.odometry_scale_up);
+  f.field("odometry_scale_down", params.odometry_scale_down);
+  f.field("lost_after", params.lost_after);
+  f.field("repeats_fault", params.repeats_fault);
+}
+
+}  // namespace seeker::slam
