@@ -177,7 +177,7 @@ Status LineSlam::update(const LaserScan& scan) {
   if (failures_ >= params_.relocalise.lost_scans && !backend_.apart()) {
     (void)relocalise(std::nullopt);
   } else if (backend_.apart()) {
-    look_for_robot(scan);
+    look_for_robot();
   }
   if (recording_) {
     poses_.push_back({scan.stamp, backend_.newest().id, lines_->robot()});

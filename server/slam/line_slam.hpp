@@ -80,7 +80,7 @@ class LineSlam final : public MapTracker {
   void store_local_map();
   [[nodiscard]] bool map_is_full() const;
   void start_local_map();
-  void look_for_robot(const LaserScan& scan);
+  void look_for_robot();
   [[nodiscard]] PlaceAnswer find_place() const;
   [[nodiscard]] bool is_confirmed(const Pose2& map_T_node);
   void settle(const PlaceAnswer& answer);
@@ -108,6 +108,7 @@ class LineSlam final : public MapTracker {
   // Looking for the robot in a map; place_ is there only meanwhile.
   PlaceRecogniser recogniser_;
   std::unique_ptr<PlaceMap> place_;
+  std::string search_cause_;
   std::optional<Pose2> hint_;  ///< map_T_base that somebody has named
   Pose2 last_try_;             ///< node_T_base
   int scans_since_try_ = 0;

@@ -10,6 +10,8 @@
 namespace seeker::slam {
 namespace {
 
+constexpr const char* kLooking = "looking for the robot in the map";
+
 seeker::MapSegment to_value(const SpMap& map, const MapSegment& segment, std::uint32_t node, std::uint64_t id_base,
                             RobotTime now) {
   seeker::MapSegment value;
@@ -102,17 +104,17 @@ Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
   tries_ = 0;
   scans_since_try_ = params_.relocalise.every_scans;  // the next scan is a try
   quality_ = LocalisationQuality::kUnknown;
-  cause_ = "looking for the robot in the map";
+  search_cause_ = kLooking;
+  cause_ = search_cause_;
   ++revision_;
   return {};
 }
 
-void LineSlam::look_for_robot(const LaserScan& /*scan*/) {
+void LineSlam::look_for_robot() {
+  // What follow() thinks of the pose is about the local map alone.
   const bool lost = tries_ >= params_.relocalise.max_tries;
-  if (!lost) {
-    quality_ = LocalisationQuality::kUnknown;
-    cause_ = "looking for the robot in the map";
-  }
+  quality_ = lost ? LocalisationQuality::kLost : LocalisationQuality::kUnknown;
+  cause_ = search_cause_;
   const bool fresh = ++scans_since_try_ >= params_.relocalise.every_scans ||
                      moved(last_try_, lines_->robot(), params_.relocalise.every_m, params_.relocalise.every_rad);
   if (!fresh || backend_.newest().keyframes.empty()) {
@@ -124,8 +126,7 @@ void LineSlam::look_for_robot(const LaserScan& /*scan*/) {
   if (!place_) {
     Result<PlaceMap> built = PlaceMap::build(backend_.seen(), params_.loops.place);
     if (!built) {
-      quality_ = LocalisationQuality::kLost;
-      cause_ = "the map cannot be searched: " + built.error().message;
+      search_cause_ = "the map cannot be searched: " + built.error().message;
       return;
     }
     place_ = std::make_unique<PlaceMap>(*std::move(built));
@@ -176,9 +177,10 @@ void LineSlam::settle(const PlaceAnswer& answer) {
     return;
   }
   const bool lost = tries_ >= params_.relocalise.max_tries;
+  search_cause_ =
+      (lost ? "the robot was not found in the map: " : kLooking + std::string(": ")) + std::string(answer.reason);
   quality_ = lost ? LocalisationQuality::kLost : LocalisationQuality::kUnknown;
-  cause_ = (lost ? "the robot was not found in the map: " : "looking for the robot in the map: ") +
-           std::string(answer.reason);
+  cause_ = search_cause_;
 }
 
 void LineSlam::for_each_scan(const std::function<void(const LaserScan&, const Pose2&)>& visit) const {

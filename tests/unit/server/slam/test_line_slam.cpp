@@ -1,0 +1,250 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include "rooms.hpp"
+#include "server/slam/line_slam.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace seeker::slam {
+namespace {
+
+using testing::Pose2Near;
+
+/// A ring of corridors of 2 m round a block of 12 x 8 m, with three alcoves that tell its sides apart.
+std::vector<Wall> ring() {
+  std::vector<Wall> walls = box(0.0, 0.0, 16.0, 12.0);
+  const auto block = box(2.0, 2.0, 14.0, 10.0);
+  walls.insert(walls.end(), block.begin(), block.end());
+  for (const auto& piece :
+       {box(4.0, 0.0, 4.6, 0.4), box(15.5, 5.0, 16.0, 6.2), box(9.0, 11.6, 10.0, 12.0), box(0.0, 7.0, 0.3, 8.5)}) {
+    walls.insert(walls.end(), piece.begin(), piece.end());
+  }
+  return walls;
+}
+
+/// A robot on a round trip through the ring; its wheels say 3 % too much and drift to the left.
+class Trip {
+ public:
+  explicit Trip(std::uint64_t seed, const Pose2& start = {3.0, 1.0, 0.0}) : rng_(seed), truth_(start), start_(start) {}
+
+  /// Drives towards the next corner of the ring.
+  void step() {
+    static const std::array<Point2, 4> kCorners{Point2(15.0, 1.0), Point2(15.0, 11.0), Point2(1.0, 11.0),
+                                                Point2(1.0, 1.0)};
+    if ((kCorners.at(corner_) - truth_.translation()).norm() < 0.5) {
+      corner_ = (corner_ + 1) % kCorners.size();
+    }
+    const double turn = std::clamp(bearing_to(truth_, kCorners.at(corner_)), -0.6, 0.6);
+    move(integrate({std::abs(turn) > 0.4 ? 0.1 : 0.5, turn}, kTick_s));
+  }
+  void move(const Pose2& motion) {
+    truth_ = truth_ * motion;
+    odom_ = odom_ * Pose2{1.03 * motion.x_m + rng_.normal(0.002), motion.y_m,
+                          motion.theta_rad + 0.01 * motion.x_m + rng_.normal(0.002)};
+    way_m_ += std::hypot(motion.x_m, motion.y_m);
+    time_s_ += kTick_s;
+  }
+  Status feed(LineSlam& slam) {
+    const Status predicted = slam.predict(odom_, robot_time_s(time_s_));
+    return predicted ? slam.update(scan()) : predicted;
+  }
+  [[nodiscard]] LaserScan scan() { return scan_at(walls_, truth_, time_s_, rng_); }
+  [[nodiscard]] const Pose2& truth() const { return truth_; }
+  [[nodiscard]] const Pose2& odom() const { return odom_; }
+  [[nodiscard]] double way_m() const { return way_m_; }
+  [[nodiscard]] RobotTime time() const { return robot_time_s(time_s_); }
+
+  static constexpr double kTick_s = 0.1;
+
+ private:
+  Rng rng_;
+  std::vector<Wall> walls_ = ring();
+  Pose2 truth_;
+  Pose2 start_;
+  Pose2 odom_;
+  std::size_t corner_ = 0;
+  double way_m_ = 0.0;
+  double time_s_ = 0.0;
+};
+
+void drive(Trip& trip, LineSlam& slam, double way_m) {
+  const double end_m = trip.way_m() + way_m;
+  while (trip.way_m() < end_m) {
+    ASSERT_TRUE(trip.feed(slam));
+    trip.step();
+  }
+}
+
+bool is_positive_definite(const Matrix3& m) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(m);
+  return m.isApprox(m.transpose(), 1e-9) && eigen.eigenvalues()[0] > 0.0;
+}
+
+TEST(LineSlam, ClosesTheLoopOfARing) {
+  Trip trip(3);
+  LineSlam slam({}, trip.truth());
+  double worst_m = 0.0;
+  for (int round = 0; round < 26; ++round) {  // 104 m: two rounds
+    ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 4.0));
+    worst_m = std::max(worst_m, distance_m(slam.estimate().map_T_base, trip.truth()));
+  }
+  EXPECT_GT(slam.loops().closed, 0);
+  EXPECT_GT(slam.estimate().map_epoch, 0U);
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.1);
+  EXPECT_LT(worst_m, 0.35) << "before the loop was closed";
+  EXPECT_GT(distance_m(Pose2{3.0, 1.0, 0.0} * trip.odom(), trip.truth()), 2.0) << "the wheels alone";
+}
+
+TEST(LineSlam, MapsEachWallOnce) {
+  Trip trip(4);
+  LineSlam slam({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 110.0));
+  const std::vector<seeker::MapSegment> segments = slam.segments();
+  double mapped_m = 0.0;
+  double off_m = 0.0;
+  for (const seeker::MapSegment& segment : segments) {
+    mapped_m += segment.length_m;
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b] : ring()) {
+      const Point2 along = (b - a).normalized();
+      const Point2 from_a = segment.map_T_segment.translation() - a;
+      const double s = std::clamp(from_a.dot(along), 0.0, (b - a).norm());
+      nearest_m = std::min(nearest_m, (from_a - s * along).norm());
+    }
+    off_m += segment.length_m * nearest_m;
+  }
+  EXPECT_LT(off_m / mapped_m, 0.05) << "mean distance of mapped walls from true ones";
+  const double walls_m = 56.0 + 40.0;  // outer and inner walls
+  EXPECT_GT(mapped_m, 0.85 * walls_m);
+  EXPECT_LT(mapped_m, 1.3 * walls_m) << "two rounds must not map the walls twice";
+}
+
+TEST(LineSlam, TypedFaultsLeaveTheEstimateUsable) {
+  Trip trip(5);
+  LineSlam slam({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 3.0));
+  LaserScan scan = trip.scan();
+  EXPECT_EQ(slam.predict({NAN, 0.0, 0.0}, trip.time()).error().code, Errc::kInvalidArgument);
+  scan.ranges_m[3] = NAN;
+  EXPECT_EQ(slam.update(scan).error().code, Errc::kInvalidArgument);
+  scan.ranges_m.assign(361, kNoReturn);
+  EXPECT_EQ(slam.update(scan).error().code, Errc::kNotReady) << "all out of range";
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kDegraded);
+  EXPECT_EQ(slam.update(scan).error().code, Errc::kInvalidArgument) << "the same stamp again";
+  trip.step();
+  ASSERT_TRUE(trip.feed(slam));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised);
+  EXPECT_TRUE(is_positive_definite(slam.estimate().covariance));
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.1);
+}
+
+TEST(LineSlam, ReportsALaserThatRepeatsItself) {
+  Trip trip(6);
+  LineSlam slam({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 2.0));
+  LaserScan frozen = trip.scan();
+  Status last;
+  for (int k = 0; k < 8; ++k) {
+    trip.step();
+    ASSERT_TRUE(slam.predict(trip.odom(), trip.time()));
+    frozen.stamp = trip.time();
+    last = slam.update(frozen);
+  }
+  ASSERT_FALSE(last);
+  EXPECT_EQ(last.error().code, Errc::kInvalidArgument);
+  EXPECT_NE(last.error().message.find("repeats"), std::string::npos);
+}
+
+TEST(LineSlam, AJumpOfTheOdometryIsPutRight) {
+  Trip trip(7);
+  LineSlam slam({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 3.0));
+  trip.step();
+  EXPECT_FALSE(slam.predict(trip.odom() * Pose2{5.0, 0.0, 0.0}, trip.time()));
+  ASSERT_TRUE(slam.update(trip.scan()));
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.15);
+}
+
+TEST(LineSlam, SaysDegradedInACorridorAndHoldsOnlyWhatItSees) {
+  const std::vector<Wall> walls{{{-50.0, 0.0}, {50.0, 0.0}}, {{50.0, 2.0}, {-50.0, 2.0}}};
+  Rng rng(8);
+  LineSlam slam({}, {0.0, 1.0, 0.0});
+  double x_m = 0.0;
+  for (int k = 0; k < 40; ++k, x_m += 0.1) {
+    ASSERT_TRUE(slam.predict({x_m, 0.0, 0.0}, robot_time_s(0.1 * k)));
+    (void)slam.update(scan_at(walls, {x_m, 1.0, 0.0}, 0.1 * k, rng, kPi, 8.0));
+  }
+  const PoseEstimate estimate = slam.estimate();
+  EXPECT_EQ(estimate.quality, LocalisationQuality::kDegraded);
+  EXPECT_NE(estimate.cause.find("corridor"), std::string::npos);
+  EXPECT_GT(estimate.covariance(0, 0), 4.0 * estimate.covariance(1, 1)) << "along against across";
+}
+
+TEST(LineSlam, FindsTheRobotInALoadedMapWithoutAHint) {
+  Trip first(9);
+  LineSlam mapper({}, first.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(first, mapper, 60.0));
+  const LineMap map = mapper.map();
+  ASSERT_TRUE(validate(map));
+
+  Trip second(10, {15.0, 3.0, 1.4});
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(map, MapUse::kLocalise));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown) << "never a pose that nobody measured";
+  for (int metre = 0; metre < 10 && slam.estimate().quality == LocalisationQuality::kUnknown; ++metre) {
+    ASSERT_NO_FATAL_FAILURE(drive(second, slam, 1.0));
+  }
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  ASSERT_NO_FATAL_FAILURE(drive(second, slam, 15.0));
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, second.truth()), 0.2);
+  EXPECT_EQ(slam.map().keyframes, map.keyframes) << "localising never writes the map";
+  EXPECT_EQ(slam.map().nodes.size(), map.nodes.size());
+}
+
+TEST(LineSlam, ContinuesALoadedMap) {
+  Trip trip(11);
+  LineSlam mapper({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, mapper, 20.0));
+  const LineMap map = mapper.map();
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(map, MapUse::kContinue));
+  ASSERT_TRUE(slam.relocalise(trip.truth()));
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 30.0));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_GT(slam.map().keyframes.size(), map.keyframes.size() + 20U);
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.3);
+  EXPECT_TRUE(validate(slam.map()));
+}
+
+TEST(LineSlam, IsLostInTheMapOfAnotherBuilding) {
+  Trip trip(12);
+  LineSlam mapper({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, mapper, 30.0));
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kLocalise));
+  const std::vector<Wall> elsewhere = furnished_room();
+  Rng rng(13);
+  Pose2 truth{2.5, 2.2, 0.0};
+  for (int k = 0; k < 400; ++k) {
+    ASSERT_TRUE(slam.predict(truth, robot_time_s(0.1 * k)));
+    ASSERT_TRUE(slam.update(scan_at(elsewhere, truth, 0.1 * k, rng)));
+    ASSERT_NE(slam.estimate().quality, LocalisationQuality::kLocalised) << "step " << k;
+    truth = truth * integrate({0.4, 0.28}, 0.1);
+  }
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLost);
+  EXPECT_FALSE(slam.estimate().cause.empty());
+}
+
+TEST(LineSlam, RefusesAMapWithNothingToFind) {
+  LineSlam slam;
+  EXPECT_EQ(slam.load({}, MapUse::kLocalise).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(slam.relocalise(std::nullopt).error().code, Errc::kNotReady);
+  EXPECT_EQ(slam.relocalise(Pose2{NAN, 0.0, 0.0}).error().code, Errc::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace seeker::slam
