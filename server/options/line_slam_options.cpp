@@ -1,5 +1,6 @@
 #include "server/options/line_slam_options.hpp"
 
+#include "server/options/lines_options.hpp"
 #include "server/options/slam_options.hpp"
 
 namespace seeker::slam {
@@ -64,11 +65,12 @@ void describe(config::Fields& f, LoopPolicy& params) {
 }
 
 void describe(config::Fields& f, JudgeParams& params) {
-  f.field("min_points", params.min_points);
-  f.field("min_inliers", params.min_inliers);
+  f.field("min_fit", params.min_fit);
+  f.field("min_standing", params.min_standing);
   f.field("max_through", params.max_through);
-  f.field("min_support", params.min_support);
+  f.field("refuted", params.refuted);
   f.field("min_lead", params.min_lead);
+  f.field("min_lead_cells", params.min_lead_cells);
 }
 
 void describe(config::Fields& f, RelocaliseParams& params) {
@@ -79,7 +81,6 @@ void describe(config::Fields& f, RelocaliseParams& params) {
   f.field("query_keyframes", params.query_keyframes);
   f.field("hint_m", params.hint_m);
   f.angle_deg("hint_deg", params.hint_rad);
-  f.field("min_score", params.min_score);
   f.field("witnesses", params.witnesses);
   f.field("agree_m", params.agree_m);
   f.angle_deg("agree_deg", params.agree_rad);
@@ -97,14 +98,14 @@ void describe(config::Fields& f, FusionParams& params) {
 
 void describe(config::Fields& f, LineSlamParams& params) {
   f.section("odometry", params.odometry);
+  f.section("extractor", params.extractor);
+  f.section("observation", params.observation);
   f.section("lines", params.lines);
   f.section("points", params.points);
   f.section("local", params.local);
   f.section("loops", params.loops);
   f.section("relocalise", params.relocalise);
   f.section("fusion", params.fusion);
-  f.field("wall_sigma_m", params.observation.wall_sigma_m);
-  f.angle_deg("wall_sigma_deg", params.observation.wall_sigma_rad);
   f.field("min_move_m", params.min_move_m);
   f.angle_deg("min_turn_deg", params.min_turn_rad);
   f.field("still_range_m", params.still_range_m);

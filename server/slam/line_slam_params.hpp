@@ -71,8 +71,7 @@ struct LoopPolicy {
 
 /// Finding the robot in a map it was not followed in.
 struct RelocaliseParams {
-  /// Stricter than for one question: corridors of other buildings fit with a lead of up to 0.2.
-  PlaceParams place{.search = {}, .match = {}, .agreement = {}, .judge = {.min_inliers = 0.75, .min_lead = 0.25}};
+  PlaceParams place;
   double every_m = 0.4;              ///< looked for after so much way,
   double every_rad = 0.5;            ///< or turn,
   int every_scans = 20;              ///< or so many scans
