@@ -13,6 +13,9 @@ constexpr double kMinCosine = 0.05;
 /// ... and here, where the line itself is uncertain, not any better than this.
 constexpr double kMinCosineOfFit = 0.3;
 
+/// Splitting ends at pieces of fewer points: any three are nearly a line.
+constexpr int kMinPiece = 4;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Array = Eigen::Map<const Eigen::ArrayXf>;
@@ -50,8 +53,14 @@ FastExtractor::Piece FastExtractor::piece(int first, int last) const {
           .last = last,
           .points = last - first + 1,
           .sums = sums_[at(last + 1)] - sums_[at(first)],
+          .across_m2 = 0.0,
           .fit = {}};
-  p.fit = fit_line(p.sums);
+  if (p.points >= kMinPiece) {
+    p.fit = fit_line(p.sums);
+    p.across_m2 = p.fit.across_m2;
+  } else if (p.points > 2) {
+    p.across_m2 = across_of(p.sums);
+  }
   return p;
 }
 
@@ -86,10 +95,9 @@ bool FastExtractor::is_near(const LineFit& fit, int first, int last, double sigm
   return excess.maxCoeff() <= k2 * static_cast<float>(slack);
 }
 
-bool FastExtractor::is_one_line(double across_m2, const Moments& a, const Moments& b, double points,
-                                double variance_m2) const {
-  const double gained_m2 = (across_m2 - across_of(a) - across_of(b)) / (a.w + b.w);
-  return gained_m2 <= params_.bend_chi2 * variance_m2 / points + params_.straightness_m * params_.straightness_m;
+bool FastExtractor::is_one_line(double across_m2, double parts_m2, double w, double points, double variance_m2) const {
+  return (across_m2 - parts_m2) / w <=
+         params_.bend_chi2 * variance_m2 / points + params_.straightness_m * params_.straightness_m;
 }
 
 bool FastExtractor::is_line(const Piece& whole) const {
@@ -113,7 +121,8 @@ bool FastExtractor::is_line(const Piece& whole) const {
   for (const int quarter : {1, 2, 3}) {
     const int corner = whole.first + std::max(kMinHalf, quarter * whole.points / 4);
     const Moments before = sums_[at(corner)] - sums_[at(whole.first)];
-    if (!is_one_line(whole.fit.across_m2, before, whole.sums - before, n, variance)) {
+    const double parts = across_of(before) + across_of(whole.sums - before);
+    if (!is_one_line(whole.across_m2, parts, whole.sums.w, n, variance)) {
       return false;
     }
   }
@@ -140,7 +149,7 @@ void FastExtractor::split(int first, int last) {
     const auto [a, b] = stack_.back();
     stack_.pop_back();
     const Piece whole = piece(a, b);
-    if (b - a < 2 || is_line(whole)) {
+    if (whole.points < kMinPiece || is_line(whole)) {
       pieces_.push_back(whole);
       continue;
     }
@@ -153,12 +162,17 @@ void FastExtractor::split(int first, int last) {
 void FastExtractor::split_groups() {
   pieces_.clear();
   const auto count = static_cast<int>(x_.size());
-  const auto gap2 = static_cast<float>(params_.max_gap_m * params_.max_gap_m);
   int first = start_;
+  if (count - start_ > 1) {
+    const Eigen::Index n = count - start_ - 1;
+    const auto x = run(x_, start_, count - 1);
+    const auto y = run(y_, start_, count - 1);
+    gap2_m2_ = (x.tail(n) - x.head(n)).square() + (y.tail(n) - y.head(n)).square();
+  }
+  // Most neighbours are neither far apart nor is a beam missing between them.
+  const auto gap2 = static_cast<float>(params_.max_gap_m * params_.max_gap_m);
   for (int i = start_ + 1; i < count; ++i) {
-    const float dx = x_[at(i)] - x_[at(i - 1)];
-    const float dy = y_[at(i)] - y_[at(i - 1)];
-    const bool close = dx * dx + dy * dy <= gap2 && rank_[at(i)] - rank_[at(i - 1)] == 1;
+    const bool close = gap2_m2_[i - start_ - 1] <= gap2 && rank_[at(i)] - rank_[at(i - 1)] == 1;
     if (!close && breaks_before(i)) {
       split(first, i - 1);
       first = i;
@@ -175,10 +189,15 @@ bool FastExtractor::absorb(Piece& piece, const Piece& next) {
     return false;
   }
   const Moments sums = piece.sums + next.sums;
-  const LineFit fit = fit_line(sums);
   const int points = piece.points + next.points;
-  const double variance = mean_variance(fit, piece.first, next.last);
-  if (!is_one_line(fit.across_m2, piece.sums, next.sums, points, variance) ||
+  const double parts = piece.across_m2 + next.across_m2;
+  const double across = across_of(sums);
+  // First with more noise than any return has, which needs no fit.
+  if (!is_one_line(across, parts, sums.w, points, (1.0 + kMinCosineOfFit * kMinCosineOfFit) * max_variance_m2_)) {
+    return false;
+  }
+  const LineFit fit = fit_line(sums);
+  if (!is_one_line(across, parts, sums.w, points, mean_variance(fit, piece.first, next.last)) ||
       !is_near(fit, piece.first, piece.last, params_.merge_sigmas) ||
       !is_near(fit, next.first, next.last, params_.merge_sigmas)) {
     return false;
@@ -189,7 +208,7 @@ bool FastExtractor::absorb(Piece& piece, const Piece& next) {
     x_[at(i)] = x_[at(piece.last)];
     y_[at(i)] = y_[at(piece.last)];
   }
-  piece = {piece.first, next.last, points, sums, fit};
+  piece = {piece.first, next.last, points, sums, across, fit};
   return true;
 }
 
@@ -230,16 +249,15 @@ void FastExtractor::move_corner(Piece& from, Piece& to, int i) {
 }
 
 bool FastExtractor::settle_corner(Piece& a, Piece& b) {
-  constexpr int kMinPoints = 3;
-  if (a.last + 1 != b.first || a.points <= kMinPoints || b.points <= kMinPoints) {
+  if (a.last + 1 != b.first || a.points < kMinPiece || b.points < kMinPiece) {
     return false;
   }
   const int corner = b.first;
-  while (a.points > kMinPoints && range_residual2(b.fit, a.last) < range_residual2(a.fit, a.last)) {
+  while (a.points >= kMinPiece && range_residual2(b.fit, a.last) < range_residual2(a.fit, a.last)) {
     move_corner(a, b, a.last--);
     --b.first;
   }
-  while (b.first >= corner && b.points > kMinPoints &&
+  while (b.first >= corner && b.points >= kMinPiece &&
          range_residual2(a.fit, b.first) < range_residual2(b.fit, b.first)) {
     move_corner(b, a, b.first++);
     ++a.last;
@@ -310,6 +328,22 @@ void FastExtractor::finish(const LaserScan& scan, const Piece& piece, Line& line
   line.points = piece.points;
 }
 
+void FastExtractor::mark_beams(const Piece& piece, std::int32_t line, ScanLines& found) const {
+  const std::size_t first = beam_of(clockwise_ ? piece.last : piece.first);
+  const std::size_t last = beam_of(clockwise_ ? piece.first : piece.last);
+  const auto beams = static_cast<std::size_t>(piece.points);
+  // Without holes, outliers and the cut within it is one run of beams.
+  if (last >= first && last - first + 1 == beams) {
+    std::fill_n(found.line_of_beam.begin() + static_cast<std::ptrdiff_t>(first), beams, line);
+    return;
+  }
+  for (int i = piece.first; i <= piece.last; ++i) {
+    if (weight_[at(i)] > 0.0F) {
+      found.line_of_beam[beam_of(i)] = line;
+    }
+  }
+}
+
 void FastExtractor::write(const LaserScan& scan, ScanLines& found) {
   const auto turn = static_cast<std::int32_t>(beams_);
   const auto beyond_cut = [&](const Piece& piece) { return rank_[at(piece.first)] >= turn; };
@@ -317,16 +351,11 @@ void FastExtractor::write(const LaserScan& scan, ScanLines& found) {
   constexpr double kShortest_m = 1e-3;
   const double min_length_m = std::max(params_.min_length_m, kShortest_m);
   for (const Piece& piece : merged_) {
-    if (piece.points < std::max(params_.min_points, 3) ||
+    if (piece.points < std::max(params_.min_points, kMinPiece) ||
         (point(piece.last) - point(piece.first)).squaredNorm() < min_length_m * min_length_m) {
       continue;
     }
-    const auto index = static_cast<std::int32_t>(found.lines.size());
-    for (int i = piece.first; i <= piece.last; ++i) {
-      if (weight_[at(i)] > 0.0F) {
-        found.line_of_beam[beam_of(i)] = index;
-      }
-    }
+    mark_beams(piece, static_cast<std::int32_t>(found.lines.size()), found);
     finish(scan, piece, found.lines.emplace_back());
   }
 }

@@ -26,7 +26,7 @@ struct FastParams {
   double bend_chi2 = 16.0;         ///< two parts are one line unless two lines explain them better than by this
   double max_merge_gap_m = 0.2;    ///< ends of two pieces of one line are not farther apart (spec S5.6)
   double inflation_sigmas = 2.0;   ///< the covariance grows with a mean square that is over the noise by more than this
-  int max_outliers = 2;            ///< so many points between two pieces of one line are left out
+  int max_outliers = 3;            ///< so many points between two pieces of one line are left out
   int min_points = 8;              ///< of a line (spec S1.4 step 2d)
   double min_length_m = 0.3;
   double min_range_m = 0.05;  ///< nearer returns are not believed, whatever the scanner says
@@ -53,11 +53,14 @@ class FastExtractor {
     int last = 0;
     int points = 0;
     Moments sums;
-    LineFit fit;
+    double across_m2 = 0.0;  ///< LineFit::across_m2
+    LineFit fit;             ///< of pieces that are lines; fragments have none
   };
 
   void use_geometry(const LaserScan& scan);
   void load(const LaserScan& scan);
+  /// load() of a scan whose beams all returned; false for others.
+  [[nodiscard]] bool load_all(const LaserScan& scan, float low, float high);
   void open_circle();
   [[nodiscard]] int widest_gap(int count) const;
   [[nodiscard]] bool breaks_before(int i) const;
@@ -67,8 +70,7 @@ class FastExtractor {
   [[nodiscard]] bool is_line(const Piece& whole) const;
   [[nodiscard]] bool is_near(const LineFit& fit, int first, int last, double sigmas) const;
   [[nodiscard]] double mean_variance(const LineFit& fit, int first, int last) const;
-  [[nodiscard]] bool is_one_line(double across_m2, const Moments& a, const Moments& b, double points,
-                                 double variance_m2) const;
+  [[nodiscard]] bool is_one_line(double across_m2, double parts_m2, double w, double points, double variance_m2) const;
   [[nodiscard]] int farthest_from_chord(int first, int last) const;
   [[nodiscard]] Point2 point(int i) const;
   [[nodiscard]] Piece piece(int first, int last) const;
@@ -80,6 +82,7 @@ class FastExtractor {
   [[nodiscard]] double range_residual2(const LineFit& fit, int i) const;
   [[nodiscard]] NoiseSums noise_of(const Piece& piece);
   void finish(const LaserScan& scan, const Piece& piece, Line& line);
+  void mark_beams(const Piece& piece, std::int32_t line, ScanLines& found) const;
   void write(const LaserScan& scan, ScanLines& found);
   [[nodiscard]] std::size_t rank_in_circle(int i) const;
   [[nodiscard]] std::size_t beam_of(int i) const;
@@ -98,6 +101,7 @@ class FastExtractor {
   bool even_seam_ = false;  ///< the step over the cut is like any other
   std::vector<float> cos_;
   std::vector<float> sin_;
+  std::vector<std::int32_t> all_ranks_;  ///< 0, 1, 2 ...
   // The returns of the scan, counter-clockwise; on a full circle those before start_ once more behind the last.
   int start_ = 0;
   std::vector<std::int32_t> rank_;  ///< beam, counted counter-clockwise; goes on beyond the cut
@@ -111,7 +115,8 @@ class FastExtractor {
   std::vector<Piece> pieces_;
   std::vector<Piece> merged_;
   std::vector<std::pair<int, int>> stack_;
-  Eigen::ArrayXf along_;  ///< scratch of noise_of()
+  Eigen::ArrayXf gap2_m2_;  ///< squared distance of each return of the row from the next
+  Eigen::ArrayXf along_;    ///< scratch of noise_of()
   Eigen::ArrayXf weighted_;
   double max_variance_m2_ = 0.0;  ///< of any return of the scan
 };

@@ -10,8 +10,8 @@
 namespace seeker::lines {
 namespace {
 
-/// Bins of the histograms are the leading bits of a float: 4 bins an octave, the first at 2^-28 m^2 = (0.06 mm)^2.
-constexpr unsigned kBinShift = 21U;
+/// Bins of the histograms are the leading bits of a float: 2 bins an octave, the first at 2^-28 m^2 = (0.06 mm)^2.
+constexpr unsigned kBinShift = 22U;
 constexpr std::uint32_t kFirstBin = (127U - 28U) << (23U - kBinShift);
 /// Range octaves begin at 0.25 m.
 constexpr std::uint32_t kFirstOctave = 127U - 2U;
@@ -21,8 +21,9 @@ double bin_edge(std::size_t bin) {
   return static_cast<double>(std::bit_cast<float>((kFirstBin + static_cast<std::uint32_t>(bin)) << kBinShift));
 }
 
-std::size_t clamp_index(std::int64_t index, std::size_t count) {
-  return static_cast<std::size_t>(std::clamp<std::int64_t>(index, 0, static_cast<std::int64_t>(count) - 1));
+/// `value - first` within 0 .. count - 1.
+std::size_t clamp_index(std::uint32_t value, std::uint32_t first, std::size_t count) {
+  return std::min<std::size_t>(value > first ? value - first : 0U, count - 1);
 }
 
 }  // namespace
@@ -98,7 +99,7 @@ double NoiseEstimator::robust_variance(const Octave& octave) {
     const double share = octave.bins[bin] > 0 ? left / octave.bins[bin] : 0.0;
     variance = (low + share * (bin_edge(bin + 1) - low)) / kMedianOfChi2;
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(kOutlier * variance)) >> kBinShift;
-    limit = 1 + clamp_index(static_cast<std::int64_t>(bits) - kFirstBin, kBins);
+    limit = 1 + clamp_index(bits, kFirstBin, kBins);
   }
   return variance;
 }
@@ -149,30 +150,34 @@ RangeNoise NoiseEstimator::estimate(std::span<const float> ranges_m, std::span<c
   }
   octaves_.fill(Octave{});
   // Neighbours are mostly in the same octave: its sums stay in registers.
-  std::size_t current = 0;
+  Octave* octave = octaves_.data();
+  float low_m = 0.0F;
+  float high_m = 0.0F;
   int count = 0;
   double range2 = 0.0;
   const auto put_down = [&] {
-    octaves_[current].count += count;
-    octaves_[current].range2_m2 += range2;
+    octave->count += count;
+    octave->range2_m2 += range2;
     count = 0;
     range2 = 0.0;
   };
   for (std::size_t i = 0; i < squares_m2.size(); ++i) {
+    const float square = squares_m2[i];
     // Corners and unknowns: nothing above 1 m is noise.
-    if (!(squares_m2[i] < 1.0F)) {
+    if (!(square < 1.0F)) {
       continue;
     }
-    const auto exponent = std::bit_cast<std::uint32_t>(ranges_m[i]) >> 23U;
-    const std::size_t octave = clamp_index(static_cast<std::int64_t>(exponent) - kFirstOctave, kOctaves);
-    if (octave != current) {
+    const float range = ranges_m[i];
+    if (!(range >= low_m && range < high_m)) {
       put_down();
-      current = octave;
+      const std::uint32_t exponent = std::bit_cast<std::uint32_t>(range) >> 23U;
+      octave = &octaves_[clamp_index(exponent, kFirstOctave, kOctaves)];
+      low_m = std::bit_cast<float>(exponent << 23U);
+      high_m = 2.0F * low_m;
     }
-    const auto bits = std::bit_cast<std::uint32_t>(squares_m2[i]) >> kBinShift;
-    ++octaves_[octave].bins[clamp_index(static_cast<std::int64_t>(bits) - kFirstBin, kBins)];
+    ++octave->bins[clamp_index(std::bit_cast<std::uint32_t>(square) >> kBinShift, kFirstBin, kBins)];
     ++count;
-    range2 += static_cast<double>(ranges_m[i] * ranges_m[i]);
+    range2 += static_cast<double>(range * range);
   }
   put_down();
   return fit_law(params);

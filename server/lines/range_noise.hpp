@@ -49,7 +49,7 @@ class NoiseEstimator {
  private:
   /// Histograms of log2(square), by octave of range.
   static constexpr std::size_t kOctaves = 8;
-  static constexpr std::size_t kBins = 128;
+  static constexpr std::size_t kBins = 64;
   struct Octave {
     std::array<std::uint16_t, kBins> bins{};
     int count = 0;

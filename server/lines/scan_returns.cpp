@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "server/lines/fast_extractor.hpp"
 #include "server/lines/scan_circle.hpp"
@@ -32,11 +33,28 @@ void FastExtractor::use_geometry(const LaserScan& scan) {
     cos_[k] = static_cast<float>(std::cos(angle_rad));
     sin_[k] = static_cast<float>(std::sin(angle_rad));
   }
+  all_ranks_.resize(n);
+  std::iota(all_ranks_.begin(), all_ranks_.end(), 0);
   const double step = std::abs(step_rad_);
   cos_step_ = std::cos(step);
   sin_step_ = std::max(std::sin(step), kSmallestStep);
   full_circle_ = circle_of(scan).closed;
   even_seam_ = circle_of(scan).even;
+}
+
+bool FastExtractor::load_all(const LaserScan& scan, float low, float high) {
+  const auto n = static_cast<Eigen::Index>(scan.ranges_m.size());
+  const Eigen::Map<const Eigen::ArrayXf> ranges(scan.ranges_m.data(), n);
+  // What is not a number stays, and is not within the limits.
+  if (n == 0 || !(ranges.minCoeff<Eigen::PropagateNaN>() >= low && ranges.maxCoeff<Eigen::PropagateNaN>() <= high)) {
+    return false;
+  }
+  std::copy(scan.ranges_m.begin(), scan.ranges_m.end(), range_.begin());
+  std::copy(all_ranks_.begin(), all_ranks_.end(), rank_.begin());
+  Eigen::Map<Eigen::ArrayXf>(weight_.data(), n).setOnes();
+  Eigen::Map<Eigen::ArrayXf>(x_.data(), n) = ranges * Eigen::Map<const Eigen::ArrayXf>(cos_.data(), n);
+  Eigen::Map<Eigen::ArrayXf>(y_.data(), n) = ranges * Eigen::Map<const Eigen::ArrayXf>(sin_.data(), n);
+  return true;
 }
 
 void FastExtractor::load(const LaserScan& scan) {
@@ -50,6 +68,9 @@ void FastExtractor::load(const LaserScan& scan) {
   limit = params_.max_range_m > 0.0 ? std::min(limit, params_.max_range_m) : limit;
   const auto high = static_cast<float>(limit);
   const bool graded = !scan.quality.empty();
+  if (!clockwise_ && !graded && load_all(scan, low, high)) {
+    return;
+  }
   std::size_t m = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t beam = clockwise_ ? n - 1 - k : k;

@@ -35,7 +35,7 @@ void describe(config::Fields& f, FastParams& params) {
   f.field("min_length_m", params.min_length_m);
   f.field("min_range_m", params.min_range_m);
   f.field("max_range_m", params.max_range_m);
-  f.check("min_points", params.min_points >= 3, "a line has at least 3 points");
+  f.check("min_points", params.min_points >= 4, "a line has at least 4 points");
   f.check("split_sigmas", params.split_sigmas > 0.0, "must be positive");
 }
 
