@@ -55,6 +55,7 @@ void describe(config::Fields& f, LoopPolicy& params) {
   f.field("max_distance_m", params.max_distance_m);
   f.field("max_candidates", params.max_candidates);
   f.field("query_keyframes", params.query_keyframes);
+  f.field("view_range_m", params.view_range_m);
   f.field("cached_places", params.cached_places);
   f.field("surprise_chi2", params.surprise_chi2);
   f.field("witnesses", params.witnesses);

@@ -143,7 +143,8 @@ PlaceAnswer LineSlam::find_place() const {
     const Pose2 base_T_other = base_T_node * (newest_T_map * backend_.pose(maps[k].id));
     const std::vector<MapKeyframe>& keyframes = maps[k].keyframes;
     for (std::size_t i = keyframes.size(); i-- > 0 && seen.size() < params_.relocalise.query_keyframes;) {
-      seen.push_back(transform(base_T_other * keyframes[i].node_T_base, seen_points(unpack_scan(keyframes[i]))));
+      seen.push_back(
+          transform(base_T_other * keyframes[i].node_T_base, view_of(keyframes[i], params_.loops.view_range_m)));
     }
   }
   std::optional<SearchWindow> window;

@@ -59,7 +59,9 @@ struct LoopPolicy {
   double max_distance_m = 4.0;      ///< between the robot and a keyframe of the other map, beside the uncertainty
   int max_candidates = 3;           ///< local maps looked at each time, nearest first
   std::size_t query_keyframes = 8;  ///< the newest ones, compared with a whole local map
-  std::size_t cached_places = 6;    ///< local maps that are kept ready for comparison
+  /// Points farther from their scanner are not compared: glimpses through doors make places large and tell little.
+  double view_range_m = 12.0;
+  std::size_t cached_places = 6;  ///< local maps that are kept ready for comparison
   /// A loop that moves the map by more than its uncertainty says (3 dof, 99 %) waits for others that agree with it.
   double surprise_chi2 = 11.345;
   std::size_t witnesses = 2;     ///< loops that must agree on a surprise

@@ -11,6 +11,12 @@
 #include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
+SeenPoints view_of(const MapKeyframe& keyframe, double range_m) {
+  SeenPoints seen = seen_points(unpack_scan(keyframe));
+  std::erase_if(seen.points, [&](const OrientedPoint& point) { return (point.p - seen.origin).norm() > range_m; });
+  return seen;
+}
+
 std::uint32_t MapBackend::begin_first(const Pose2& map_T_node, RobotTime stamp) {
   SEEKER_ASSERT(maps_.empty());
   const std::size_t node = graph_.add_node(map_T_node);
@@ -114,7 +120,7 @@ std::vector<SeenPoints> MapBackend::seen() const {
       break;
     }
     for (const MapKeyframe& keyframe : map.keyframes) {
-      all.push_back(transform(pose(map.id) * keyframe.node_T_base, seen_points(unpack_scan(keyframe))));
+      all.push_back(transform(pose(map.id) * keyframe.node_T_base, view_of(keyframe, params_.view_range_m)));
     }
   }
   return all;
@@ -157,7 +163,7 @@ std::vector<SeenPoints> MapBackend::query() const {
     const Pose2 newest_T_node = inverse(map_T_newest) * pose(maps_[k].id);
     const std::vector<MapKeyframe>& keyframes = maps_[k].keyframes;
     for (std::size_t i = keyframes.size(); i-- > 0 && seen.size() < params_.query_keyframes;) {
-      seen.push_back(transform(newest_T_node * keyframes[i].node_T_base, seen_points(unpack_scan(keyframes[i]))));
+      seen.push_back(transform(newest_T_node * keyframes[i].node_T_base, view_of(keyframes[i], params_.view_range_m)));
     }
   }
   return seen;
@@ -171,7 +177,7 @@ std::shared_ptr<const PlaceMap> MapBackend::place_of(std::uint32_t id) {
   }
   std::vector<SeenPoints> seen;
   for (const MapKeyframe& keyframe : maps_[id].keyframes) {
-    seen.push_back(transform(keyframe.node_T_base, seen_points(unpack_scan(keyframe))));
+    seen.push_back(transform(keyframe.node_T_base, view_of(keyframe, params_.view_range_m)));
   }
   Result<PlaceMap> built = PlaceMap::build(seen, params_.place);
   if (!built) {

@@ -24,6 +24,9 @@ struct LocalMap {
   std::vector<MapKeyframe> keyframes;
 };
 
+/// What a kept scan saw within a range, in the frame `base`.
+[[nodiscard]] SeenPoints view_of(const MapKeyframe& keyframe, double range_m);
+
 struct LoopCounts {
   int tried = 0;
   int closed = 0;     ///< believed and part of the graph
