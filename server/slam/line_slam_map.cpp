@@ -124,7 +124,7 @@ void LineSlam::look_for_robot() {
   last_try_ = lines_->robot();
   ++tries_;
   if (!place_) {
-    Result<PlaceMap> built = PlaceMap::build(backend_.seen(), params_.loops.place);
+    Result<PlaceMap> built = PlaceMap::build(backend_.seen(), params_.relocalise.map);
     if (!built) {
       search_cause_ = "the map cannot be searched: " + built.error().message;
       return;

@@ -54,14 +54,15 @@ struct LocalMapParams {
 /// When loops between local maps are looked for and what makes one believed.
 struct LoopPolicy {
   LoopParams detector;
-  PlaceMapParams place;
+  /// Coarse: the match that follows is exact, and a local map is made ready in few milliseconds.
+  PlaceMapParams place{.pyramid = {.resolution_m = 0.08, .reach_m = 0.24}, .free_space = {}};
   double every_m = 2.0;             ///< looked for after so much way
   double max_distance_m = 4.0;      ///< between the robot and a keyframe of the other map, beside the uncertainty
   int max_candidates = 3;           ///< local maps looked at each time, nearest first
   std::size_t query_keyframes = 8;  ///< the newest ones, compared with a whole local map
   /// Points farther from their scanner are not compared: glimpses through doors make places large and tell little.
   double view_range_m = 12.0;
-  std::size_t cached_places = 6;  ///< local maps that are kept ready for comparison
+  std::size_t cached_places = 16;  ///< local maps that are kept ready for comparison
   /// A loop that moves the map by more than its uncertainty says (3 dof, 99 %) waits for others that agree with it.
   double surprise_chi2 = 11.345;
   std::size_t witnesses = 2;     ///< loops that must agree on a surprise
@@ -73,6 +74,7 @@ struct LoopPolicy {
 
 /// Finding the robot in a map it was not followed in.
 struct RelocaliseParams {
+  PlaceMapParams map;
   PlaceParams place;
   double every_m = 0.4;              ///< looked for after so much way,
   double every_rad = 0.5;            ///< or turn,
