@@ -5,6 +5,7 @@
 #include "common/image/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/experiment.hpp"
+#include "server/lab/r2_reproduce.hpp"
 #include "server/lab/reproduce.hpp"
 #include "server/lab/s5_reproduce.hpp"
 #include "server/lab/summary.hpp"
@@ -25,8 +26,8 @@ struct Reproduction {
   Status (*run)(const ReproduceParams&, Report&);
   const char* seeds;  ///< where the command line names none
 };
-const std::map<std::string, Reproduction> kReproductions = {{"s3", {&reproduce_s3, "1-20"}},
-                                                            {"s5", {&reproduce_s5, "1-100"}}};
+const std::map<std::string, Reproduction> kReproductions = {
+    {"r2", {&reproduce_r2, "1-50"}}, {"s3", {&reproduce_s3, "1-20"}}, {"s5", {&reproduce_s5, "1-100"}}};
 
 std::vector<std::string> reproduction_ids() {
   std::vector<std::string> ids;
@@ -190,7 +191,9 @@ Verb add_reproduce(CLI::App& app) {
   auto no_sockets = std::make_shared<bool>(false);
   CLI::App* verb =
       app.add_subcommand("reproduce", "Figures, tables and pass conditions of a paper; PASS and FAIL lines");
-  verb->add_option("paper", *id, "s3: autonomous search; s5: line detection with automatic thresholds")
+  verb->add_option("paper", *id,
+                   "r2: consistency of the line filter; s3: autonomous search; s5: line detection with automatic "
+                   "thresholds")
       ->check(CLI::IsMember(reproduction_ids()))
       ->capture_default_str();
   o->seeds.clear();

@@ -95,6 +95,7 @@ void describe(config::Fields& f, SpFeatureParams& params) {
   f.angle_deg("tentative_deg", params.tentative_rad);
   f.field("real_scans", params.real_scans);
   f.field("demote_scans", params.demote_scans);
+  f.field("min_length_m", params.min_length_m);
   f.field("end_slack_m", params.end_slack_m);
   f.field("merge_gate", params.merge_gate);
   f.angle_deg("merge_angle_deg", params.merge_angle_rad);
@@ -124,6 +125,7 @@ void describe(config::Fields& f, SpMapParams& params) {
   f.angle_deg("relinearise_deg", params.relinearise_rad);
   f.field("sigma_floor_m", params.sigma_floor_m);
   f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
+  f.field("end_inflation", params.end_inflation);
   f.field("drift_sigma_m", params.drift_sigma_m);
   f.angle_deg("drift_sigma_deg", params.drift_sigma_rad);
   f.field("robot_sigma_max_m", params.robot_sigma_max_m);

@@ -29,9 +29,8 @@ void make_real(SpState& state, std::size_t segment, std::size_t side, const Segm
   Eigen::Map<Eigen::MatrixXd> own = state.scratch[2].matrix(state.p.rows(), 2);
   state.p.gather(at, 2, own);
   const Eigen::VectorXd covariances = robot_columns(state) * row.robot.transpose() + own * row.segment.transpose();
-  const double sigma_m = std::max(observation.end_sigma_m[side], state.params.sigma_floor_m);
   const double variance = row.robot.dot(covariances.head<3>()) + row.segment.dot(covariances.segment<2>(at)) +
-                          row.own * row.own * sigma_m * sigma_m;
+                          row.own * row.own * end_variance_m2(observation, side, state.params);
   f.real[side] = true;
   state.p.insert(at + state.rows_of(segment).end(side), covariances, variance);
   state.shift_rows(segment + 1, 1);
@@ -140,7 +139,8 @@ void add_new_segments(SpState& state, const std::vector<SegmentObservation>& obs
   const SpFeatureParams& params = state.params.features;
   std::vector<Tentative> waiting;
   for (std::size_t k = 0; k < observations.size(); ++k) {
-    if (association.matches[k].verdict != SpVerdict::kNew || !is_usable(observations[k])) {
+    if (association.matches[k].verdict != SpVerdict::kNew || !is_usable(observations[k]) ||
+        observations[k].length_m < params.min_length_m) {
       continue;
     }
     const Pose2 map_T_segment = state.map_T_base * observations[k].base_T_segment;

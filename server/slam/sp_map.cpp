@@ -97,6 +97,18 @@ void update_in_turn(SpState& state, const std::vector<SegmentObservation>& obser
   set_observability(state, information);
 }
 
+/// Two ends that were seen badly may be corrected past each other.
+std::vector<SegmentId> forget_short_segments(SpState& state) {
+  std::vector<SegmentId> gone;
+  for (std::size_t k = state.segments.size(); k-- > 0;) {
+    if (state.segments[k].length_m < state.params.features.min_length_m) {
+      gone.push_back(state.segments[k].id);
+      state.erase(k);
+    }
+  }
+  return gone;
+}
+
 /// H = rows of I3 (all directions), or the two directions that are known.
 struct PoseRows {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
@@ -223,9 +235,13 @@ SpUpdateReport SpMap::update(const std::vector<SegmentObservation>& observations
   } else {
     update_in_turn(state, observations, pairs, report);
   }
+  report.lost = forget_short_segments(state);
   add_new_segments(state, observations, association, report);
   touched.insert(touched.end(), report.created.begin(), report.created.end());
   merge_segments(state, touched, report);
+  for (const SegmentId id : forget_short_segments(state)) {
+    report.lost.push_back(id);
+  }
   return report;
 }
 
@@ -261,6 +277,7 @@ double SpMap::observe_pose(const Pose2& map_T_base, const Matrix3& covariance_ma
   Eigen::MatrixXd pht = robot_columns(*state_) * rows.h.transpose();
   Eigen::MatrixXd s = rows.h * pht.topRows(kRobotRows) + rows.r;
   correct(*state_, pht, s, rows.f);
+  forget_short_segments(*state_);
   return d2;
 }
 

@@ -85,6 +85,7 @@ struct SpUpdateReport {
   int dof = 0;
   std::vector<SegmentId> created;
   std::vector<SpMerge> merged;
+  std::vector<SegmentId> lost;  ///< forgotten because their ends met
 };
 
 struct SpState;
@@ -113,7 +114,8 @@ class SpMap {
   std::vector<SegmentId> observe_free_space(const LaserScan& scan);
   /// A measured pose (of a point matcher), `covariance_map` of (x, y, theta) in the frame `map` as in PoseEstimate.
   /// With a degenerate direction (unit vector in `map`) nothing is taken along it. Gives the squared Mahalanobis
-  /// distance of what was used. The measurement must not rest on the same scan as an update().
+  /// distance of what was used. Segments whose ends meet by it are forgotten. The measurement must not rest on the same
+  /// scan as an update().
   double observe_pose(const Pose2& map_T_base, const Matrix3& covariance_map,
                       const std::optional<Point2>& degenerate_direction = std::nullopt);
   /// That distance without using the measurement.

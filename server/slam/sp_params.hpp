@@ -32,6 +32,7 @@ struct SpFeatureParams {
   double tentative_rad = 0.1745;  ///< and turned by less (10 degrees)
   int real_scans = 2;             ///< a virtual end becomes real when seen so in so many consecutive sightings
   int demote_scans = 3;           ///< a real end that is overrun so often in a row becomes virtual
+  double min_length_m = 0.05;     ///< a segment whose ends come nearer than this is none: it is forgotten
   double end_slack_m = 0.15;      ///< a seen end this near (plus 3 sigma) is the end of the segment
   double merge_gate = 5.991;      ///< of two segments being one: 2 dof (spec S1.9)
   double merge_angle_rad = 0.1745;
@@ -61,6 +62,9 @@ struct SpMapParams {
   double relinearise_rad = 0.003;
   double sigma_floor_m = 1e-4;  ///< no observation is believed to be better
   double sigma_floor_rad = 1e-4;
+  /// On the standard deviation of an end: where between two beams a wall ends stays the same while the robot hardly
+  /// moves, so that consecutive sightings err alike.
+  double end_inflation = 2.0;
   /// Random walk of a segment per update: keeps the covariance positive definite however long the robot looks.
   double drift_sigma_m = 1e-5;
   double drift_sigma_rad = 1e-5;

@@ -11,12 +11,16 @@ Matrix4 observed_covariance(const lines::SegmentObservation& observation, const 
   c(1, 1) += params.sigma_floor_rad * params.sigma_floor_rad;
   for (std::size_t side = 0; side < 2; ++side) {
     if (observation.real[side]) {
-      const double sigma_m = std::max(observation.end_sigma_m[side], params.sigma_floor_m);
       const auto k = static_cast<Index>(2 + side);
-      c(k, k) = sigma_m * sigma_m;
+      c(k, k) = end_variance_m2(observation, side, params);
     }
   }
   return c;
+}
+
+double end_variance_m2(const lines::SegmentObservation& observation, std::size_t side, const SpMapParams& params) {
+  const double sigma_m = std::max(observation.end_sigma_m[side] * params.end_inflation, params.sigma_floor_m);
+  return sigma_m * sigma_m;
 }
 
 RowGroup row_group(const PairRows& rows, const SegmentRows& segment, std::size_t observation, const Matrix4& observed,

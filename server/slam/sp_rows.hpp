@@ -46,6 +46,10 @@ struct RowChoice {
 /// Covariance of p_O with its floor; virtual ends have the variance 1, which no row uses.
 [[nodiscard]] Matrix4 observed_covariance(const lines::SegmentObservation& observation, const SpMapParams& params);
 
+/// Variance of p_e of a real end.
+[[nodiscard]] double end_variance_m2(const lines::SegmentObservation& observation, std::size_t side,
+                                     const SpMapParams& params);
+
 [[nodiscard]] RowGroup row_group(const PairRows& rows, const SegmentRows& segment, std::size_t observation,
                                  const Matrix4& observed, const RowChoice& choice);
 

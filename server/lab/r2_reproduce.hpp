@@ -1,0 +1,18 @@
+/// \file
+/// R2 of spec S7: consistency of the line filter in a simulated office.
+#pragma once
+
+#include "server/lab/r2_consistency.hpp"
+#include "server/lab/reproduce.hpp"
+
+namespace seeker::lab {
+
+/// r2.csv (and r2-double.csv for twice the odometry noise), r2-nees.png, a line per case to the report.
+[[nodiscard]] Status reproduce_r2(const ReproduceParams& params, Report& report);
+
+/// The tour of R2 through the world `office-no-target`: corridor, three rooms and back.
+[[nodiscard]] std::vector<Point2> office_tour();
+/// The SPmap alone, told what the robot's sensors are like.
+[[nodiscard]] MakeTracker sp_tracker();
+
+}  // namespace seeker::lab

@@ -1,0 +1,47 @@
+/// \file
+/// The SPmap alone as a pose tracker, for experiment R2: lines of each scan into one map that is never cut.
+#pragma once
+
+#include <optional>
+
+#include "server/lines/fast_extractor.hpp"
+#include "server/lines/observation.hpp"
+#include "server/sim/robot_model.hpp"
+#include "server/slam/pose_tracker.hpp"
+#include "server/slam/sp_map.hpp"
+
+namespace seeker::lab {
+
+struct SpTrackerParams {
+  lines::FastParams lines;
+  lines::ObservationParams observation;
+  slam::SpMapParams map;
+  sim::OdometryModel odometry;    ///< its random part is what the increments are believed to be off by
+  double slip_sigma_m = 0.00005;  ///< of every increment, across and along: what the encoders do not round to
+};
+
+class SpTracker final : public slam::PoseTracker {
+ public:
+  explicit SpTracker(const SpTrackerParams& params);
+
+  [[nodiscard]] Status predict(const Pose2& odom_T_base, RobotTime stamp) override;
+  [[nodiscard]] Status update(const LaserScan& scan) override;
+  [[nodiscard]] PoseEstimate estimate() const override;
+  void reset(const Pose2& map_T_base) override;
+
+  [[nodiscard]] const slam::SpMap& map() const { return map_; }
+  [[nodiscard]] const slam::SpUpdateReport& report() const { return report_; }
+
+ private:
+  [[nodiscard]] Matrix3 increment_covariance(const Pose2& increment) const;
+
+  SpTrackerParams params_;
+  lines::FastExtractor extractor_;
+  lines::ScanLines found_;
+  slam::SpMap map_;
+  slam::SpUpdateReport report_;
+  std::optional<Pose2> last_odom_T_base_;
+  RobotTime stamp_;
+};
+
+}  // namespace seeker::lab

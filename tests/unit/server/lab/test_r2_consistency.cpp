@@ -1,0 +1,91 @@
+/// Experiment R2 tells a tracker that knows its errors from one that does not.
+#include <gtest/gtest.h>
+
+#include "server/lab/r2_reproduce.hpp"
+#include "server/lab/r2_tracker.hpp"
+
+namespace seeker::lab {
+namespace {
+
+/// The SPmap without scans is dead reckoning.
+class Blind final : public slam::PoseTracker {
+ public:
+  explicit Blind(const sim::OdometryModel& believed)
+      : tracker_({.lines = {}, .observation = {}, .map = {}, .odometry = believed}) {}
+  Status predict(const Pose2& odom_T_base, RobotTime stamp) override { return tracker_.predict(odom_T_base, stamp); }
+  Status update(const LaserScan&) override { return {}; }
+  PoseEstimate estimate() const override { return tracker_.estimate(); }
+  void reset(const Pose2& map_T_base) override { tracker_.reset(map_T_base); }
+
+ private:
+  SpTracker tracker_;
+};
+
+sim::World hall() {
+  sim::World world;
+  world.name = "hall";
+  world.max_corner = Point2(12.0, 12.0);
+  world.starts = {{2.0, 2.0, 0.0}};
+  return world;
+}
+
+/// Dead reckoning of a robot whose odometry is `factor` times as wrong as the tracker believes.
+NeesStudy drive_blind(double factor) {
+  ConsistencyParams params;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    params.seeds.push_back(seed);
+  }
+  params.tour = {{9.0, 2.0}, {9.0, 9.0}};
+  params.instant_s = 5.0;
+  params.odometry_factor = factor;
+  sim::RobotModel model;
+  model.lidar.beams = 2;
+  const auto make = [](const sim::RobotModel&) {
+    return std::make_unique<Blind>(without_systematic_errors({}, 1.0).odometry);
+  };
+  const Result<NeesStudy> study = study_consistency(hall(), model, make, params);
+  EXPECT_TRUE(study) << (study ? "" : study.error().message);
+  return study ? *study : NeesStudy{};
+}
+
+TEST(R2Consistency, BandOfFiftyRunsIsTheOneOfChiSquare) {
+  const auto [low, high] = nees_band(50);
+  EXPECT_NEAR(low, 117.985 / 50.0, 0.002);
+  EXPECT_NEAR(high, 185.800 / 50.0, 0.002);
+}
+
+TEST(R2Consistency, AccuratelyKnownErrorsPass) {
+  const NeesStudy study = drive_blind(1.0);
+  EXPECT_GE(study.means.size(), 4U);
+  EXPECT_GE(study.share_inside(), 0.9);
+  EXPECT_TRUE(nees_check("blind", study).passed);
+  EXPECT_EQ(study.means.front().runs, 60);
+}
+
+TEST(R2Consistency, ErrorsTwiceAsLargeAsBelievedFail) {
+  const NeesStudy study = drive_blind(2.0);
+  EXPECT_EQ(study.inside, 0);
+  EXPECT_GT(study.means.back().nees, 9.0);
+  EXPECT_FALSE(nees_check("blind", study).passed);
+}
+
+TEST(R2Consistency, ErrorsHalfAsLargeAsBelievedFailToo) { EXPECT_FALSE(nees_check("blind", drive_blind(0.5)).passed); }
+
+TEST(R2Consistency, ATourThroughAWallIsAnError) {
+  ConsistencyParams params;
+  params.seeds = {1};
+  params.tour = {{20.0, 2.0}};
+  params.time_limit_s = 60.0;
+  sim::World world = hall();
+  sim::Wall wall;
+  wall.a = {6.0, 0.0};
+  wall.b = {6.0, 12.0};
+  world.walls.push_back(wall);
+  const Result<NeesStudy> study = study_consistency(world, {}, sp_tracker(), params);
+  ASSERT_FALSE(study);
+  EXPECT_EQ(study.error().code, Errc::kTimeout);
+  EXPECT_NE(study.error().message.find("x = 5."), std::string::npos) << study.error().message;
+}
+
+}  // namespace
+}  // namespace seeker::lab
