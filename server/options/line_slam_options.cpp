@@ -34,21 +34,6 @@ void describe(config::Fields& f, LocalMapParams& params) {
   f.angle_deg("joint_sigma_deg", params.joint_sigma_rad);
 }
 
-void describe(config::Fields& f, LoopParams& params) {
-  f.field("window_sigmas", params.window_sigmas);
-  f.field("min_window_m", params.min_window_m);
-  f.field("max_window_m", params.max_window_m);
-  f.angle_deg("min_window_deg", params.min_window_rad);
-  f.angle_deg("max_window_deg", params.max_window_rad);
-  f.field("match_points", params.match_points);
-  f.field("min_inliers", params.min_inliers);
-  f.field("min_overlap", params.min_overlap);
-  f.field("min_consistency", params.min_consistency);
-  f.field("rival_consistency", params.rival_consistency);
-  f.field("sigma_floor_m", params.sigma_floor_m);
-  f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
-}
-
 void describe(config::Fields& f, LoopPolicy& params) {
   f.section("detector", params.detector);
   f.field("every_m", params.every_m);
@@ -63,15 +48,6 @@ void describe(config::Fields& f, LoopPolicy& params) {
   f.field("kernel_width", params.kernel_width);
   f.field("moved_m", params.moved_m);
   f.angle_deg("moved_deg", params.moved_rad);
-}
-
-void describe(config::Fields& f, JudgeParams& params) {
-  f.field("min_fit", params.min_fit);
-  f.field("min_standing", params.min_standing);
-  f.field("max_through", params.max_through);
-  f.field("refuted", params.refuted);
-  f.field("min_lead", params.min_lead);
-  f.field("min_lead_cells", params.min_lead_cells);
 }
 
 void describe(config::Fields& f, RelocaliseParams& params) {

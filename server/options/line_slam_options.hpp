@@ -9,9 +9,7 @@ namespace seeker::slam {
 
 void describe(config::Fields& f, PointNetParams& params);
 void describe(config::Fields& f, LocalMapParams& params);
-void describe(config::Fields& f, LoopParams& params);
 void describe(config::Fields& f, LoopPolicy& params);
-void describe(config::Fields& f, JudgeParams& params);
 void describe(config::Fields& f, RelocaliseParams& params);
 void describe(config::Fields& f, FusionParams& params);
 void describe(config::Fields& f, LineSlamParams& params);

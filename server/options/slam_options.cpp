@@ -133,4 +133,104 @@ void describe(config::Fields& f, SpMapParams& params) {
   f.field("degenerate_sigma_m", params.degenerate_sigma_m);
 }
 
+void describe(config::Fields& f, PoseGraphParams& params) {
+  f.field("stop_m", params.stop_m);
+  f.angle_deg("stop_deg", params.stop_rad);
+  f.field("first_damping", params.first_damping);
+  f.field("max_damping", params.max_damping);
+  f.field("graduation", params.graduation);
+  f.field("switched_off_weight", params.switched_off_weight);
+}
+
+void describe(config::Fields& f, ConsistencyParams& params) {
+  f.field("gate_chi2", params.gate_chi2);
+  f.field("max_search", params.max_search);
+}
+
+void describe(config::Fields& f, PyramidParams& params) {
+  f.field("resolution_m", params.resolution_m);
+  f.field("sigma_m", params.sigma_m);
+  f.field("reach_m", params.reach_m);
+  f.field("directions", params.directions);
+  f.angle_deg("direction_gate_deg", params.direction_gate_rad);
+  f.field("coarse_level", params.coarse_level);
+  f.field("max_bytes", params.max_bytes);
+}
+
+void describe(config::Fields& f, FreeSpaceParams& params) {
+  f.field("resolution_m", params.resolution_m);
+  f.field("end_margin_m", params.end_margin_m);
+  f.field("max_range_m", params.max_range_m);
+  f.field("min_beams", params.min_beams);
+  f.field("min_points", params.min_points);
+  f.field("solid_ratio", params.solid_ratio);
+  f.field("max_cells", params.max_cells);
+}
+
+void describe(config::Fields& f, PlaceMapParams& params) {
+  f.section("pyramid", params.pyramid);
+  f.section("free_space", params.free_space);
+  f.field("cloud_cell_m", params.cloud_cell_m);
+}
+
+void describe(config::Fields& f, GlobalSearchParams& params) {
+  f.field("max_points", params.max_points);
+  f.field("thin_cell_m", params.thin_cell_m);
+  f.field("leaf_level", params.leaf_level);
+  f.angle_deg("min_step_deg", params.min_step_rad);
+  f.angle_deg("max_step_deg", params.max_step_rad);
+  f.field("far_quantile", params.far_quantile);
+  f.field("min_score", params.min_score);
+  f.field("rival_ratio", params.rival_ratio);
+  f.field("max_candidates", params.max_candidates);
+  f.field("distinct_m", params.distinct_m);
+  f.angle_deg("distinct_deg", params.distinct_rad);
+  f.field("max_expansions", params.max_expansions);
+}
+
+void describe(config::Fields& f, AgreementParams& params) {
+  f.field("solid", params.solid);
+  f.field("step_m", params.step_m);
+  f.field("near_m", params.near_m);
+  f.field("end_margin_m", params.end_margin_m);
+  f.field("max_range_m", params.max_range_m);
+  f.field("max_beams", params.max_beams);
+}
+
+void describe(config::Fields& f, JudgeParams& params) {
+  f.field("min_fit", params.min_fit);
+  f.field("min_standing", params.min_standing);
+  f.field("max_through", params.max_through);
+  f.field("through_weight", params.through_weight);
+  f.field("min_lead", params.min_lead);
+  f.field("min_lead_cells", params.min_lead_cells);
+  f.field("min_certainty", params.min_certainty);
+}
+
+void describe(config::Fields& f, PlaceParams& params) {
+  f.section("search", params.search);
+  f.section("match", params.match);
+  f.section("agreement", params.agreement);
+  f.section("judge", params.judge);
+  f.field("match_points", params.match_points);
+}
+
+void describe(config::Fields& f, LoopParams& params) {
+  f.section("search", params.search);
+  f.section("match", params.match);
+  f.section("agreement", params.agreement);
+  f.field("window_sigmas", params.window_sigmas);
+  f.field("min_window_m", params.min_window_m);
+  f.field("max_window_m", params.max_window_m);
+  f.angle_deg("min_window_deg", params.min_window_rad);
+  f.angle_deg("max_window_deg", params.max_window_rad);
+  f.field("match_points", params.match_points);
+  f.field("min_inliers", params.min_inliers);
+  f.field("min_overlap", params.min_overlap);
+  f.field("min_consistency", params.min_consistency);
+  f.field("rival_consistency", params.rival_consistency);
+  f.field("sigma_floor_m", params.sigma_floor_m);
+  f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
+}
+
 }  // namespace seeker::slam

@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "common/core/angle.hpp"
-#include "common/core/assert.hpp"
 
 namespace seeker::slam {
 namespace {
@@ -74,12 +73,18 @@ Range range_of(const LikelihoodPyramid& map, const std::optional<SearchWindow>& 
           2 * turns + 1};
 }
 
+/// Below the top in any case.
+int leaf_level_of(const LikelihoodPyramid& map, const GlobalSearchParams& params) {
+  return std::clamp(params.leaf_level, 0, map.coarse_level() - 1);
+}
+
 /// One search: the state that its recursion shares.
 class Search {
  public:
   Search(const LikelihoodPyramid& map, const std::vector<OrientedPoint>& points, const Range& range,
          const GlobalSearchParams& params, GlobalSearchResult& result)
       : map_(map), params_(params), range_(range), result_(result), full_(kFull * static_cast<double>(points.size())) {
+    leaf_level_ = leaf_level_of(map, params);
     headings_.reserve(static_cast<std::size_t>(range.headings));
     for (int k = 0; k < range.headings; ++k) {
       headings_.push_back(turned(points, wrap_angle(range.first_rad + k * range.step_rad)));
@@ -158,7 +163,7 @@ class Search {
     if (block.bound <= threshold_ || explained(block, level)) {
       return;
     }
-    if (level == params_.leaf_level) {
+    if (level == leaf_level_) {
       offer(block);
       return;
     }
@@ -202,7 +207,7 @@ class Search {
   }
 
   void offer(const Block& leaf) {
-    const GlobalCandidate found{centre_of(leaf, params_.leaf_level), leaf.bound / full_};
+    const GlobalCandidate found{centre_of(leaf, leaf_level_), leaf.bound / full_};
     std::vector<GlobalCandidate>& list = result_.candidates;
     const auto near = [&](const GlobalCandidate& other) { return same_place(other.map_T_base, found.map_T_base, 0.0); };
     if (std::any_of(list.begin(), list.end(),
@@ -237,6 +242,7 @@ class Search {
   GlobalSearchResult& result_;
   double full_;  ///< sum of a perfect fit
   int threshold_ = 0;
+  int leaf_level_ = 0;
   std::vector<Heading> headings_;
 };
 
@@ -258,7 +264,6 @@ std::vector<OrientedPoint> thin_by_cells(const std::vector<OrientedPoint>& point
 
 GlobalSearchResult GlobalMatcher::search(const LikelihoodPyramid& map, const std::vector<OrientedPoint>& points_base,
                                          const std::optional<SearchWindow>& window) const {
-  SEEKER_ASSERT(params_.leaf_level >= 0 && params_.leaf_level < map.coarse_level());
   const std::vector<OrientedPoint> points =
       thin_by_cells(points_base, params_.thin_cell_m, std::min(params_.max_points, kMaxPoints));
   GlobalSearchResult result;
@@ -266,7 +271,7 @@ GlobalSearchResult GlobalMatcher::search(const LikelihoodPyramid& map, const std
   if (points.empty()) {
     return result;
   }
-  const double leaf_m = (1 << params_.leaf_level) * map.frame().resolution_m;
+  const double leaf_m = (1 << leaf_level_of(map, params_)) * map.frame().resolution_m;
   const double far_m = std::max(far_distance_m(points, params_.far_quantile), leaf_m);
   const double step_rad = std::clamp(leaf_m / far_m, params_.min_step_rad, params_.max_step_rad);
   Search(map, points, range_of(map, window, step_rad), params_, result).run();

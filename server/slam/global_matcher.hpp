@@ -51,7 +51,7 @@ class GlobalMatcher {
   explicit GlobalMatcher(const GlobalSearchParams& params = {}) : params_(params) {}
 
   /// Points in the frame `base`: of one scan, or of several put together by odometry. Without a window the base may be
-  /// anywhere within the map, with any heading. Fewer than `min` points give no candidate.
+  /// anywhere within the map, with any heading. No points give no candidate.
   [[nodiscard]] GlobalSearchResult search(const LikelihoodPyramid& map, const std::vector<OrientedPoint>& points_base,
                                           const std::optional<SearchWindow>& window = std::nullopt) const;
   [[nodiscard]] const GlobalSearchParams& params() const { return params_; }

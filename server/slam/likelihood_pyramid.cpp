@@ -5,7 +5,6 @@
 #include <string>
 
 #include "common/core/angle.hpp"
-#include "common/core/assert.hpp"
 
 namespace seeker::slam {
 namespace {
@@ -54,7 +53,12 @@ std::size_t LikelihoodPyramid::needed_bytes() const {
 
 Result<LikelihoodPyramid> LikelihoodPyramid::build(const std::vector<OrientedPoint>& points_map,
                                                    const PyramidParams& params) {
-  SEEKER_ASSERT(params.directions > 0 && params.coarse_level > 0 && params.resolution_m > 0.0);
+  constexpr int kMaxLevel = 8;
+  const bool sizes = params.resolution_m > 0.0 && params.sigma_m > 0.0 && params.reach_m >= 0.0;
+  if (!sizes || params.directions < 1 || params.coarse_level < 1 || params.coarse_level > kMaxLevel) {
+    return fail(Errc::kInvalidArgument,
+                "the search grid needs cells and sigma above zero, a direction and a coarse level from 1 to 8");
+  }
   if (points_map.empty()) {
     return fail(Errc::kInvalidArgument, "there is no point to search among; map something first");
   }

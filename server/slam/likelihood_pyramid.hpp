@@ -28,7 +28,8 @@ struct PyramidParams {
 /// index modulo the block), so that the sums of all blocks of the map come from straight runs of bytes.
 class LikelihoodPyramid {
  public:
-  /// kTooLarge: the points span more than max_bytes. kInvalidArgument: no point, or one that is not finite.
+  /// kTooLarge: the points span more than max_bytes. kInvalidArgument: no point, one that is not
+  /// finite, or parameters that make no grid.
   [[nodiscard]] static Result<LikelihoodPyramid> build(const std::vector<OrientedPoint>& points_map,
                                                        const PyramidParams& params = {});
 

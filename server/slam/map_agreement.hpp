@@ -48,7 +48,7 @@ class FreeSpace {
 };
 
 struct AgreementParams {
-  std::uint8_t solid = 140;    ///< likelihood of a cell that a beam does not get through (the field's sigma away)
+  int solid = 140;             ///< likelihood of a cell that a beam does not get through (the field's sigma away)
   double step_m = 0.07;        ///< along the beam
   double near_m = 0.3;         ///< the robot's own surroundings are not looked at
   double end_margin_m = 0.35;  ///< nor is the end of the beam: rough poses and walls seen at an angle

@@ -61,19 +61,19 @@ PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, con
   answer.lead = best.fit.all;
   for (std::size_t k = 1; k < answer.candidates.size(); ++k) {
     const PlaceCandidate& rival = answer.candidates[k];
-    if (rival.agreement.through <= params.refuted) {
-      answer.lead = std::min(answer.lead, best.fit.all - rival.fit.all);
-    }
+    const double through = std::max(0.0, rival.agreement.through - best.agreement.through);
+    answer.lead = std::min(answer.lead, best.fit.all - rival.fit.all + params.through_weight * through);
   }
   if (best.fit.all < params.min_fit || best.fit.standing < params.min_standing ||
       best.agreement.through > params.max_through) {
     answer.reason = "the points contradict even the best place";
     return answer;
   }
+  const double certainty = 0.5 * (best.fit.all + best.fit.standing) + answer.lead;
   answer.verdict = PlaceVerdict::kAmbiguous;
   if (best.match.degenerate_direction) {
     answer.reason = "the points say nothing along one direction, as in a corridor";
-  } else if (answer.lead < params.min_lead) {
+  } else if (answer.lead < params.min_lead || certainty < params.min_certainty) {
     answer.reason = "another place fits nearly as well";
   } else if (answer.lead * static_cast<double>(cells) < params.min_lead_cells) {
     answer.reason = "too little was seen to tell this place from others";

@@ -48,15 +48,17 @@ struct PlaceCandidate {
   [[nodiscard]] double support() const { return fit.all - agreement.through; }
 };
 
-/// Chosen on three buildings and three scanners (180 degrees with 180 and 360 beams, 240 degrees), so that no scan of
-/// one building is taken for a place of another, and checked on held-out halves of the logs.
+/// Chosen on three buildings and three scanners (180 degrees with 180 and 360 beams, 240 degrees), so that scans of
+/// another building, or of a part that was never mapped, are not taken for a place of the map.
 struct JudgeParams {
-  double min_fit = 0.5;        ///< of all points: people may hide half of the walls
-  double min_standing = 0.75;  ///< of the points that do not lie in space known to be free
-  double max_through = 0.12;   ///< beams through the map's walls
-  double refuted = 0.3;        ///< a candidate with more of them is no rival
-  double min_lead = 0.1;       ///< of the best candidate's fit over that of the next one
-  double min_lead_cells = 12;  ///< lead times cells seen (GlobalSearchParams::thin_cell_m): small views prove little
+  double min_fit = 0.5;          ///< of all points: people may hide half of the walls
+  double min_standing = 0.75;    ///< of the points that do not lie in space known to be free
+  double max_through = 0.12;     ///< beams through the map's walls
+  double through_weight = 0.5;   ///< of a rival's further beams through walls, added to the lead over it
+  double min_lead = 0.12;        ///< of the best candidate's fit over that of the next one
+  double min_lead_cells = 15.0;  ///< lead times cells seen (GlobalSearchParams::thin_cell_m): small views prove little
+  /// Sum of the lead and the mean of both fits: a poor fit, or one that people must explain, needs a large lead.
+  double min_certainty = 1.05;
 };
 
 enum class PlaceVerdict : std::uint8_t {
@@ -72,7 +74,7 @@ struct PlaceAnswer {
   PlaceVerdict verdict = PlaceVerdict::kNone;
   std::string_view reason;                 ///< one sentence
   std::vector<PlaceCandidate> candidates;  ///< best first
-  double lead = 0.0;                       ///< fit of the first less that of the next one
+  double lead = 0.0;                       ///< of the first over the next one
   std::size_t cells = 0;                   ///< with points: how much was seen
   bool complete = true;
 };

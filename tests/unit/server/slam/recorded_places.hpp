@@ -2,12 +2,18 @@
 /// Maps and queries from recorded logs, for the tests and benchmarks of place recognition.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <vector>
 
+#include <zlib.h>
 #include <Eigen/LU>
+
+#include "common/core/angle.hpp"
 
 #include "server/drivers/replay/replay.hpp"
 #include "server/slam/loop_detector.hpp"
@@ -20,6 +26,7 @@ namespace seeker::slam {
 /// A log as the tracker sees it: every scan with its pose, and which of them made the map.
 struct RecordedWalk {
   std::vector<Pose2> poses;
+  std::vector<Pose2> odometry;
   std::vector<Pose2> tracked;  ///< as the tracker gave them
   std::vector<SeenPoints> seen_base;
   std::vector<bool> keyframe;
@@ -53,8 +60,9 @@ struct RecordedWalk {
   }
 };
 
+/// Without `track` every pose is the origin: scans that are not to be placed.
 inline std::optional<RecordedWalk> walk_through(const std::filesystem::path& path,
-                                                const drivers::ReplayParams& params = {}) {
+                                                const drivers::ReplayParams& params = {}, bool track = true) {
   auto reader = drivers::CarmenReader::open(path);
   if (!reader) {
     return std::nullopt;
@@ -71,10 +79,13 @@ inline std::optional<RecordedWalk> walk_through(const std::filesystem::path& pat
     first_s = first_s.value_or(scan->stamp_s);
     const RobotTime stamp = robot_time_s(scan->stamp_s - *first_s);
     const LaserScan laser = drivers::to_laser_scan(*scan, params, stamp);
-    (void)tracker.predict(*scan->odom_T_base, stamp);
-    (void)tracker.update(laser);
+    if (track) {
+      (void)tracker.predict(*scan->odom_T_base, stamp);
+      (void)tracker.update(laser);
+    }
     walk.poses.push_back(tracker.estimate().map_T_base);
     walk.stamps_s.push_back(scan->stamp_s);
+    walk.odometry.push_back(*scan->odom_T_base);
     walk.tracked.push_back(walk.poses.back());
     walk.seen_base.push_back(seen_points(laser));
     walk.keyframe.push_back(tracker.keyframe_count() != keyframes);
@@ -157,5 +168,80 @@ inline ClosedLoops close_loops(RecordedWalk& walk, double length_m = 4.0) {
   }
   return report;
 }
+
+/// Mean error of the motion between two times over hand-checked relations (Kuemmerle et al. 2009), of those with scans
+/// within half a second of both times. `offset_s`: clock of the relations less clock of the log.
+struct RelationError {
+  double translation_m = 0.0;
+  double rotation_deg = 0.0;
+  std::size_t count = 0;
+};
+
+inline RelationError relation_error(const RecordedWalk& walk, const std::filesystem::path& path, double offset_s) {
+  constexpr double kNear_s = 0.5;
+  const auto at = [&](double stamp_s) -> const Pose2* {
+    const auto after = std::lower_bound(walk.stamps_s.begin(), walk.stamps_s.end(), stamp_s);
+    if (after == walk.stamps_s.end()) {
+      return nullptr;
+    }
+    auto k = static_cast<std::size_t>(after - walk.stamps_s.begin());
+    if (k > 0 && stamp_s - walk.stamps_s[k - 1] < walk.stamps_s[k] - stamp_s) {
+      --k;
+    }
+    return std::abs(walk.stamps_s[k] - stamp_s) <= kNear_s ? &walk.poses[k] : nullptr;
+  };
+  RelationError error;
+  gzFile file = gzopen(path.c_str(), "rb");
+  char line[512];
+  while (file != nullptr && gzgets(file, line, sizeof(line)) != nullptr) {
+    std::istringstream words(line);
+    double from_s = 0.0;
+    double to_s = 0.0;
+    double z = 0.0;
+    double roll = 0.0;
+    double pitch = 0.0;
+    Pose2 truth;
+    if (!(words >> from_s >> to_s >> truth.x_m >> truth.y_m >> z >> roll >> pitch >> truth.theta_rad)) {
+      continue;
+    }
+    const Pose2* from = at(from_s - offset_s);
+    const Pose2* to = at(to_s - offset_s);
+    if (from != nullptr && to != nullptr) {
+      const Pose2 off = inverse(truth) * (inverse(*from) * *to);
+      error.translation_m += std::hypot(off.x_m, off.y_m);
+      error.rotation_deg += rad_to_deg(std::abs(off.theta_rad));
+      ++error.count;
+    }
+  }
+  gzclose(file);
+  const auto n = static_cast<double>(std::max<std::size_t>(error.count, 1));
+  return {error.translation_m / n, error.rotation_deg / n, error.count};
+}
+
+/// What a number of queries came to.
+struct PlaceTally {
+  std::size_t queries = 0;
+  std::size_t unique = 0;
+  std::size_t ambiguous = 0;
+  std::size_t none = 0;
+  std::size_t wrong = 0;  ///< unique, and farther than the tolerance from the truth
+
+  void add(const PlaceAnswer& answer, const std::optional<Pose2>& truth, double tolerance_m, double tolerance_rad) {
+    ++queries;
+    unique += answer.verdict == PlaceVerdict::kUnique ? 1 : 0;
+    ambiguous += answer.verdict == PlaceVerdict::kAmbiguous ? 1 : 0;
+    none += answer.verdict == PlaceVerdict::kNone ? 1 : 0;
+    if (answer.verdict == PlaceVerdict::kUnique) {
+      const Pose2& found = answer.candidates.front().match.map_T_base;
+      wrong += !truth || distance_m(found, *truth) > tolerance_m ||
+                       std::abs(wrap_angle(found.theta_rad - truth->theta_rad)) > tolerance_rad
+                   ? 1
+                   : 0;
+    }
+  }
+  [[nodiscard]] double share(std::size_t part) const {
+    return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(queries, 1));
+  }
+};
 
 }  // namespace seeker::slam

@@ -80,6 +80,17 @@ TEST(LikelihoodPyramid, RefusesWhatWouldNotFitIntoMemory) {
   EXPECT_EQ(LikelihoodPyramid::build({here, {{std::nan(""), 0.0}, {1.0, 0.0}}}).error().code, Errc::kInvalidArgument);
 }
 
+TEST(LikelihoodPyramid, RefusesParametersThatMakeNoGrid) {
+  for (const int level : {0, 9}) {
+    PyramidParams params;
+    params.coarse_level = level;
+    EXPECT_EQ(LikelihoodPyramid::build({{{0.0, 0.0}, {1.0, 0.0}}}, params).error().code, Errc::kInvalidArgument);
+  }
+  PyramidParams flat;
+  flat.resolution_m = 0.0;
+  EXPECT_FALSE(LikelihoodPyramid::build({{{0.0, 0.0}, {1.0, 0.0}}}, flat));
+}
+
 TEST(GlobalMatcher, FindsTheBestPoseOfItsLatticeAsExhaustiveSearchDoes) {
   Rng rng(3);
   const auto map = LikelihoodPyramid::build(room_points(rng));

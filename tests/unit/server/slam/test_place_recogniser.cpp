@@ -212,10 +212,13 @@ TEST(Judge, NamesTheReasonOfEachVerdict) {
   EXPECT_EQ(judge({candidate(0.95, 0.2)}, 200).verdict, PlaceVerdict::kNone);
   EXPECT_EQ(judge({candidate(0.9, 0.0), candidate(0.95, 0.0)}, 200).verdict, PlaceVerdict::kAmbiguous);
   EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.9, 0.0)}, 200).reason, "another place fits nearly as well");
-  EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.75, 0.0)}, 50).reason,
+  EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.75, 0.0)}, 60).reason,
             "too little was seen to tell this place from others");
-  // A rival whose walls the beams go through is none.
-  const auto answer = judge({candidate(0.94, 0.5), candidate(0.95, 0.0)}, 200);
+  // The same lead is enough for a good fit and too little for a poor one.
+  EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.8, 0.0)}, 200).verdict, PlaceVerdict::kUnique);
+  EXPECT_EQ(judge({candidate(0.8, 0.0), candidate(0.65, 0.0)}, 200).verdict, PlaceVerdict::kAmbiguous);
+  // Beams that go through a rival's walls speak against it.
+  const auto answer = judge({candidate(0.94, 0.4), candidate(0.95, 0.0)}, 200);
   EXPECT_EQ(answer.verdict, PlaceVerdict::kUnique);
   EXPECT_EQ(answer.candidates.front().fit.all, 0.95);
   auto blind = candidate(0.95, 0.0);
