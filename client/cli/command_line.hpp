@@ -66,6 +66,38 @@ struct PauseVerb {};
 struct ResumeVerb {};
 struct MapExportVerb {
   std::string name;
+  std::vector<std::string> formats{"pgm", "png"};
+};
+struct MapSaveVerb {
+  std::string name;
+  bool replace = false;
+};
+struct MapLoadVerb {
+  std::string name;
+  bool localise = false;
+};
+struct MapListVerb {};
+/// `map info` and `map verify`.
+struct MapInspectVerb {
+  std::string name;
+  bool verify = false;
+};
+struct MapDeleteVerb {
+  std::string name;
+  bool yes = false;
+};
+struct MapDownloadVerb {
+  std::string name;
+  std::string file;
+};
+struct MapUploadVerb {
+  std::string file;
+  std::string name;
+  bool replace = false;
+};
+struct RelocaliseVerb {
+  std::string at;
+  bool wait = false;
 };
 struct GridVerb {
   std::string evidence;
@@ -89,8 +121,9 @@ struct CompletionVerb {
 struct VersionVerb {};
 
 using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, GotoVerb, DriveVerb, StopVerb, EstopVerb, PauseVerb,
-                          ResumeVerb, MapExportVerb, GridVerb, DetectionsVerb, CameraGrabVerb, ComponentsVerb, RunVerb,
-                          CompletionVerb, VersionVerb>;
+                          ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb,
+                          MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb, GridVerb, DetectionsVerb,
+                          CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

@@ -67,6 +67,30 @@ class Dispatch {
   VerbResult operator()(const MapExportVerb& verb) {
     return with_robot([&] { return export_map(context_, verb); });
   }
+  VerbResult operator()(const MapSaveVerb& verb) {
+    return with_robot([&] { return save_map(context_, verb); });
+  }
+  VerbResult operator()(const MapLoadVerb& verb) {
+    return with_robot([&] { return load_map(context_, verb); });
+  }
+  VerbResult operator()(const MapListVerb&) {
+    return with_robot([&] { return list_maps(context_); });
+  }
+  VerbResult operator()(const MapInspectVerb& verb) {
+    return with_robot([&] { return inspect_map(context_, verb); });
+  }
+  VerbResult operator()(const MapDeleteVerb& verb) {
+    return with_robot([&] { return delete_map(context_, verb); });
+  }
+  VerbResult operator()(const MapDownloadVerb& verb) {
+    return with_robot([&] { return download_map(context_, verb); });
+  }
+  VerbResult operator()(const MapUploadVerb& verb) {
+    return with_robot([&] { return upload_map(context_, verb); });
+  }
+  VerbResult operator()(const RelocaliseVerb& verb) {
+    return with_robot([&] { return relocalise(context_, verb); }, verb.wait);
+  }
   VerbResult operator()(const GridVerb& verb) {
     return with_robot([&] { return show_grid(context_, verb); });
   }

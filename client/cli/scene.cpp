@@ -123,7 +123,11 @@ Result<image::MapScene> fetch_scene(const Context& context) {
     ok = add_part<api::RobotStatus>(context, &RobotApi::get_status, [&](const auto& s) { add_status(scene, s); });
   }
   if (ok) {
-    ok = add_part<std::vector<Pose2>>(context, &RobotApi::get_trajectory, [&](const auto& t) { scene.trajectory = t; });
+    ok = add_part<std::vector<api::StampedPose>>(context, &RobotApi::get_trajectory, [&](const auto& trajectory) {
+      for (const api::StampedPose& pose : trajectory) {
+        scene.trajectory.push_back(pose.map_T_base);
+      }
+    });
   }
   if (ok) {
     ok = add_part<api::GridReport>(context, &RobotApi::get_grid, [&](const auto& g) { add_grid(scene, g); });
@@ -138,7 +142,7 @@ Result<image::MapScene> fetch_scene(const Context& context) {
   return scene;
 }
 
-Status save_picture(const fs::path& path, const Image& picture) {
+Status make_folder_of(const fs::path& path) {
   if (path.has_parent_path()) {
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
@@ -146,22 +150,29 @@ Status save_picture(const fs::path& path, const Image& picture) {
       return fail(Errc::kIo, "cannot make the folder " + path.parent_path().string() + ": " + error.message());
     }
   }
-  return image::write_png(path, picture);
+  return {};
 }
 
-Result<std::vector<fs::path>> export_map(const Context& context, const std::string& name) {
+Status save_picture(const fs::path& path, const Image& picture) {
+  Status ok = make_folder_of(path);
+  return ok ? image::write_png(path, picture) : ok;
+}
+
+Result<std::vector<fs::path>> export_map(const Context& context, const std::string& name, const MapPictures& pictures) {
   const Result<image::MapScene> scene = fetch_scene(context);
   if (!scene) {
     return tl::unexpected<Error>(scene.error());
   }
-  const Result<Image> picture = image::draw_map(*scene);
-  if (!picture) {
-    return tl::unexpected<Error>(picture.error());
+  std::vector<fs::path> files;
+  Status ok;
+  if (pictures.png) {
+    const Result<Image> picture = image::draw_map(*scene);
+    ok = picture ? save_picture(name + ".png", *picture) : Status(tl::unexpected<Error>(picture.error()));
+    files.emplace_back(name + ".png");
   }
-  std::vector<fs::path> files{name + ".png"};
-  Status ok = save_picture(files.front(), *picture);
-  if (ok && scene->occupancy) {
-    ok = image::write_map_server(name, *scene->occupancy);
+  if (ok && pictures.map_server && scene->occupancy) {
+    ok = make_folder_of(name);
+    ok = ok ? image::write_map_server(name, *scene->occupancy) : ok;
     files.emplace_back(name + ".pgm");
     files.emplace_back(name + ".yaml");
   }

@@ -16,8 +16,18 @@ namespace seeker::cli {
 /// Map, trajectory, grid lists, evidence, detections and pose; what the robot does not have is left out.
 [[nodiscard]] Result<image::MapScene> fetch_scene(const Context& context);
 
+/// Which of its pictures export_map() writes.
+struct MapPictures {
+  bool png = true;
+  bool map_server = true;  ///< NAME.pgm and NAME.yaml
+};
+
 /// Writes NAME.pgm, NAME.yaml and NAME.png; makes the folder when it is absent. The written files are the answer.
-[[nodiscard]] Result<std::vector<std::filesystem::path>> export_map(const Context& context, const std::string& name);
+[[nodiscard]] Result<std::vector<std::filesystem::path>> export_map(const Context& context, const std::string& name,
+                                                                    const MapPictures& pictures = {});
+
+/// Makes the folder that a file is to lie in.
+[[nodiscard]] Status make_folder_of(const std::filesystem::path& path);
 
 /// Writes a picture as PNG into a folder that is made when absent.
 [[nodiscard]] Status save_picture(const std::filesystem::path& path, const Image& picture);

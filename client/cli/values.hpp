@@ -18,6 +18,9 @@ void write_json(Json& json, const api::RobotStatus& status);
 void write_json(Json& json, const api::ComponentInfo& component);
 void write_json(Json& json, const api::Event& event);
 void write_json(Json& json, const api::GridReport& grid);
+void write_json(Json& json, const api::MapSummary& map);
+void write_json(Json& json, const MapSegment& segment);
+void write_json(Json& json, const api::SegmentUpdate& update);
 /// {"topic", "sequence", "dropped", "stamp_s", "data"}; pictures and tiles are told by their sizes, not their content.
 void write_json(Json& json, const api::Update& update);
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "client/cli/values.hpp"
 #include "common/core/angle.hpp"
 
@@ -118,6 +121,18 @@ void write_json(Json& json, const api::RobotStatus& status) {
   json.field("safety", status.safety)
       .field("clock_speed", status.clock_speed)
       .field("map_revision", status.map_revision);
+  json.key("line_map");
+  if (status.line_map) {
+    json.begin_object()
+        .field("name", status.line_map->name)
+        .field("use", to_string(status.line_map->use))
+        .field("segments", status.line_map->segments)
+        .field("revision", status.line_map->revision)
+        .field("relocalising", status.line_map->relocalising)
+        .end_object();
+  } else {
+    json.null();
+  }
   json.key("mission");
   if (status.mission) {
     write_json(json, *status.mission);
@@ -163,6 +178,33 @@ void write_json(Json& json, const api::GridReport& grid) {
   write_json(json, grid.evidence.summary);
   write_list(json, "gaps", grid.evidence.gaps);
   json.field("map_epoch", grid.map_epoch).end_object();
+}
+
+void write_json(Json& json, const MapSegment& segment) {
+  json.begin_object()
+      .field("id", segment.id)
+      .field("left", segment.left())
+      .field("right", segment.right())
+      .field("length_m", segment.length_m)
+      .field("left_real", segment.left_real)
+      .field("right_real", segment.right_real)
+      .field("sigma_m", std::sqrt(std::max(0.0, segment.covariance(0, 0))))
+      .field("sigma_rad", std::sqrt(std::max(0.0, segment.covariance(1, 1))))
+      .field("hits", segment.hits)
+      .end_object();
+}
+
+void write_json(Json& json, const api::SegmentUpdate& update) {
+  json.begin_object()
+      .field("revision", update.revision)
+      .field("map_epoch", update.map_epoch)
+      .field("full", update.full);
+  write_list(json, "changed", update.changed);
+  json.key("removed").begin_array();
+  for (const std::uint64_t id : update.removed) {
+    json.value(id);
+  }
+  json.end_array().end_object();
 }
 
 namespace {

@@ -52,6 +52,10 @@ struct Describe {
   std::string operator()(const api::Event& event) const {
     return std::string(to_string(event.severity)) + " " + event.kind + ": " + event.text;
   }
+  std::string operator()(const api::SegmentUpdate& update) const {
+    return (update.full ? "all: " : "") + std::to_string(update.changed.size()) + " segments changed, " +
+           std::to_string(update.removed.size()) + " removed, revision " + std::to_string(update.revision);
+  }
   std::string operator()(const api::Detection& detection) const { return text_of(detection); }
 };
 

@@ -24,6 +24,15 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult show_grid(const Context& context, const GridVerb& verb);
 [[nodiscard]] VerbResult grab_image(const Context& context, const CameraGrabVerb& verb);
 [[nodiscard]] VerbResult export_map(const Context& context, const MapExportVerb& verb);
+[[nodiscard]] VerbResult save_map(const Context& context, const MapSaveVerb& verb);
+[[nodiscard]] VerbResult load_map(const Context& context, const MapLoadVerb& verb);
+[[nodiscard]] VerbResult list_maps(const Context& context);
+[[nodiscard]] VerbResult inspect_map(const Context& context, const MapInspectVerb& verb);
+[[nodiscard]] VerbResult delete_map(const Context& context, const MapDeleteVerb& verb);
+[[nodiscard]] VerbResult download_map(const Context& context, const MapDownloadVerb& verb);
+[[nodiscard]] VerbResult upload_map(const Context& context, const MapUploadVerb& verb);
+/// With --wait: 0 when the robot has found its place, 1 when it is lost.
+[[nodiscard]] VerbResult relocalise(const Context& context, const RelocaliseVerb& verb);
 [[nodiscard]] VerbResult watch(const Context& context, const WatchVerb& verb);
 
 [[nodiscard]] VerbResult stop(const Context& context);

@@ -1,5 +1,6 @@
 #include <iomanip>
 
+#include "client/cli/export_files.hpp"
 #include "client/cli/scene.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/verbs.hpp"
@@ -25,6 +26,14 @@ void print_status(const Context& context, const api::RobotInfo& info, const api:
   row(context, "pose",
       text_of(s.pose.map_T_base) + fixed(" \xC2\xB1 %.2f m", sigma_m(s.pose.covariance.topLeftCorner<2, 2>())) + ", " +
           std::string(to_string(s.pose.quality)) + (s.pose.cause.empty() ? "" : ": " + s.pose.cause));
+  if (s.line_map) {
+    const api::LineMapStatus& map = *s.line_map;
+    row(context, "map",
+        std::to_string(map.segments) + " segments, " +
+            (map.name.empty() ? std::string("not saved yet") : "'" + map.name + "'") +
+            (map.use == api::MapUse::kLocalise ? ", only localised in" : "") +
+            (map.relocalising ? ", the robot looks for its place in it" : ""));
+  }
   row(context, "velocity", fixed("%.2f m/s, ", s.velocity.v_m_s) + fixed("%.2f rad/s", s.velocity.omega_rad_s));
   if (s.battery_v) {
     row(context, "battery", fixed("%.1f V", *s.battery_v));
@@ -190,7 +199,7 @@ VerbResult grab_image(const Context& context, const CameraGrabVerb& verb) {
 }
 
 VerbResult export_map(const Context& context, const MapExportVerb& verb) {
-  const auto files = export_map(context, verb.name);
+  const auto files = export_map_files(context, verb.name, verb.formats);
   if (!files) {
     return tl::unexpected<Error>(files.error());
   }

@@ -209,7 +209,8 @@ StreamClass stream_class(Topic topic) {
   switch (topic) {
     case Topic::kMission:
     case Topic::kEvent:
-    case Topic::kDetection: return StreamClass::kReliable;
+    case Topic::kDetection:
+    case Topic::kSegments: return StreamClass::kReliable;
     default: return StreamClass::kLatest;
   }
 }
@@ -225,6 +226,7 @@ std::string_view to_string(Topic topic) {
     case Topic::kMission: return "mission";
     case Topic::kEvent: return "event";
     case Topic::kDetection: return "detection";
+    case Topic::kSegments: return "segments";
   }
   return "status";
 }

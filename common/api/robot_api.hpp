@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "common/api/map.hpp"
 #include "common/api/mission.hpp"
 #include "common/api/perception.hpp"
 #include "common/api/robot_state.hpp"
@@ -33,8 +35,9 @@ enum class Topic : std::uint8_t {
   kMission,    ///< MissionStatus                    RELIABLE
   kEvent,      ///< Event                            RELIABLE
   kDetection,  ///< Detection (new or refined)       RELIABLE
+  kSegments,   ///< SegmentUpdate                    RELIABLE
 };
-inline constexpr std::size_t kTopicCount = 9;
+inline constexpr std::size_t kTopicCount = 10;
 
 /// LATEST: a slow receiver gets the newest and is told how many it missed. RELIABLE: numbered, resumable, complete.
 enum class StreamClass : std::uint8_t { kLatest, kReliable };
@@ -42,7 +45,7 @@ enum class StreamClass : std::uint8_t { kLatest, kReliable };
 [[nodiscard]] std::string_view to_string(Topic topic);
 
 using Payload = std::variant<RobotStatus, LaserScan, SonarScan, TileUpdate, GridReport, ImageFrame, MissionStatus,
-                             Event, Detection>;
+                             Event, Detection, SegmentUpdate>;
 
 /// One item of a stream. Immutable and shared between all who receive it.
 struct Update {
@@ -103,9 +106,33 @@ class RobotApi {
   virtual void get_tiles(std::uint64_t since_revision, Reply<TileUpdate> reply) = 0;
   virtual void get_grid(Reply<GridReport> reply) = 0;
   virtual void get_detections(Reply<std::vector<Detection>> reply) = 0;
-  /// Poses of the robot since it was started, thinned, in the frame `map`.
-  virtual void get_trajectory(Reply<std::vector<Pose2>> reply) = 0;
+  /// Poses of the robot since it was started or a map was loaded, thinned, in the frame `map` as it was then: a loop
+  /// closure moves later poses only.
+  virtual void get_trajectory(Reply<std::vector<StampedPose>> reply) = 0;
   virtual void grab_image(const std::string& camera, Reply<ImageFrame> reply) = 0;
+
+  // The map of segments. Every one of these is kNotReady where the estimator keeps no such map, or where there is no
+  // folder to keep maps in.
+
+  /// Segments changed since `revision`; all of them, marked as full, for 0 and for a revision that is too old.
+  virtual void get_segments(std::uint64_t since_revision, Reply<SegmentUpdate> reply) = 0;
+  /// Keeps the present map under a name. kRefused: there is another map of that name and `replace` is false, or it is
+  /// the one the robot localises in.
+  virtual void save_map(const std::string& name, bool replace, Reply<MapSummary> reply) = 0;
+  /// Replaces the present map; the robot then looks for its place in it. kRefused: the robot moves; kBusy: a mission
+  /// runs; kNotFound, kCorrupt, kUnsupportedVersion: of the file.
+  virtual void load_map(const std::string& name, MapUse use, Reply<MapSummary> reply) = 0;
+  /// By name; damaged ones with their problem.
+  virtual void list_maps(Reply<std::vector<MapSummary>> reply) = 0;
+  /// Figures of one map; with `verify` the whole file is read and checked.
+  virtual void inspect_map(const std::string& name, bool verify, Reply<MapSummary> reply) = 0;
+  virtual void delete_map(const std::string& name, Reply<void> reply) = 0;
+  /// The bytes of the file. kTooLarge above kMaxMapTransferBytes.
+  virtual void download_map(const std::string& name, Reply<std::vector<std::uint8_t>> reply) = 0;
+  virtual void upload_map(const MapUpload& upload, Reply<MapSummary> reply) = 0;
+  /// Looks for the robot near a pose, or everywhere. Answers at once; how it goes is in RobotStatus::pose: kUnknown
+  /// while it looks, then kLocalised, or kLost with the cause. kRefused: the robot moves; kBusy: a mission runs.
+  virtual void relocalise(const std::optional<Pose2>& map_T_base, Reply<void> reply) = 0;
 
   [[nodiscard]] virtual Result<std::unique_ptr<Subscription>> subscribe(const std::vector<TopicRequest>& topics,
                                                                         UpdateSink sink) = 0;

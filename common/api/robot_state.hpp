@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/api/map.hpp"
 #include "common/api/mission.hpp"
 #include "common/core/occupancy_tile.hpp"
 #include "common/core/pose_estimate.hpp"
@@ -17,7 +18,7 @@
 namespace seeker::api {
 
 inline constexpr std::uint32_t kProtocolMajor = 1;
-inline constexpr std::uint32_t kProtocolMinor = 0;
+inline constexpr std::uint32_t kProtocolMinor = 1;
 
 /// Who the robot is: answered before anything else.
 struct RobotInfo {
@@ -84,11 +85,20 @@ struct RobotStatus {
   LeaseState lease;
   std::optional<MissionStatus> mission;  ///< running, paused or the last one
   std::vector<Fault> faults;
-  std::string safety;        ///< why the last command was clamped or refused; empty when it was not
-  double clock_speed = 1.0;  ///< robot seconds per wall second asked for; 0: as fast as possible
-  std::uint64_t map_revision = 0;
+  std::string safety;                     ///< why the last command was clamped or refused; empty when it was not
+  double clock_speed = 1.0;               ///< robot seconds per wall second asked for; 0: as fast as possible
+  std::uint64_t map_revision = 0;         ///< of the occupancy
+  std::optional<LineMapStatus> line_map;  ///< absent where the estimator keeps no map of segments
 
   friend bool operator==(const RobotStatus&, const RobotStatus&) = default;
+};
+
+/// Where the robot believed it was at a time.
+struct StampedPose {
+  RobotTime stamp;
+  Pose2 map_T_base;
+
+  friend bool operator==(const StampedPose&, const StampedPose&) = default;
 };
 
 /// A log entry of a mission or of the robot. Mission events are stamped from the mission's start.

@@ -139,4 +139,16 @@ Status validate(const LineMap& map) {
   return check_keyframes(map, nodes);
 }
 
+Status validate_map_name(std::string_view name) {
+  constexpr std::size_t kMaxName = 64;
+  const bool allowed = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+  if (name.empty() || name.size() > kMaxName || !allowed) {
+    return fail(Errc::kInvalidArgument,
+                "a map's name has 1 to 64 of the characters a-z, 0-9, - and _, as in office-2nd_floor");
+  }
+  return {};
+}
+
 }  // namespace seeker

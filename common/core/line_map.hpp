@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/core/pose2.hpp"
@@ -89,5 +90,8 @@ struct LineMap {
 /// Refuses what cannot be a map: ids that are 0, repeated, unknown or not below next_id; poses or covariances that are
 /// not finite or not symmetric positive semi-definite; lengths below 0; scans without beams or with too many.
 [[nodiscard]] Status validate(const LineMap& map);
+
+/// Names of kept maps are [a-z0-9_-]{1,64}: also safe as the name of a file.
+[[nodiscard]] Status validate_map_name(std::string_view name);
 
 }  // namespace seeker

@@ -148,6 +148,37 @@ void RobotClient::Impl::send_subscription(const std::shared_ptr<ClientStream>& s
       return;
     }
     stream->on_subscribed(responses->front().subscribe(), self->stream_id_);
+    self->catch_up_segments(stream, responses->front().subscribe());
+  });
+}
+
+/// A stream of changes says nothing without what was before them: asked for at the beginning and after a gap.
+void RobotClient::Impl::catch_up_segments(const std::shared_ptr<ClientStream>& stream,
+                                          const pb::SubscribeResponse& response) {
+  const auto topic = static_cast<pb::Topic>(wire::wire_enum(api::Topic::kSegments));
+  const auto reply = std::find_if(response.topics().begin(), response.topics().end(),
+                                  [&](const pb::TopicReply& r) { return r.topic() == topic; });
+  if (reply == response.topics().end() || reply->start() == pb::TopicReply::START_RESUMED) {
+    return;
+  }
+  if (reply->start() == pb::TopicReply::START_OTHER_RUN) {
+    stream->forget_segments();
+  }
+  pb::Request request;
+  request.mutable_get_segments()->set_since_revision(stream->segments_revision());
+  call_now(std::move(request), [stream](Result<std::vector<pb::Response>> responses) {
+    if (!responses) {
+      return;
+    }
+    for (const pb::Response& part : *responses) {
+      Result<api::SegmentUpdate> segments = wire::from_message<api::SegmentUpdate>(part.get_segments().update());
+      if (wire::outcome(part) && segments) {
+        auto update = std::make_shared<api::Update>();
+        update->topic = api::Topic::kSegments;
+        update->payload = std::move(*segments);
+        stream->deliver(update);
+      }
+    }
   });
 }
 

@@ -57,6 +57,7 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   bool send(const seeker::v1::Envelope& envelope);
   void call_now(seeker::v1::Request request, wire::ClientSession::Answer answer);
   void send_subscription(const std::shared_ptr<ClientStream>& stream);
+  void catch_up_segments(const std::shared_ptr<ClientStream>& stream, const seeker::v1::SubscribeResponse& response);
   void catch_up_tiles(const std::shared_ptr<ClientStream>& stream, bool restarted);
   void first_result(Status result);
 

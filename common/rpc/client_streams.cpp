@@ -72,11 +72,19 @@ void ClientStream::deliver(const api::UpdatePtr& update) {
   if (topic == topics_.end()) {
     return;
   }
-  if (api::stream_class(update->topic) == api::StreamClass::kReliable) {
+  // What was asked for beside the stream has no number.
+  if (api::stream_class(update->topic) == api::StreamClass::kReliable && update->sequence != 0) {
     if (update->sequence <= topic->position) {
       return;
     }
     topic->position = update->sequence;
+  }
+  if (const auto* segments = std::get_if<api::SegmentUpdate>(&update->payload)) {
+    // An answer to get_segments and the stream may overtake each other: the older one is contained in the newer.
+    if (segments->revision < segments_revision_) {
+      return;
+    }
+    segments_revision_ = segments->revision;
   }
   if (const auto* tiles = std::get_if<api::TileUpdate>(&update->payload)) {
     tiles_revision_ = tiles->revision;

@@ -24,12 +24,16 @@ class ClientStream {
   [[nodiscard]] seeker::v1::SubscribeRequest request() const;
   /// The robot told where each topic begins.
   void on_subscribed(const seeker::v1::SubscribeResponse& response, std::uint64_t stream_id);
+  /// The robot was started again: its revisions count anew.
+  void forget_segments() { segments_revision_ = 0; }
   /// Hands the update on, unless it was delivered before.
   void deliver(const api::UpdatePtr& update);
   /// Afterwards the sink is not called any more. Waits for a call that is running, unless it is the caller's own.
   void cancel();
   /// Of the map as far as it was delivered; 0: nothing was.
   [[nodiscard]] std::uint64_t tiles_revision() const { return tiles_revision_; }
+  /// As above, of the segments.
+  [[nodiscard]] std::uint64_t segments_revision() const { return segments_revision_; }
 
  private:
   struct Topic {
@@ -41,6 +45,7 @@ class ClientStream {
   std::uint64_t id_;
   std::vector<Topic> topics_;
   std::uint64_t tiles_revision_ = 0;
+  std::uint64_t segments_revision_ = 0;
   std::recursive_mutex delivery_;  ///< recursive: a sink may end its own subscription
   bool cancelled_ = false;
   api::UpdateSink sink_;

@@ -2,57 +2,11 @@
 
 #include <utility>
 
+#include "common/rpc/answers.hpp"
 #include "common/rpc/client_impl.hpp"
-#include "common/wire/convert.hpp"
-#include "common/wire/outcome.hpp"
 
 namespace seeker::rpc {
 namespace {
-
-namespace pb = ::seeker::v1;
-using Responses = std::vector<pb::Response>;
-
-/// The reply of a call without value.
-wire::ClientSession::Answer empty_answer(api::Reply<void> reply) {
-  return [reply = std::move(reply)](Result<Responses> responses) {
-    reply(responses ? wire::outcome(responses->front()) : Status(tl::unexpected<Error>(responses.error())));
-  };
-}
-
-/// The reply of a call with a value that `read` takes out of the successful responses.
-template <class T, class Read>
-wire::ClientSession::Answer value_answer(api::Reply<T> reply, Read read) {
-  return [reply = std::move(reply), read](Result<Responses> responses) {
-    if (!responses) {
-      reply(tl::unexpected<Error>(responses.error()));
-      return;
-    }
-    for (const pb::Response& response : *responses) {
-      if (const Status ok = wire::outcome(response); !ok) {
-        reply(tl::unexpected<Error>(ok.error()));
-        return;
-      }
-    }
-    Result<T> value = read(*responses);
-    reply(value ? std::move(value) : fail_with_context("the robot's answer is not valid", value.error()));
-  };
-}
-
-template <class T>
-Result<std::vector<T>> read_list(const auto& messages, std::size_t limit) {
-  if (static_cast<std::size_t>(messages.size()) > limit) {
-    return fail(Errc::kTooLarge, "too many entries");
-  }
-  std::vector<T> out;
-  for (const auto& message : messages) {
-    Result<T> one = wire::from_message<T>(message);
-    if (!one) {
-      return tl::unexpected<Error>(one.error());
-    }
-    out.push_back(std::move(*one));
-  }
-  return out;
-}
 
 Result<api::TileUpdate> join_parts(const Responses& parts) {
   api::TileUpdate all;
@@ -190,11 +144,11 @@ void RobotClient::get_detections(api::Reply<std::vector<api::Detection>> reply) 
               }));
 }
 
-void RobotClient::get_trajectory(api::Reply<std::vector<Pose2>> reply) {
+void RobotClient::get_trajectory(api::Reply<std::vector<api::StampedPose>> reply) {
   pb::Request request;
   request.mutable_get_trajectory();
-  impl_->call(std::move(request), value_answer<std::vector<Pose2>>(std::move(reply), [](const Responses& r) {
-                return wire::from_message<std::vector<Pose2>>(r.front().get_trajectory().poses());
+  impl_->call(std::move(request), value_answer<std::vector<api::StampedPose>>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<std::vector<api::StampedPose>>(r.front().get_trajectory().poses());
               }));
 }
 

@@ -95,8 +95,17 @@ class RobotClient final : public api::RobotApi {
   void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override;
   void get_grid(api::Reply<api::GridReport> reply) override;
   void get_detections(api::Reply<std::vector<api::Detection>> reply) override;
-  void get_trajectory(api::Reply<std::vector<Pose2>> reply) override;
+  void get_trajectory(api::Reply<std::vector<api::StampedPose>> reply) override;
   void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override;
+  void get_segments(std::uint64_t since_revision, api::Reply<api::SegmentUpdate> reply) override;
+  void save_map(const std::string& name, bool replace, api::Reply<api::MapSummary> reply) override;
+  void load_map(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply) override;
+  void list_maps(api::Reply<std::vector<api::MapSummary>> reply) override;
+  void inspect_map(const std::string& name, bool verify, api::Reply<api::MapSummary> reply) override;
+  void delete_map(const std::string& name, api::Reply<void> reply) override;
+  void download_map(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply) override;
+  void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override;
+  void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override;
   /// Returns at once. Fails (kInvalidArgument) for an empty list, a topic named twice or a negative rate.
   [[nodiscard]] Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                                      api::UpdateSink sink) override;

@@ -18,6 +18,12 @@ ClientStep end_with(Errc code, std::string message, bool final_end = false) {
   return step;
 }
 
+/// Large maps come in several responses.
+bool more_follow(const pb::Response& response) {
+  return (response.has_get_tiles() && response.get_tiles().part() < response.get_tiles().parts()) ||
+         (response.has_get_segments() && response.get_segments().part() < response.get_segments().parts());
+}
+
 Errc code_of(pb::HelloReply::Status status) {
   Errc code = Errc::kInternal;
   return errc_of(pb::HelloReply::Status_Name(status), code) ? code : Errc::kInternal;
@@ -122,7 +128,7 @@ ClientStep ClientSession::on_response(pb::Response& response, WallTime now) {
   if (!failed && static_cast<int>(response.result_case()) != pending.call) {
     return end_with(Errc::kParse, "the robot answered another call than the one that was made");
   }
-  const bool more = response.has_get_tiles() && response.get_tiles().part() < response.get_tiles().parts();
+  const bool more = more_follow(response);
   pending.parts.push_back(std::move(response));
   if (more && pending.parts.size() < kMaxTileParts) {
     pending.deadline = now + pending.timeout;

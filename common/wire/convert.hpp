@@ -27,12 +27,13 @@ void write(const Pose2& from, pb::Pose2* to);
 void write(const Twist2& from, pb::Twist2* to);
 void write(const Point2& from, pb::Point2* to);
 void write(const std::vector<Point2>& from, pb::PointList* to);
-void write(const std::vector<Pose2>& from, pb::PoseList* to);
+void write(const std::vector<api::StampedPose>& from, pb::PoseList* to);
 void read(const pb::Pose2& from, Pose2& to, Check& check);
 void read(const pb::Twist2& from, Twist2& to, Check& check);
 void read(const pb::Point2& from, Point2& to, Check& check);
 void read(const pb::PointList& from, std::vector<Point2>& to, Check& check, std::size_t limit = kMaxListPoints);
-void read(const pb::PoseList& from, std::vector<Pose2>& to, Check& check);
+/// Stamps are zero where the other side does not tell them.
+void read(const pb::PoseList& from, std::vector<api::StampedPose>& to, Check& check);
 
 void write(const LaserScan& from, pb::LaserScan* to);
 void write(const SonarScan& from, pb::SonarScan* to);
@@ -47,6 +48,16 @@ void write(const OccupancyTile& from, pb::Tile* to);
 void write(const api::TileUpdate& from, pb::TileUpdate* to);
 void read(const pb::Tile& from, OccupancyTile& to, Check& check);
 void read(const pb::TileUpdate& from, api::TileUpdate& to, Check& check);
+
+void write(const MapSegment& from, pb::Segment* to);
+/// At most kMaxSegmentsPerUpdate entries travel in one message: see api::split().
+void write(const api::SegmentUpdate& from, pb::SegmentUpdate* to);
+void write(const api::MapSummary& from, pb::MapSummary* to);
+void write(const api::LineMapStatus& from, pb::LineMapStatus* to);
+void read(const pb::Segment& from, MapSegment& to, Check& check);
+void read(const pb::SegmentUpdate& from, api::SegmentUpdate& to, Check& check);
+void read(const pb::MapSummary& from, api::MapSummary& to, Check& check);
+void read(const pb::LineMapStatus& from, api::LineMapStatus& to, Check& check);
 
 void write(const api::Detection& from, pb::Detection* to);
 void write(const api::CoverageSummary& from, pb::CoverageSummary* to);

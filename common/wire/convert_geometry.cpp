@@ -97,16 +97,18 @@ void read(const pb::PointList& from, std::vector<Point2>& to, Check& check, std:
   }
 }
 
-void write(const std::vector<Pose2>& from, pb::PoseList* to) {
-  for (const Pose2& pose : from) {
-    to->add_x_m(pose.x_m);
-    to->add_y_m(pose.y_m);
-    to->add_theta_rad(pose.theta_rad);
+void write(const std::vector<api::StampedPose>& from, pb::PoseList* to) {
+  for (const api::StampedPose& pose : from) {
+    to->add_x_m(pose.map_T_base.x_m);
+    to->add_y_m(pose.map_T_base.y_m);
+    to->add_theta_rad(pose.map_T_base.theta_rad);
+    to->add_stamp_ns(pose.stamp.time_since_epoch().count());
   }
 }
 
-void read(const pb::PoseList& from, std::vector<Pose2>& to, Check& check) {
-  if (from.x_m_size() != from.y_m_size() || from.x_m_size() != from.theta_rad_size()) {
+void read(const pb::PoseList& from, std::vector<api::StampedPose>& to, Check& check) {
+  const bool stamps = from.stamp_ns_size() == 0 || from.stamp_ns_size() == from.x_m_size();
+  if (from.x_m_size() != from.y_m_size() || from.x_m_size() != from.theta_rad_size() || !stamps) {
     check.refuse("", Errc::kInvalidArgument, "has lists of different length");
     return;
   }
@@ -115,8 +117,10 @@ void read(const pb::PoseList& from, std::vector<Pose2>& to, Check& check) {
   }
   to.reserve(static_cast<std::size_t>(from.x_m_size()));
   for (int k = 0; k < from.x_m_size(); ++k) {
-    to.push_back({check.finite("x_m", from.x_m(k)), check.finite("y_m", from.y_m(k)),
-                  check.finite("theta_rad", from.theta_rad(k))});
+    const RobotTime stamp(Duration(from.stamp_ns_size() == 0 ? 0 : from.stamp_ns(k)));
+    to.push_back({stamp,
+                  {check.finite("x_m", from.x_m(k)), check.finite("y_m", from.y_m(k)),
+                   check.finite("theta_rad", from.theta_rad(k))}});
   }
 }
 

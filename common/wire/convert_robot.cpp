@@ -138,6 +138,9 @@ void write(const api::RobotStatus& from, pb::RobotStatus* to) {
   to->set_safety(clean_text(from.safety));
   to->set_clock_speed(from.clock_speed);
   to->set_map_revision(from.map_revision);
+  if (from.line_map) {
+    write(*from.line_map, to->mutable_line_map());
+  }
 }
 
 void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check) {
@@ -165,6 +168,10 @@ void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check) {
   to.safety = check.text("safety", from.safety());
   to.clock_speed = check.finite("clock_speed", from.clock_speed());
   to.map_revision = from.map_revision();
+  if (from.has_line_map()) {
+    const auto scope = check.in("line_map");
+    read(from.line_map(), to.line_map.emplace(), check);
+  }
 }
 
 void write(const api::Event& from, pb::Event* to) {

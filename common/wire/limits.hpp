@@ -18,6 +18,7 @@ inline constexpr std::size_t kMaxFaults = 256;
 inline constexpr std::size_t kMaxSonars = 256;
 inline constexpr std::size_t kMaxTilesPerUpdate = 1024;  ///< 4 MiB when nothing compresses
 inline constexpr std::size_t kMaxTileParts = 1024;       ///< of one answer: 10 km2 of map
+inline constexpr std::size_t kMaxMapNameBytes = 256;     ///< any text of a MapSummary but its problem
 inline constexpr std::size_t kMaxPathPoints = 65'536;
 inline constexpr std::size_t kMaxListPoints = 250'000;  ///< cells of a grid list
 inline constexpr std::size_t kMaxTrajectoryPoses = 500'000;

@@ -36,6 +36,11 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kStartMission:
     case pb::Request::kCommandMission:
     case pb::Request::kCommandLease:
+    case pb::Request::kSaveMap:
+    case pb::Request::kLoadMap:
+    case pb::Request::kDeleteMap:
+    case pb::Request::kUploadMap:
+    case pb::Request::kRelocalise:
     case pb::Request::kDrive: return api::Role::kOperator;
     case pb::Request::kSetEstop: return request.set_estop().engaged() ? api::Role::kObserver : api::Role::kOperator;
     default: return api::Role::kObserver;

@@ -67,6 +67,8 @@ class Behaviour {
   /// What looks at the pictures this behaviour asks for; null when it asks for none.
   [[nodiscard]] virtual std::shared_ptr<const vision::Recogniser> recogniser() const { return nullptr; }
   virtual void on_recognition(const Recognition& /*recognition*/) {}
+  /// A loop closure moved the map: `new_T_old` takes places of the map before to the map now, exact near the robot.
+  virtual void map_moved(const Pose2& /*new_T_old*/) {}
   /// Time passes without steps while paused.
   virtual void resumed(RobotTime /*now*/) {}
   [[nodiscard]] virtual std::optional<api::GridReport> grid() const { return std::nullopt; }

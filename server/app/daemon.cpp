@@ -67,7 +67,7 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, Assembl
   }
   Robot robot(
       {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
-      options.loop, std::move(assembly.parts), std::move(*journal));
+      options.loop, std::move(assembly.parts), std::move(*journal), state / "maps");
   server_net::ServerParams params = options.server;
   params.port = arguments.port.value_or(params.port);
   params.robot_now = [&robot] { return robot.now(); };

@@ -83,6 +83,8 @@ class Behaviours {
     return SearchBehaviour::create(search_, std::get<api::SearchMission>(task), table_, memory_);
   }
 
+  [[nodiscard]] const EvidenceMemory& memory() const { return memory_; }
+
  private:
   GotoParams go_;
   SearchBehaviourParams search_;
@@ -110,8 +112,10 @@ Result<Assembly> assemble(const RobotOptions& options) {
   parts.estimator = std::make_unique<TrackerEstimator>(make_tracker(options.estimator, options));
   parts.estimator_type = to_string(options.estimator);
   parts.occupancy = options.occupancy;
-  parts.behaviours = Behaviours(options, std::make_shared<const search::ControlTable>(std::move(*table)),
-                                parts.devices.camera != nullptr);
+  Behaviours behaviours(options, std::make_shared<const search::ControlTable>(std::move(*table)),
+                        parts.devices.camera != nullptr);
+  parts.forget_places = [memory = behaviours.memory()] { memory->reset(); };
+  parts.behaviours = std::move(behaviours);
   return assembly;
 }
 

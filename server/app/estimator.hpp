@@ -9,6 +9,7 @@
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
 #include "server/drivers/interfaces/drivers.hpp"
+#include "server/slam/map_tracker.hpp"
 
 namespace seeker::app {
 
@@ -24,6 +25,8 @@ class Estimator {
   /// Corrects by a sweep taken at the newest odometry. Errors as above.
   [[nodiscard]] virtual Status on_scan(const LaserScan& scan) = 0;
   [[nodiscard]] virtual PoseEstimate estimate() const = 0;
+  /// The map of segments behind the estimate; null where none is kept.
+  [[nodiscard]] virtual slam::MapTracker* map_tracker() { return nullptr; }
 };
 
 /// Which estimator a robot uses.

@@ -21,6 +21,11 @@ void GotoBehaviour::resumed(RobotTime /*now*/) {
   planned_at_.reset();
 }
 
+void GotoBehaviour::map_moved(const Pose2& /*new_T_old*/) {
+  follower_.clear();
+  planned_at_.reset();
+}
+
 void GotoBehaviour::next_waypoint(Decision& decision) {
   ++current_;
   failures_ = 0;

@@ -38,6 +38,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.status.started = situation.now;
   active.status.link_policy = request.link_policy;
   active.detection_base = highest_detection_id_;
+  active.map_epoch = situation.pose.map_epoch;
   active_ = std::move(active);
   event_sequence_ = 0;
   log(situation.now, "mission-started", active_->status.kind + " started");
@@ -196,6 +197,7 @@ void MissionExecutor::take(const Decision& decision, const Situation& situation)
     status.path_length_m += distance_m(*active_->last_pose, pose);
   }
   active_->last_pose = pose;
+  active_->map_epoch = situation.pose.map_epoch;
   const bool new_phase = status.phase != decision.phase;
   status.phase = decision.phase;
   status.activity = decision.activity;
@@ -225,15 +227,25 @@ void MissionExecutor::on_recognition(const Recognition& recognition) {
   }
 }
 
+void MissionExecutor::map_moved(const Pose2& new_T_old, RobotTime now) {
+  if (active_) {
+    active_->behaviour->map_moved(new_T_old);
+    active_->last_pose.reset();
+    log(now, "map-moved", "the map was corrected; what was searched and found moved with it");
+  }
+}
+
 void MissionExecutor::collect() {
   if (std::optional<api::GridReport> grid = active_->behaviour->grid()) {
     active_->status.cells_searched = static_cast<int>(grid->lists.searched.size());
     active_->status.cells_unsearched = static_cast<int>(grid->lists.unsearched.size());
     active_->status.coverage = grid->evidence.summary;
+    grid->map_epoch = grid->evidence.map_epoch = active_->map_epoch;
     grid_ = std::move(grid);
   }
   for (api::Detection& detection : active_->behaviour->detections()) {
     detection.id += active_->detection_base;
+    detection.map_epoch = active_->map_epoch;
     const auto known = std::find_if(detections_.begin(), detections_.end(),
                                     [&](const api::Detection& d) { return d.id == detection.id; });
     if (known != detections_.end() && *known == detection) {

@@ -51,6 +51,8 @@ class MissionExecutor {
   /// One tick; a decision without command when nothing runs. `blocking` is a fault that forbids motion.
   [[nodiscard]] Decision step(const Situation& situation, const api::Fault* blocking, WallTime wall_now);
   void on_recognition(const Recognition& recognition);
+  /// What a running mission knows of places moves with the map; what ended missions left keeps its old epoch.
+  void map_moved(const Pose2& new_T_old, RobotTime now);
 
   void client_lost(const std::string& client, WallTime wall_now);
   void client_back(const std::string& client);
@@ -79,6 +81,7 @@ class MissionExecutor {
     std::optional<RobotTime> unlocalised_since;
     std::optional<Pose2> last_pose;
     RobotTime last_report;
+    std::uint32_t map_epoch = 0;  ///< that results belong to
   };
 
   [[nodiscard]] Decision held(const Situation& situation, const std::string& activity);

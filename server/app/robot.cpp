@@ -63,13 +63,8 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     ask(std::move(reply), [this, command] { return loop().drive(client_, command); });
   }
   void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override {
-    ask(std::move(reply), [this, since_revision] {
-      api::TileUpdate update;
-      update.revision = loop().map().revision();
-      update.map_epoch = loop().status().pose.map_epoch;
-      update.tiles = loop().map().tiles_since(since_revision);
-      return Result<api::TileUpdate>(std::move(update));
-    });
+    ask(std::move(reply),
+        [this, since_revision] { return Result<api::TileUpdate>(loop().robot_map().tiles_since(since_revision)); });
   }
   void get_grid(api::Reply<api::GridReport> reply) override {
     ask(std::move(reply), [this]() -> Result<api::GridReport> {
@@ -82,11 +77,36 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   void get_detections(api::Reply<std::vector<api::Detection>> reply) override {
     ask(std::move(reply), [this] { return Result<std::vector<api::Detection>>(loop().missions().detections()); });
   }
-  void get_trajectory(api::Reply<std::vector<Pose2>> reply) override {
-    ask(std::move(reply), [this] { return Result<std::vector<Pose2>>(loop().trajectory()); });
+  void get_trajectory(api::Reply<std::vector<api::StampedPose>> reply) override {
+    ask(std::move(reply), [this] { return Result<std::vector<api::StampedPose>>(loop().stamped_trajectory()); });
   }
   void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override {
     ask(std::move(reply), [this, camera] { return loop().grab_image(camera); });
+  }
+  void get_segments(std::uint64_t since_revision, api::Reply<api::SegmentUpdate> reply) override {
+    ask(std::move(reply), [this, since_revision] { return loop().robot_map().segments_since(since_revision); });
+  }
+  void save_map(const std::string& name, bool replace, api::Reply<api::MapSummary> reply) override {
+    robot_.maps_.save(name, replace, std::move(reply));
+  }
+  void load_map(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply) override {
+    robot_.maps_.load(name, use, std::move(reply));
+  }
+  void list_maps(api::Reply<std::vector<api::MapSummary>> reply) override { robot_.maps_.list(std::move(reply)); }
+  void inspect_map(const std::string& name, bool verify, api::Reply<api::MapSummary> reply) override {
+    robot_.maps_.inspect(name, verify, std::move(reply));
+  }
+  void delete_map(const std::string& name, api::Reply<void> reply) override {
+    robot_.maps_.remove(name, std::move(reply));
+  }
+  void download_map(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply) override {
+    robot_.maps_.download(name, std::move(reply));
+  }
+  void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override {
+    robot_.maps_.upload(upload, std::move(reply));
+  }
+  void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, map_T_base] { return loop().relocalise(map_T_base); });
   }
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                        api::UpdateSink sink) override {
@@ -113,11 +133,13 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   std::string client_;
 };
 
-Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal)
+Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal,
+             const std::filesystem::path& maps)
     : identity_(std::move(identity)),
       loop_(params, std::move(parts), hub_),
       mailbox_(kMailboxCapacity),
-      journal_(std::move(journal)) {
+      journal_(std::move(journal)),
+      maps_({maps, identity_.robot_id, identity_.software_version}, loop_, mailbox_) {
   if (journal_) {
     keep_journal();
   }

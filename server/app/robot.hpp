@@ -2,6 +2,7 @@
 /// The robot as a whole: the loop on its own thread, and the API body that others call.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -9,6 +10,7 @@
 #include "common/api/robot_api.hpp"
 #include "server/app/journal.hpp"
 #include "server/app/mailbox.hpp"
+#include "server/app/map_service.hpp"
 #include "server/app/robot_loop.hpp"
 
 namespace seeker::app {
@@ -22,8 +24,9 @@ struct RobotIdentity {
 /// Owns loop, mailbox and thread. RobotApi calls from any thread become tasks of the loop's thread.
 class Robot final : public api::RobotHost {
  public:
-  /// `journal` may be null: nothing is kept over a restart then.
-  Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal = nullptr);
+  /// `journal` may be null: nothing is kept over a restart then. An empty `maps` folder: no maps are kept.
+  Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal = nullptr,
+        const std::filesystem::path& maps = {});
   ~Robot() override;
 
   /// Starts the components, then the thread. With `wait_for_client` a replay begins with the first session.
@@ -53,6 +56,7 @@ class Robot final : public api::RobotHost {
   RobotLoop loop_;
   Mailbox mailbox_;
   std::unique_ptr<Journal> journal_;
+  MapService maps_;
   std::thread thread_;
   std::atomic<bool> client_seen_{false};
   std::atomic<bool> ended_{false};

@@ -10,6 +10,11 @@ Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& reque
   if (!lease.owner.empty() && lease.owner != client) {
     return fail(Errc::kRefused, "'" + lease.owner + "' holds the lease; wait until it is released, or take it over");
   }
+  if (map_.relocalising() || (map_.has_segments() && pose_.quality == LocalisationQuality::kLost)) {
+    return fail(Errc::kNotReady, "the robot does not know where it is in the map" +
+                                     (pose_.cause.empty() ? std::string() : " (" + pose_.cause + ")") +
+                                     "; 'seeker relocalise --wait' looks for it, --at X,Y,DEG helps");
+  }
   Result<api::MissionId> id = missions_.start(request, client, situation());
   if (id) {
     authority_.arm();

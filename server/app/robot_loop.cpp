@@ -45,7 +45,7 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
                        hub_.publish(api::Topic::kDetection, now(), detection);
                      }}),
       recognition_(parts_.devices.clock->lockstep()),
-      map_(parts_.occupancy) {
+      map_(params.map, parts_.occupancy, parts_.estimator->map_tracker()) {
   register_components();
 }
 
@@ -97,9 +97,14 @@ bool RobotLoop::idle() const {
   if (ended_) {
     return true;
   }
-  const bool moving = odometry_ && (std::abs(odometry_->velocity.v_m_s) > kStill_m_s ||
-                                    std::abs(odometry_->velocity.omega_rad_s) > kStill_rad_s);
-  return !realtime() && !parts_.devices.runs_without_mission && !missions_.running() && !moving;
+  // A robot that looks for its place needs scans; a map that is written anew is to be finished.
+  const bool waits = !map_.rendering() && !map_.relocalising();
+  return !realtime() && !parts_.devices.runs_without_mission && !missions_.running() && !moving() && waits;
+}
+
+bool RobotLoop::moving() const {
+  return odometry_ &&
+         (std::abs(odometry_->velocity.v_m_s) > kStill_m_s || std::abs(odometry_->velocity.omega_rad_s) > kStill_rad_s);
 }
 
 void RobotLoop::tick(WallTime wall_now) {
@@ -107,6 +112,7 @@ void RobotLoop::tick(WallTime wall_now) {
   estimate();
   act(decide(wall_now));
   remember_pose();
+  map_.step();
   publish();
   const Status advanced = parts_.devices.clock->advance(params_.period);
   if (!advanced && !ended_) {
@@ -167,7 +173,12 @@ void RobotLoop::estimate() {
     note(parts_.estimator->on_scan(*scan_), "scan-refused");
   }
   if (fresh_odometry_ || fresh_scan_) {
-    pose_ = parts_.estimator->estimate();
+    std::optional<Pose2> by_odometry;
+    if (odom_T_base_at_pose_ && odometry_) {
+      by_odometry = pose_.map_T_base * (inverse(*odom_T_base_at_pose_) * odometry_->odom_T_base);
+    }
+    follow_map(by_odometry);
+    odom_T_base_at_pose_ = odometry_ ? std::optional<Pose2>(odometry_->odom_T_base) : std::nullopt;
     components_.count_output("pose", now());
   }
   const bool trusted =
@@ -189,7 +200,7 @@ Situation RobotLoop::situation() const {
   s.velocity = odometry_ ? odometry_->velocity : Twist2{};
   s.scan = scan_ ? &*scan_ : nullptr;
   s.sonar = sonar_ ? &*sonar_ : nullptr;
-  s.map = &map_;
+  s.map = &map_.occupancy();
   return s;
 }
 

@@ -17,6 +17,7 @@
 #include "server/app/mission_executor.hpp"
 #include "server/app/motion_authority.hpp"
 #include "server/app/recognition_runner.hpp"
+#include "server/app/robot_map.hpp"
 #include "server/app/safety_supervisor.hpp"
 #include "server/app/update_hub.hpp"
 #include "server/nav/occupancy_map.hpp"
@@ -34,6 +35,7 @@ struct LoopParams {
   std::size_t max_trajectory = 100'000;  ///< poses; the oldest half is thinned out beyond it
   SafetyParams safety;
   MissionParams mission;
+  RobotMapParams map;
 };
 
 /// How the loop is put together.
@@ -43,6 +45,7 @@ struct LoopParts {
   std::string estimator_type;
   BehaviourFactory behaviours;
   nav::OccupancyParams occupancy;
+  std::function<void()> forget_places;  ///< what missions remember of the map is void: another one was loaded
 };
 
 class RobotLoop {
@@ -68,8 +71,10 @@ class RobotLoop {
   [[nodiscard]] RobotTime now() const { return parts_.devices.clock->now(); }
   [[nodiscard]] bool realtime() const;
   [[nodiscard]] api::RobotStatus status() const;
-  [[nodiscard]] const nav::OccupancyMap& map() const { return map_; }
-  [[nodiscard]] const std::vector<Pose2>& trajectory() const { return trajectory_; }
+  [[nodiscard]] const nav::OccupancyMap& map() const { return map_.occupancy(); }
+  [[nodiscard]] const RobotMap& robot_map() const { return map_; }
+  [[nodiscard]] const std::vector<api::StampedPose>& stamped_trajectory() const { return trajectory_; }
+  [[nodiscard]] std::vector<Pose2> trajectory() const;
   [[nodiscard]] Components& components() { return components_; }
   [[nodiscard]] const MissionExecutor& missions() const { return missions_; }
   [[nodiscard]] MissionExecutor& missions() { return missions_; }
@@ -84,6 +89,13 @@ class RobotLoop {
   [[nodiscard]] Status drive(const std::string& client, const api::DriveCommand& command);
   [[nodiscard]] Status restart_component(const std::string& name);
   [[nodiscard]] Result<api::ImageFrame> grab_image(const std::string& camera);
+  /// The present map, to be saved under a name (robot_map_commands.cpp).
+  [[nodiscard]] Result<LoopMap> map_to_save(const std::string& name) const;
+  /// kRefused when the robot localises in the map of this name: its file stays as it is.
+  [[nodiscard]] Status map_not_in_use(const std::string& name) const;
+  void map_saved(const MapIdentity& identity);
+  [[nodiscard]] Status load_map(const LineMap& map, const MapIdentity& identity);
+  [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base);
   void client_lost(const std::string& client, const std::string& why, WallTime wall_now);
   void client_back(const std::string& client);
   /// The client left on purpose: its lease is free, its mission goes on.
@@ -116,6 +128,12 @@ class RobotLoop {
   void act(const Twist2& wanted);
   void publish();
   void publish_tiles(RobotTime stamp);
+  void publish_segments(RobotTime stamp);
+  /// Takes the estimate; where the map has moved, everything that holds places follows. `old_map_T_base` is where the
+  /// robot would be now in the map before.
+  void follow_map(const std::optional<Pose2>& old_map_T_base);
+  [[nodiscard]] Status may_change_map() const;
+  [[nodiscard]] bool moving() const;
   void remember_pose();
   [[nodiscard]] Situation situation() const;
   void raise(const std::string& id, const std::string& component, const std::string& message, const std::string& remedy,
@@ -132,7 +150,7 @@ class RobotLoop {
   MotionAuthority authority_;
   MissionExecutor missions_;
   RecognitionRunner recognition_;
-  nav::OccupancyMap map_;
+  RobotMap map_;
 
   std::optional<drivers::OdometrySample> odometry_;
   std::optional<LaserScan> scan_;
@@ -145,15 +163,17 @@ class RobotLoop {
   RobotTime last_sonar_;
 
   PoseEstimate pose_;
+  std::optional<Pose2> odom_T_base_at_pose_;
   Twist2 command_;
   std::string safety_reason_;
   bool motors_on_ = false;
   bool ended_ = false;
   bool republish_ = false;
   std::optional<api::MissionRequest> unfinished_;
-  std::vector<Pose2> trajectory_;
+  std::vector<api::StampedPose> trajectory_;
   std::uint64_t event_sequence_ = 0;
   std::uint64_t published_revision_ = 0;
+  std::uint64_t published_segments_ = 0;
   RobotTime tiles_at_;
   RobotTime grid_at_;
 };

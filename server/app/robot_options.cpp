@@ -67,6 +67,13 @@ void describe(config::Fields& f, MissionParams& params) {
   f.seconds("report_period_s", params.report_period);
 }
 
+void describe(config::Fields& f, RobotMapParams& params) {
+  f.field("render_scans_per_tick", params.render_scans_per_tick);
+  f.check("render_scans_per_tick", params.render_scans_per_tick > 0, "must be above 0");
+  f.seconds("segment_period_s", params.segment_period);
+  f.seconds("relocalise_limit_s", params.relocalise_limit);
+}
+
 void describe(config::Fields& f, LoopParams& params) {
   f.seconds("period_s", params.period);
   f.check("period_s", params.period > Duration::zero(), "must be above 0");
@@ -78,6 +85,7 @@ void describe(config::Fields& f, LoopParams& params) {
   f.field("trajectory_spacing_m", params.trajectory_spacing_m);
   f.section("safety", params.safety);
   f.section("mission", params.mission);
+  f.section("map", params.map);
 }
 
 void describe(config::Fields& f, GotoParams& params) {

@@ -5,12 +5,14 @@
 namespace seeker::app {
 
 void RobotLoop::remember_pose() {
-  if (trajectory_.empty() || distance_m(trajectory_.back(), pose_.map_T_base) >= params_.trajectory_spacing_m) {
-    trajectory_.push_back(pose_.map_T_base);
+  const bool known = pose_.quality != LocalisationQuality::kUnknown || !map_.relocalising();
+  if (known && (trajectory_.empty() ||
+                distance_m(trajectory_.back().map_T_base, pose_.map_T_base) >= params_.trajectory_spacing_m)) {
+    trajectory_.push_back({now(), pose_.map_T_base});
   }
   if (trajectory_.size() > params_.max_trajectory) {
     // Thin the older half: the shape stays, the memory is bounded.
-    std::vector<Pose2> thinned;
+    std::vector<api::StampedPose> thinned;
     const std::size_t half = trajectory_.size() / 2;
     for (std::size_t i = 0; i < trajectory_.size(); i += i < half ? 2 : 1) {
       thinned.push_back(trajectory_[i]);
@@ -19,20 +21,38 @@ void RobotLoop::remember_pose() {
   }
 }
 
+std::vector<Pose2> RobotLoop::trajectory() const {
+  std::vector<Pose2> poses;
+  poses.reserve(trajectory_.size());
+  for (const api::StampedPose& pose : trajectory_) {
+    poses.push_back(pose.map_T_base);
+  }
+  return poses;
+}
+
 void RobotLoop::publish_idle() {
   fresh_scan_ = fresh_sonar_ = false;
+  map_.step();
   publish();
 }
 
 void RobotLoop::publish_tiles(RobotTime stamp) {
-  api::TileUpdate update;
-  update.tiles = map_.tiles_since(republish_ ? 0 : published_revision_);
-  update.revision = map_.revision();
-  update.map_epoch = pose_.map_epoch;
+  api::TileUpdate update = map_.tiles_since(republish_ ? 0 : published_revision_);
   published_revision_ = update.revision;
   tiles_at_ = stamp;
   if (!update.tiles.empty()) {
     hub_.publish(api::Topic::kTiles, stamp, std::move(update));
+  }
+}
+
+void RobotLoop::publish_segments(RobotTime stamp) {
+  const Result<api::SegmentUpdate> update = map_.segments_since(republish_ ? 0 : published_segments_);
+  if (!update) {
+    return;
+  }
+  published_segments_ = update->revision;
+  for (api::SegmentUpdate& part : api::split(*update)) {
+    hub_.publish(api::Topic::kSegments, stamp, std::move(part));
   }
 }
 
@@ -47,12 +67,17 @@ void RobotLoop::publish() {
   if ((fresh_sonar_ || republish_) && sonar_ && hub_.wanted(api::Topic::kSonar)) {
     hub_.publish(api::Topic::kSonar, stamp, *sonar_);
   }
-  if (hub_.wanted(api::Topic::kTiles) && (republish_ || stamp - tiles_at_ >= params_.tile_period)) {
+  // While the map is written anew the tiles of the one before would soon be void.
+  if (hub_.wanted(api::Topic::kTiles) && !map_.rendering() &&
+      (republish_ || stamp - tiles_at_ >= params_.tile_period)) {
     publish_tiles(stamp);
   }
   if (missions_.grid() && hub_.wanted(api::Topic::kGrid) && (republish_ || stamp - grid_at_ >= params_.grid_period)) {
     grid_at_ = stamp;
     hub_.publish(api::Topic::kGrid, stamp, *missions_.grid());
+  }
+  if ((map_.take_segments(stamp) || republish_) && hub_.wanted(api::Topic::kSegments)) {
+    publish_segments(stamp);
   }
   republish_ = false;
 }
@@ -74,6 +99,7 @@ api::RobotStatus RobotLoop::status() const {
   status.safety = safety_reason_;
   status.clock_speed = parts_.devices.clock->speed();
   status.map_revision = map_.revision();
+  status.line_map = map_.status();
   return status;
 }
 
@@ -87,6 +113,9 @@ std::vector<std::string> RobotLoop::capabilities() const {
   }
   if (parts_.devices.sonar) {
     words.emplace_back("sonar");
+  }
+  if (map_.has_segments()) {
+    words.emplace_back("line_map");
   }
   return words;
 }

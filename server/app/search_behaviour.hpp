@@ -32,6 +32,7 @@ class SearchBehaviour final : public Behaviour {
   [[nodiscard]] std::shared_ptr<const vision::Recogniser> recogniser() const override { return recogniser_; }
   void on_recognition(const Recognition& recognition) override;
   void resumed(RobotTime now) override;
+  void map_moved(const Pose2& new_T_old) override { mission_.transform(new_T_old); }
   [[nodiscard]] std::optional<api::GridReport> grid() const override;
   [[nodiscard]] std::vector<api::Detection> detections() const override;
 

@@ -18,6 +18,7 @@ class TrackerEstimator final : public Estimator {
   }
   [[nodiscard]] Status on_scan(const LaserScan& scan) override { return tracker_->update(scan); }
   [[nodiscard]] PoseEstimate estimate() const override { return tracker_->estimate(); }
+  [[nodiscard]] slam::MapTracker* map_tracker() override { return dynamic_cast<slam::MapTracker*>(tracker_.get()); }
 
  private:
   std::unique_ptr<slam::PoseTracker> tracker_;

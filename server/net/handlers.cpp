@@ -7,63 +7,10 @@
 
 #include "common/wire/convert.hpp"
 #include "common/wire/outcome.hpp"
-#include "server/net/session.hpp"
+#include "server/net/responder.hpp"
 
 namespace seeker::server_net {
 namespace {
-
-namespace pb = ::seeker::v1;
-using SessionPtr = std::shared_ptr<Session>;
-
-/// Everything an answer needs, valid on any thread and after the session's end.
-struct Responder {
-  std::weak_ptr<Session> session;
-  std::shared_ptr<boost::asio::io_context> io;
-  pb::RequestHeader header;
-  wire::CallNumber call = 0;
-  RobotTime received;
-
-  /// On the network thread.
-  [[nodiscard]] pb::Response begin(const Session& to, const Status& outcome) const {
-    pb::Response response;
-    wire::begin_response(header, to.hub().robot.robot_id, received, to.hub().robot_now(), response);
-    wire::set_outcome(response, call, outcome);
-    return response;
-  }
-  void answer_now(const Status& outcome) const {
-    if (const SessionPtr to = session.lock()) {
-      to->respond(begin(*to, outcome), call);
-    }
-  }
-};
-
-Status status_of(const Status& result) { return result; }
-template <class T>
-Status status_of(const Result<T>& result) {
-  return result ? Status{} : Status(tl::unexpected<Error>(result.error()));
-}
-
-/// A reply for the robot that sends the answer; `fill` puts the value into the response (network thread).
-template <class T, class Fill>
-api::Reply<T> reply_with(const Responder& responder, Fill fill) {
-  return [responder, fill](Result<T> result) {
-    boost::asio::post(*responder.io, [responder, fill, result = std::move(result)] {
-      if (const SessionPtr to = responder.session.lock()) {
-        pb::Response response = responder.begin(*to, status_of(result));
-        if constexpr (!std::is_void_v<T>) {
-          if (result) {
-            fill(*result, response);
-          }
-        }
-        to->respond(response, responder.call);
-      }
-    });
-  };
-}
-
-api::Reply<void> reply_empty(const Responder& responder) {
-  return reply_with<void>(responder, [] {});
-}
 
 /// Large maps leave in several responses.
 void answer_tiles(const Responder& responder, const Result<api::TileUpdate>& result) {
@@ -168,7 +115,7 @@ Result<std::vector<wire::TopicWish>> read_wishes(const pb::SubscribeRequest& req
   wire::Check check;
   const auto n = static_cast<std::size_t>(request.topics_size());
   if (request.subscription_id() == 0 || n == 0 || n > api::kTopicCount) {
-    return fail(Errc::kInvalidArgument, "a subscription needs an id above zero and 1 to 9 topics");
+    return fail(Errc::kInvalidArgument, "a subscription needs an id above zero and 1 to 10 topics");
   }
   std::vector<wire::TopicWish> wishes(n);
   std::set<api::Topic> seen;
@@ -259,9 +206,10 @@ void read_call(const Responder& responder, Session& session, const pb::Request& 
         wire::write(value, to.mutable_get_grid()->mutable_grid());
       }));
     case R::kGetTrajectory:
-      return robot.get_trajectory(reply_with<std::vector<Pose2>>(responder, [](const auto& value, pb::Response& to) {
-        wire::write(value, to.mutable_get_trajectory()->mutable_poses());
-      }));
+      return robot.get_trajectory(
+          reply_with<std::vector<api::StampedPose>>(responder, [](const auto& value, pb::Response& to) {
+            wire::write(value, to.mutable_get_trajectory()->mutable_poses());
+          }));
     case R::kGetDetections: return get_detections(responder, session);
     case R::kListComponents: return list_components(responder, session);
     default: return responder.answer_now(fail(Errc::kUnsupportedVersion, "this robot does not know the call"));
@@ -288,7 +236,10 @@ void handle(const SessionPtr& session, const pb::Request& request, RobotTime rec
     case R::kSubscribe: return subscribe(responder, s, request.subscribe());
     case R::kUnsubscribe: return unsubscribe(responder, s, request.unsubscribe());
     case R::kTimeSync: return time_sync(responder, s);
-    default: return read_call(responder, s, request);
+    default: break;
+  }
+  if (!handle_map_call(responder, s, request)) {
+    read_call(responder, s, request);
   }
 }
 

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::array<std::uint8_t, 8> kMagic{'S', 'E', 'E', 'K', 'R', 'M', 'A', 'P'};
 constexpr std::size_t kCrc_bytes = 4;
-constexpr std::size_t kMaxName = 64;
 // Least bytes of an entry: what a declared count is held against.
 constexpr std::size_t kNode_bytes = 4 + 24 + 8;
 constexpr std::size_t kEdge_bytes = 4 + 4 + 24 + 72 + 2;
@@ -25,7 +24,7 @@ tl::unexpected<Error> damaged(const std::string& what) {
 }
 
 Status check_origin(const MapOrigin& origin) {
-  if (Status ok = check_map_name(origin.name); !ok) {
+  if (Status ok = validate_map_name(origin.name); !ok) {
     return ok;
   }
   for (const std::string* text : {&origin.robot_id, &origin.sensors, &origin.software_version}) {
@@ -267,17 +266,6 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
     crc = (crc >> 8U) ^ kTable[(crc ^ byte) & 0xFFU];
   }
   return ~crc;
-}
-
-Status check_map_name(std::string_view name) {
-  const bool allowed = std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-  });
-  if (name.empty() || name.size() > kMaxName || !allowed) {
-    return fail(Errc::kInvalidArgument,
-                "a map's name has 1 to 64 of the characters a-z, 0-9, - and _, as in office-2nd_floor");
-  }
-  return {};
 }
 
 Result<std::vector<std::uint8_t>> encode_map_file(const MapFile& file, const MapFileLimits& limits) {

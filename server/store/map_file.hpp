@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/core/line_map.hpp"
@@ -25,7 +24,7 @@ inline constexpr std::uint32_t kMapFileVersion = 1;
 
 /// Who made a map, when and with what. Times are wall time, seconds since 1970 (UTC); nobody computes with them.
 struct MapOrigin {
-  std::string name;              ///< see check_map_name()
+  std::string name;              ///< see validate_map_name()
   std::string robot_id;          ///< at most kMaxOriginText bytes each
   std::string sensors;           ///< for people, e.g. "lidar with 361 beams of up to 8 m"
   std::string software_version;  ///< of the program that saved it
@@ -62,9 +61,6 @@ struct MapFileLimits {
   std::size_t file_bytes = 256UL << 20U;
   std::size_t body_bytes = 512UL << 20U;  ///< unpacked; 100 000 segments and 50 000 scans take 50 MB
 };
-
-/// [a-z0-9_-]{1,64}: also safe as the name of a file.
-[[nodiscard]] Status check_map_name(std::string_view name);
 
 /// kInvalidArgument: not a valid map, name or text; kTooLarge.
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_map_file(const MapFile& file, const MapFileLimits& limits = {});

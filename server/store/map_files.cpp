@@ -39,7 +39,7 @@ Result<std::vector<MapListing>> MapFiles::list() const {
   }
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().stem().string();
-    if (entry->path().extension() == kEnding && check_map_name(name)) {
+    if (entry->path().extension() == kEnding && validate_map_name(name)) {
       maps.push_back(listing_of(entry->path(), name));
     }
   }
@@ -64,7 +64,7 @@ tl::unexpected<Error> MapFiles::unknown(const std::string& name) const {
 }
 
 Status MapFiles::check_present(const std::string& name) const {
-  if (Status ok = check_map_name(name); !ok) {
+  if (Status ok = validate_map_name(name); !ok) {
     return ok;
   }
   std::error_code error;
@@ -105,7 +105,7 @@ Result<std::vector<std::uint8_t>> MapFiles::read_bytes(const std::string& name) 
 
 Result<MapListing> MapFiles::write(const MapFile& file, bool replace) const {
   const std::string& name = file.origin.name;
-  if (const Status ok = check_map_name(name); !ok) {
+  if (const Status ok = validate_map_name(name); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   std::error_code error;

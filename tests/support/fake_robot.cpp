@@ -156,8 +156,8 @@ class FakeRobot final : public api::RobotApi {
   void get_detections(api::Reply<std::vector<api::Detection>> reply) override {
     read<std::vector<api::Detection>>("get_detections", reply, [](const FakeRobotValues& v) { return v.detections; });
   }
-  void get_trajectory(api::Reply<std::vector<Pose2>> reply) override {
-    read<std::vector<Pose2>>("get_trajectory", reply, [](const FakeRobotValues& v) { return v.trajectory; });
+  void get_trajectory(api::Reply<std::vector<api::StampedPose>> reply) override {
+    read<std::vector<api::StampedPose>>("get_trajectory", reply, [](const FakeRobotValues& v) { return v.trajectory; });
   }
   void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override {
     read<api::ImageFrame>("grab_image " + camera, reply, [&](const FakeRobotValues& v) -> Result<api::ImageFrame> {
@@ -166,6 +166,66 @@ class FakeRobot final : public api::RobotApi {
         return fail(Errc::kNotFound, "no camera '" + camera + "'");
       }
       return found->second;
+    });
+  }
+  void get_segments(std::uint64_t since_revision, api::Reply<api::SegmentUpdate> reply) override {
+    read<api::SegmentUpdate>("get_segments " + std::to_string(since_revision), reply,
+                             [](const FakeRobotValues& v) -> Result<api::SegmentUpdate> {
+                               return v.segments ? *v.segments : Result<api::SegmentUpdate>(no_map());
+                             });
+  }
+  void save_map(const std::string& name, bool replace, api::Reply<api::MapSummary> reply) override {
+    read<api::MapSummary>("save_map " + name, reply, [&](FakeRobotValues& v) -> Result<api::MapSummary> {
+      if (!v.segments) {
+        return no_map();
+      }
+      if (find_map(v, name) && !replace) {
+        return fail(Errc::kRefused, "there is a map '" + name + "' already; take another name, or --replace it");
+      }
+      std::erase_if(v.maps, [&](const api::MapSummary& map) { return map.name == name; });
+      v.maps.emplace_back().name = name;
+      v.maps.back().segments = static_cast<std::uint32_t>(v.segments->changed.size());
+      return v.maps.back();
+    });
+  }
+  void load_map(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply) override {
+    read<api::MapSummary>("load_map " + name + " " + std::string(api::to_string(use)), reply,
+                          [&](const FakeRobotValues& v) { return find_map(v, name); });
+  }
+  void list_maps(api::Reply<std::vector<api::MapSummary>> reply) override {
+    read<std::vector<api::MapSummary>>("list_maps", reply, [](const FakeRobotValues& v) { return v.maps; });
+  }
+  void inspect_map(const std::string& name, bool verify, api::Reply<api::MapSummary> reply) override {
+    read<api::MapSummary>("inspect_map " + name + (verify ? " verify" : ""), reply,
+                          [&](const FakeRobotValues& v) { return find_map(v, name); });
+  }
+  void delete_map(const std::string& name, api::Reply<void> reply) override {
+    change("delete_map " + name, reply, [&](FakeRobotValues& v) -> Status {
+      const auto known = find_map(v, name);
+      std::erase_if(v.maps, [&](const api::MapSummary& map) { return map.name == name; });
+      return known ? Status() : Status(tl::unexpected<Error>(known.error()));
+    });
+  }
+  void download_map(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply) override {
+    read<std::vector<std::uint8_t>>(
+        "download_map " + name, reply, [&](const FakeRobotValues& v) -> Result<std::vector<std::uint8_t>> {
+          const auto found = v.map_files.find(name);
+          return found != v.map_files.end() ? found->second : Result<std::vector<std::uint8_t>>(no_such_map(name));
+        });
+  }
+  void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override {
+    read<api::MapSummary>("upload_map " + upload.name, reply, [&](FakeRobotValues& v) {
+      v.uploads.push_back(upload);
+      api::MapSummary summary;
+      summary.name = upload.name;
+      summary.file_bytes = upload.bytes.size();
+      return summary;
+    });
+  }
+  void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
+    change("relocalise", reply, [&](FakeRobotValues& v) -> Status {
+      v.relocalisations.push_back(map_T_base);
+      return v.segments ? Status() : Status(no_map());
     });
   }
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
@@ -191,6 +251,20 @@ class FakeRobot final : public api::RobotApi {
       result = apply(shared_->values);
     }
     shared_->answer(reply, std::move(result));
+  }
+  static tl::unexpected<Error> no_map() {
+    return fail(Errc::kNotReady, "the estimator keeps no map of segments; start the robot with estimator: line_slam");
+  }
+  static tl::unexpected<Error> no_such_map(const std::string& name) {
+    return fail(Errc::kNotFound, "there is no map '" + name + "'; none has been saved yet");
+  }
+  static Result<api::MapSummary> find_map(const FakeRobotValues& v, const std::string& name) {
+    for (const api::MapSummary& map : v.maps) {
+      if (map.name == name) {
+        return map;
+      }
+    }
+    return no_such_map(name);
   }
   static void end_mission(FakeRobotValues& v) {
     v.mission->state = api::MissionState::kEnded;
@@ -321,39 +395,6 @@ void FakeRobotHost::release_replies() {
   for (const auto& reply : held) {
     reply();
   }
-}
-
-FakeRobotValues default_fake_values() {
-  FakeRobotValues v;
-  v.info.robot_id = "fake";
-  v.info.software_version = "0.1.0";
-  v.info.capabilities = {"search", "goto", "camera:omni"};
-  v.info.robot_radius_m = 0.25;
-  v.status.stamp = robot_time_s(1.0);
-  v.status.pose.map_T_base = {1.0, 2.0, 0.5};
-  v.status.pose.quality = LocalisationQuality::kLocalised;
-  v.components.push_back({"base", "driver", "fake", api::ComponentState::kActive, 10.0, ""});
-  v.tiles.revision = 4;
-  for (int k = 0; k < 4; ++k) {
-    OccupancyTile tile;
-    tile.index = {k % 2, k / 2};
-    tile.revision = static_cast<std::uint64_t>(k) + 1;
-    tile.cells.fill(static_cast<std::uint8_t>(k * 80));
-    v.tiles.tiles.push_back(tile);
-  }
-  api::Detection detection;
-  detection.id = 1;
-  detection.target = "exit-sign";
-  detection.score = 0.9;
-  detection.position = Point2(3.0, 4.0);
-  v.detections.push_back(detection);
-  v.trajectory = {{0.0, 0.0, 0.0}, {0.5, 0.0, 0.0}, {1.0, 2.0, 0.5}};
-  constexpr int kSide_px = 32;
-  api::ImageFrame frame;
-  frame.camera = "omni";
-  frame.frame.image = Image(kSide_px, kSide_px, 1, 128);
-  v.cameras.emplace("omni", frame);
-  return v;
 }
 
 }  // namespace seeker::testing

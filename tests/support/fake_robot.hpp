@@ -23,7 +23,13 @@ struct FakeRobotValues {
   api::TileUpdate tiles;
   api::GridReport grid;
   std::vector<api::Detection> detections;
-  std::vector<Pose2> trajectory;
+  std::vector<api::StampedPose> trajectory;
+  /// What get_segments answers, whatever revision is asked for; nothing: the estimator keeps no map.
+  std::optional<api::SegmentUpdate> segments;
+  std::vector<api::MapSummary> maps;
+  std::map<std::string, std::vector<std::uint8_t>> map_files;
+  std::vector<api::MapUpload> uploads;
+  std::vector<std::optional<Pose2>> relocalisations;
   std::map<std::string, api::ImageFrame> cameras;
   api::LeaseState lease;
   bool estop = false;

@@ -16,7 +16,7 @@ TEST_F(NetTest, ValuesComeBackAsTheRobotHasThem) {
   EXPECT_EQ(ask<api::TileUpdate>([&](auto r) { client->get_tiles(3, r); })->tiles.size(), 1U);
   EXPECT_EQ(ask<api::GridReport>([&](auto r) { client->get_grid(r); }), v.grid);
   EXPECT_EQ(ask<std::vector<api::Detection>>([&](auto r) { client->get_detections(r); }), v.detections);
-  EXPECT_EQ(ask<std::vector<Pose2>>([&](auto r) { client->get_trajectory(r); }), v.trajectory);
+  EXPECT_EQ(ask<std::vector<api::StampedPose>>([&](auto r) { client->get_trajectory(r); }), v.trajectory);
   EXPECT_EQ(ask<api::ImageFrame>([&](auto r) { client->grab_image("omni", r); }), v.cameras.at("omni"));
 }
 

@@ -26,9 +26,11 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
     }
   };
   visit(tree, {});
-  EXPECT_EQ(names, (std::vector<std::string>{"status", "watch", "map", "export", "grid", "detections", "camera", "grab",
-                                             "components", "search", "goto", "drive", "stop", "estop", "pause",
-                                             "resume", "run", "completion", "version"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"status",     "watch", "map",        "export", "save",     "load",
+                                             "list",       "info",  "verify",     "delete", "download", "upload",
+                                             "relocalise", "grid",  "detections", "camera", "grab",     "components",
+                                             "search",     "goto",  "drive",      "stop",   "estop",    "pause",
+                                             "resume",     "run",   "completion", "version"}));
 }
 
 TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {

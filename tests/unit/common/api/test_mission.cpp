@@ -138,7 +138,7 @@ TEST(Names, OnlyMissionEventAndDetectionAreReliable) {
       reliable.insert(static_cast<Topic>(i));
     }
   }
-  EXPECT_EQ(reliable, (std::set<Topic>{Topic::kMission, Topic::kEvent, Topic::kDetection}));
+  EXPECT_EQ(reliable, (std::set<Topic>{Topic::kMission, Topic::kEvent, Topic::kDetection, Topic::kSegments}));
 }
 
 }  // namespace

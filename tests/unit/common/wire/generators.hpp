@@ -45,6 +45,11 @@ class ValueMaker {
   SonarScan sonar();
   OccupancyTile tile();
   api::TileUpdate tiles();
+  MapSegment segment();
+  api::SegmentUpdate segments();
+  api::MapSummary map_summary();
+  api::LineMapStatus line_map();
+  std::vector<api::StampedPose> trajectory();
   api::Detection detection();
   api::CoverageSummary coverage();
   api::GridReport grid();

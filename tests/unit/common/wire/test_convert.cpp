@@ -39,13 +39,18 @@ RC_GTEST_PROP(Convert, EveryValueComesBackUnchanged, (std::uint64_t seed)) {
   expect_round_trip<pb::LeaseState>(make.lease());
   expect_round_trip<pb::Event>(make.event());
   expect_round_trip<pb::DriveCommand>(make.drive());
+  expect_round_trip<pb::Segment>(make.segment());
+  expect_round_trip<pb::SegmentUpdate>(make.segments());
+  expect_round_trip<pb::MapSummary>(make.map_summary());
+  expect_round_trip<pb::LineMapStatus>(make.line_map());
+  expect_round_trip<pb::PoseList>(make.trajectory());
   RC_ASSERT(!::testing::Test::HasFailure());
 }
 
 RC_GTEST_PROP(Convert, AnUpdateEncodedOnceIsReadByEveryReceiver, (std::uint64_t seed)) {
   ValueMaker make(seed);
   api::Update update;
-  update.topic = make.one_of(api::Topic::kDetection);
+  update.topic = make.one_of(api::Topic::kSegments);
   update.sequence = seed + 1;
   update.stamp = make.time();
   update.payload = make.payload(update.topic);
@@ -124,6 +129,29 @@ TEST(Convert, RefusalsNameTheField) {
   pb::MissionRequest nothing;
   nothing.set_id("m");
   expect_refused<api::MissionRequest>(nothing, "task", Errc::kInvalidArgument);
+}
+
+TEST(Convert, SegmentsOfAPeerAreNotTrusted) {
+  ValueMaker make(2);
+  auto segment = to_message<pb::Segment>(make.segment());
+  segment.set_id(0);
+  expect_refused<MapSegment>(segment, "id", Errc::kInvalidArgument);
+  segment = to_message<pb::Segment>(make.segment());
+  segment.set_length_m(-1.0);
+  expect_refused<MapSegment>(segment, "length_m", Errc::kInvalidArgument);
+  pb::SegmentUpdate update;
+  for (std::size_t k = 0; k <= api::kMaxSegmentsPerUpdate; ++k) {
+    update.add_removed(k);
+  }
+  expect_refused<api::SegmentUpdate>(update, "changed", Errc::kTooLarge);
+  pb::PoseList poses;
+  poses.add_x_m(1.0);
+  poses.add_y_m(1.0);
+  poses.add_theta_rad(1.0);
+  EXPECT_TRUE(from_message<std::vector<api::StampedPose>>(poses)) << "an older robot tells no stamps";
+  poses.add_stamp_ns(1);
+  poses.add_stamp_ns(2);
+  EXPECT_FALSE(from_message<std::vector<api::StampedPose>>(poses));
 }
 
 TEST(Convert, SizesAreBoundedBeforeMemoryIsSpent) {

@@ -176,7 +176,68 @@ api::RobotStatus ValueMaker::status() {
   s.safety = text();
   s.clock_speed = number();
   s.map_revision = rng_.bits();
+  if (flag()) {
+    s.line_map = line_map();
+  }
   return s;
+}
+
+MapSegment ValueMaker::segment() {
+  MapSegment s;
+  s.id = 1 + rng_.below(1'000'000);
+  s.node = static_cast<std::uint32_t>(rng_.bits());
+  s.map_T_segment = pose();
+  s.length_m = rng_.uniform();
+  s.left_real = flag();
+  s.right_real = flag();
+  const double cross = number();
+  s.covariance << number(), cross, cross, number();
+  s.hits = static_cast<std::uint32_t>(rng_.bits());
+  s.created = time();
+  s.last_seen = time();
+  return s;
+}
+
+api::SegmentUpdate ValueMaker::segments() {
+  api::SegmentUpdate update;
+  update.revision = rng_.bits();
+  update.map_epoch = static_cast<std::uint32_t>(rng_.bits());
+  update.full = flag();
+  for (int k = count(5); k > 0; --k) {
+    update.changed.push_back(segment());
+    update.removed.push_back(rng_.bits());
+  }
+  return update;
+}
+
+api::MapSummary ValueMaker::map_summary() {
+  const auto figure = [this] { return static_cast<std::uint32_t>(rng_.bits()); };
+  return {.name = "office",
+          .robot_id = text(),
+          .sensors = text(),
+          .software_version = text(),
+          .created_unix_s = count(1'000'000),
+          .saved_unix_s = -count(1'000'000),
+          .file_bytes = rng_.bits(),
+          .epoch = figure(),
+          .nodes = figure(),
+          .edges = figure(),
+          .loops = figure(),
+          .segments = figure(),
+          .keyframes = figure(),
+          .problem = text()};
+}
+
+api::LineMapStatus ValueMaker::line_map() {
+  return {text(), one_of(api::MapUse::kLocalise), static_cast<std::uint32_t>(rng_.bits()), rng_.bits(), flag()};
+}
+
+std::vector<api::StampedPose> ValueMaker::trajectory() {
+  std::vector<api::StampedPose> out(static_cast<std::size_t>(count(5)));
+  for (api::StampedPose& one : out) {
+    one = {time(), pose()};
+  }
+  return out;
 }
 
 api::RobotInfo ValueMaker::info() { return {"r2", text(), 1, 7, {"search", "goto"}, rng_.uniform(), flag()}; }
@@ -202,6 +263,7 @@ api::Payload ValueMaker::payload(api::Topic topic) {
     case api::Topic::kGrid: return grid();
     case api::Topic::kImage: return frame();
     case api::Topic::kMission: return mission_status();
+    case api::Topic::kSegments: return segments();
     case api::Topic::kEvent: return event();
     case api::Topic::kDetection: return detection();
   }

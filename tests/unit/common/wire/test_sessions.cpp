@@ -267,7 +267,7 @@ class SenderTest : public ::testing::Test {
     return out;
   }
   Backlogs backlogs_{Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000),
-                     Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000)};
+                     Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000)};
   StreamSender sender_;
 };
 

@@ -12,6 +12,8 @@ struct Script {
   Decision next;
   int steps = 0;
   int resumed = 0;
+  std::optional<Pose2> moved;
+  std::optional<api::GridReport> grid;
 };
 
 class ScriptedBehaviour final : public Behaviour {
@@ -22,6 +24,8 @@ class ScriptedBehaviour final : public Behaviour {
     return script_->next;
   }
   void resumed(RobotTime /*now*/) override { ++script_->resumed; }
+  void map_moved(const Pose2& new_T_old) override { script_->moved = new_T_old; }
+  std::optional<api::GridReport> grid() const override { return script_->grid; }
 
  private:
   std::shared_ptr<Script> script_;
@@ -169,6 +173,30 @@ TEST_F(MissionExecutorTest, LostPoseEndsTheMissionAfterTheGrace) {
   static_cast<void>(tick());
   static_cast<void>(tick(11.0));
   EXPECT_EQ(end().outcome, api::Outcome::kLost);
+}
+
+TEST_F(MissionExecutorTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  script->grid = api::GridReport{};
+  script->next.phase = "cover";
+  static_cast<void>(tick());
+  EXPECT_EQ(executor.grid()->map_epoch, 0U);
+  situation.pose.map_epoch = 3;
+  situation.pose.map_T_base.x_m = 5.0;
+  executor.map_moved({5.0, 0.0, 0.0}, situation.now);
+  ASSERT_TRUE(script->moved);
+  EXPECT_EQ(*script->moved, (Pose2{5.0, 0.0, 0.0}));
+  EXPECT_EQ(events.back().kind, "map-moved");
+  script->next.phase = "approach";
+  static_cast<void>(tick());
+  EXPECT_EQ(executor.grid()->map_epoch, 3U);
+  EXPECT_EQ(executor.grid()->evidence.map_epoch, 3U);
+  EXPECT_DOUBLE_EQ(executor.last()->path_length_m, 0.0) << "the robot did not drive where the map moved";
+  executor.end(api::Outcome::kOperator, "test", "", situation.now);
+  script->moved.reset();
+  executor.map_moved({1.0, 0.0, 0.0}, situation.now);
+  EXPECT_FALSE(script->moved);
+  EXPECT_EQ(executor.grid()->map_epoch, 3U) << "what an ended mission left keeps its epoch";
 }
 
 TEST_F(MissionExecutorTest, TimeLimitEndsTheMission) {

@@ -117,10 +117,10 @@ TEST(MapFile, InvalidMapsAndNamesAreNotWritten) {
   file.map.segments.front().id = 0;
   EXPECT_EQ(encode_map_file(file).error().code, Errc::kInvalidArgument);
   for (const char* name : {"", "Office", "a b", "a/b", ".", "a.b"}) {
-    EXPECT_FALSE(check_map_name(name)) << name;
+    EXPECT_FALSE(validate_map_name(name)) << name;
   }
-  EXPECT_TRUE(check_map_name("office-2nd_floor"));
-  EXPECT_FALSE(check_map_name(std::string(65, 'a')));
+  EXPECT_TRUE(validate_map_name("office-2nd_floor"));
+  EXPECT_FALSE(validate_map_name(std::string(65, 'a')));
 }
 
 TEST(MapFile, LimitsHoldBeforeMemoryIsSpent) {

@@ -1,0 +1,69 @@
+/// \file
+/// The robot's maps on disk as clients see them. The loop hands over values; files are read and written on a worker,
+/// so that no tick waits for a disk.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/api/robot_api.hpp"
+#include "server/app/mailbox.hpp"
+#include "server/app/robot_loop.hpp"
+#include "server/store/map_files.hpp"
+
+namespace seeker::app {
+
+/// Where maps are kept and what is written into them.
+struct MapStorage {
+  std::filesystem::path folder;  ///< empty: this robot keeps no maps
+  std::string robot_id;
+  std::string software_version;
+};
+
+/// Methods mean what they mean in api::RobotApi and may be called from any thread. Outlives neither loop nor mailbox.
+class MapService {
+ public:
+  MapService(MapStorage storage, RobotLoop& loop, Mailbox& mailbox);
+  MapService(const MapService&) = delete;
+  MapService& operator=(const MapService&) = delete;
+  /// Finishes what was accepted.
+  ~MapService();
+
+  void save(const std::string& name, bool replace, api::Reply<api::MapSummary> reply);
+  void load(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply);
+  void list(api::Reply<std::vector<api::MapSummary>> reply);
+  void inspect(const std::string& name, bool verify, api::Reply<api::MapSummary> reply);
+  void remove(const std::string& name, api::Reply<void> reply);
+  void download(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply);
+  void upload(const api::MapUpload& upload, api::Reply<api::MapSummary> reply);
+
+ private:
+  using Work = std::function<void(const store::MapFiles&)>;
+
+  /// Runs `work` on the worker; an error when there is no folder or too much waits.
+  [[nodiscard]] Status enqueue(Work work);
+  template <class T>
+  void on_worker(const api::Reply<T>& reply, std::function<Result<T>(const store::MapFiles&)> work);
+  void write(const LoopMap& from, const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply);
+  void work();
+
+  MapStorage storage_;
+  RobotLoop& loop_;
+  Mailbox& mailbox_;
+  store::MapFiles files_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Work> queue_;
+  bool quit_ = false;
+  std::thread thread_;
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,151 @@
+#include "server/app/robot_map.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace seeker::app {
+namespace {
+
+tl::unexpected<Error> no_map() {
+  return fail(Errc::kNotReady,
+              "this robot's estimator keeps no map of segments; start it with --set estimator=line_slam");
+}
+
+}  // namespace
+
+RobotMap::RobotMap(const RobotMapParams& params, const nav::OccupancyParams& occupancy, slam::MapTracker* tracker)
+    : params_(params), occupancy_params_(occupancy), tracker_(tracker), occupancy_(occupancy) {}
+
+PoseEstimate RobotMap::follow(const PoseEstimate& estimate, RobotTime now) {
+  PoseEstimate out = estimate;
+  out.map_epoch += epoch_offset_;
+  if (out.map_epoch != epoch_) {
+    epoch_ = out.map_epoch;
+    begin_rendering();
+  }
+  const bool found = out.quality == LocalisationQuality::kLocalised || out.quality == LocalisationQuality::kDegraded;
+  const bool given_up = out.quality == LocalisationQuality::kLost;
+  if (relocalising_since_ && (found || given_up || now - *relocalising_since_ > params_.relocalise_limit)) {
+    relocalising_since_.reset();
+  }
+  return out;
+}
+
+Status RobotMap::integrate(const LaserScan& scan, const Pose2& map_T_base) {
+  if (fresh_) {
+    waiting_.push_back({scan, map_T_base});
+  }
+  return occupancy_.integrate(scan, map_T_base);
+}
+
+Status RobotMap::integrate(const SonarScan& scan, const Pose2& map_T_base) {
+  return occupancy_.integrate(scan, map_T_base);
+}
+
+void RobotMap::begin_rendering() {
+  waiting_.clear();
+  fresh_.emplace(occupancy_params_);
+  if (tracker_ != nullptr) {
+    tracker_->for_each_scan([this](const LaserScan& scan, const Pose2& map_T_base) {
+      waiting_.push_back({scan, map_T_base});
+    });
+  }
+}
+
+void RobotMap::step() {
+  if (!fresh_) {
+    return;
+  }
+  for (int k = 0; k < params_.render_scans_per_tick && !waiting_.empty(); ++k) {
+    // A full map keeps what lies inside: the live scans report it.
+    static_cast<void>(fresh_->integrate(waiting_.front().scan, waiting_.front().map_T_base));
+    waiting_.pop_front();
+  }
+  if (waiting_.empty()) {
+    replace_occupancy(std::move(*fresh_));
+    fresh_.reset();
+  }
+}
+
+void RobotMap::replace_occupancy(nav::OccupancyMap map) {
+  // Clients' revisions lie below the new map's, so that they get all of it.
+  revision_base_ = revision() + 1;
+  occupancy_ = std::move(map);
+  occupancy_epoch_ = epoch_;
+}
+
+api::TileUpdate RobotMap::tiles_since(std::uint64_t revision) const {
+  api::TileUpdate update;
+  update.revision = this->revision();
+  update.map_epoch = occupancy_epoch_;
+  update.tiles = occupancy_.tiles_since(revision > revision_base_ ? revision - revision_base_ : 0);
+  for (OccupancyTile& tile : update.tiles) {
+    tile.revision += revision_base_;
+  }
+  return update;
+}
+
+bool RobotMap::take_segments(RobotTime now) {
+  if (tracker_ == nullptr || (segments_at_ && now - *segments_at_ < params_.segment_period)) {
+    return false;
+  }
+  if (tracker_revision_ == tracker_->revision() && segments_epoch_ == epoch_) {
+    return false;
+  }
+  tracker_revision_ = tracker_->revision();
+  segments_epoch_ = epoch_;
+  segments_at_ = now;
+  return segments_.take(tracker_->segments(), epoch_);
+}
+
+Result<api::SegmentUpdate> RobotMap::segments_since(std::uint64_t revision) const {
+  return tracker_ == nullptr ? Result<api::SegmentUpdate>(no_map()) : segments_.since(revision);
+}
+
+std::optional<api::LineMapStatus> RobotMap::status() const {
+  if (tracker_ == nullptr) {
+    return std::nullopt;
+  }
+  api::LineMapStatus status;
+  status.name = identity_.name;
+  status.use = identity_.use;
+  status.segments = static_cast<std::uint32_t>(segments_.size());
+  status.revision = segments_.revision();
+  status.relocalising = relocalising();
+  return status;
+}
+
+Result<LineMap> RobotMap::map() const { return tracker_ == nullptr ? Result<LineMap>(no_map()) : tracker_->map(); }
+
+Status RobotMap::load(const LineMap& map, const MapIdentity& identity, RobotTime now) {
+  if (tracker_ == nullptr) {
+    return no_map();
+  }
+  const slam::MapUse use = identity.use == api::MapUse::kLocalise ? slam::MapUse::kLocalise : slam::MapUse::kContinue;
+  if (Status ok = tracker_->load(map, use); !ok) {
+    return ok;
+  }
+  identity_ = identity;
+  relocalising_since_ = now;
+  // A map of another place: nothing of the old one may be used, nor be taken for the new one by a client.
+  ++epoch_;
+  epoch_offset_ = epoch_ - tracker_->estimate().map_epoch;
+  replace_occupancy(nav::OccupancyMap(occupancy_params_));
+  begin_rendering();
+  tracker_revision_.reset();
+  segments_at_.reset();
+  return {};
+}
+
+Status RobotMap::relocalise(const std::optional<Pose2>& map_T_base, RobotTime now) {
+  if (tracker_ == nullptr) {
+    return no_map();
+  }
+  Status ok = tracker_->relocalise(map_T_base);
+  if (ok) {
+    relocalising_since_ = now;
+  }
+  return ok;
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,101 @@
+// A loop closure in the middle of a mission: who follows the map, and when.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "server/app/device_factory.hpp"
+#include "server/app/tracker_estimator.hpp"
+#include "tests/support/data.hpp"
+#include "tests/support/maps/fake_map_tracker.hpp"
+#include "tests/support/maps/random_map.hpp"
+
+namespace seeker::testing {
+namespace {
+
+class MapMoves : public ::testing::Test {
+ protected:
+  MapMoves() {
+    const app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml")).value();
+    app::Assembly assembly = app::assemble(options).value();
+    assembly.parts.estimator = std::make_unique<app::TrackerEstimator>(std::make_unique<FakeMapTracker>(state));
+    loop = std::make_unique<app::RobotLoop>(options.loop, std::move(assembly.parts), hub);
+    loop->on_event = [this](const api::Event& event) { events.push_back(event); };
+    loop->start();
+    state->map = room_map();
+    state->map.keyframes.resize(100, state->map.keyframes.front());
+    state->changed();
+  }
+
+  void ticks(int count) {
+    for (int k = 0; k < count; ++k) {
+      wall += std::chrono::milliseconds(100);
+      loop->tick(wall);
+    }
+  }
+  [[nodiscard]] std::ptrdiff_t count(const std::string& kind) const {
+    return std::count_if(events.begin(), events.end(), [&](const api::Event& e) { return e.kind == kind; });
+  }
+  [[nodiscard]] Status go() {
+    api::MissionRequest mission;
+    mission.id = "go";
+    mission.task = api::GotoMission{.waypoints = {Point2(2.0, 0.0)}, .final_heading_rad = std::nullopt, .keep_out = {}};
+    const Result<api::MissionId> id = loop->start_mission(mission, "tester");
+    return id ? Status() : Status(tl::unexpected<Error>(id.error()));
+  }
+
+  std::shared_ptr<FakeMapState> state = std::make_shared<FakeMapState>();
+  app::UpdateHub hub;
+  std::unique_ptr<app::RobotLoop> loop;
+  std::vector<api::Event> events;
+  app::WallTime wall;
+};
+
+TEST_F(MapMoves, MissionGoesOnPoseAndTilesGetTheNewEpoch) {
+  ASSERT_TRUE(go());
+  ticks(5);
+  const std::uint64_t before = loop->robot_map().revision();
+  ++state->estimate.map_epoch;
+  state->estimate.map_T_base = Pose2{0.2, 0.0, 0.0} * state->estimate.map_T_base;
+  ticks(1);
+  EXPECT_EQ(loop->status().pose.map_epoch, 1U);
+  EXPECT_EQ(count("map-moved"), 2) << "the robot's log and the mission's";
+  EXPECT_TRUE(loop->missions().running());
+  EXPECT_TRUE(loop->robot_map().rendering()) << "100 kept scans are more than one tick writes";
+  EXPECT_EQ(loop->robot_map().tiles_since(0).map_epoch, 0U);
+  ticks(4);
+  EXPECT_FALSE(loop->robot_map().rendering());
+  const api::TileUpdate tiles = loop->robot_map().tiles_since(before);
+  EXPECT_EQ(tiles.map_epoch, 1U);
+  EXPECT_FALSE(tiles.tiles.empty());
+  const Result<api::SegmentUpdate> segments = loop->robot_map().segments_since(1);
+  ASSERT_TRUE(segments);
+  ticks(10);
+  EXPECT_TRUE(loop->robot_map().segments_since(1)->full);
+}
+
+TEST_F(MapMoves, MapIsNotExchangedUnderARunningMission) {
+  ASSERT_TRUE(go());
+  ticks(5);
+  EXPECT_EQ(loop->load_map(room_map(), {"office", 0, api::MapUse::kContinue}).error().code, Errc::kBusy);
+  EXPECT_EQ(loop->relocalise(std::nullopt).error().code, Errc::kBusy);
+  EXPECT_EQ(state->loads, 0);
+}
+
+TEST_F(MapMoves, LoadedMapForgetsTheWayAndHoldsMissionsUntilTheRobotIsFound) {
+  ticks(5);
+  ASSERT_FALSE(loop->stamped_trajectory().empty());
+  ASSERT_TRUE(loop->load_map(room_map(), {"office", 0, api::MapUse::kContinue}));
+  EXPECT_TRUE(loop->stamped_trajectory().empty());
+  EXPECT_FALSE(loop->idle()) << "the robot needs scans to find its place";
+  const Status refused = go();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::kNotReady);
+  ticks(20);
+  EXPECT_FALSE(loop->robot_map().relocalising());
+  EXPECT_TRUE(loop->idle());
+  EXPECT_TRUE(go());
+}
+
+}  // namespace
+}  // namespace seeker::testing

@@ -1,0 +1,58 @@
+// A map that is saved, outlives the death of its robot, and is found again.
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+#include "tests/integration/processes/daemon.hpp"
+
+namespace seeker::testing {
+namespace {
+
+const std::vector<std::string> kWithMap{"--set", "estimator=line_slam"};
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(MapProcesses, SavedMapSurvivesAKillAndTheRobotFindsItsPlaceInIt) {
+  const std::filesystem::path folder = fresh_folder("maps");
+  const std::filesystem::path file = folder / "state" / "maps" / "demo.seekermap";
+  std::string output;
+  {
+    Daemon daemon(kWithMap, folder);
+    ASSERT_EQ(seeker(daemon, {"goto", "2,0.5", "0.5,0"}, &output), 0) << output;
+    ASSERT_EQ(seeker(daemon, {"map", "save", "demo"}, &output), 0) << output;
+    EXPECT_EQ(seeker(daemon, {"map", "export", folder / "demo", "--format", "svg,geojson,tum"}, &output), 0) << output;
+    EXPECT_GT(content(folder / "demo.geojson").size(), 200U);
+    daemon.process->send(SIGKILL);
+    EXPECT_EQ(daemon.process->wait(std::chrono::seconds(10)), 128 + SIGKILL);
+  }
+  const std::string saved = content(file);
+  ASSERT_FALSE(saved.empty());
+  Daemon again(kWithMap, folder);
+  EXPECT_EQ(seeker(again, {"map", "verify", "demo"}, &output), 0) << output;
+  EXPECT_EQ(seeker(again, {"map", "verify", file}, &output), 0) << output;
+  ASSERT_EQ(seeker(again, {"map", "load", "demo", "--localise"}, &output), 0) << output;
+  // The simulated robot stands at its start again: the origin of the map.
+  ASSERT_EQ(seeker(again, {"relocalise", "--at", "0,0,0", "--wait", "--json"}, &output), 0) << output;
+  EXPECT_NE(output.find("\"quality\":\"LOCALISED\""), std::string::npos) << output;
+  EXPECT_EQ(seeker(again, {"goto", "1,0"}, &output), 0) << output;
+  EXPECT_EQ(seeker(again, {"map", "save", "demo", "--replace"}, &output), 3) << output;
+  EXPECT_EQ(content(file), saved) << "localising never writes the map it uses";
+}
+
+TEST(MapProcesses, EstimatorWithoutMapSaysWhichOneKeepsOne) {
+  const Daemon daemon;
+  std::string output;
+  EXPECT_EQ(seeker(daemon, {"map", "save", "demo"}, &output), 3);
+  EXPECT_NE(output.find("line_slam"), std::string::npos) << output;
+  EXPECT_EQ(seeker(daemon, {"map", "load", "demo"}, &output), 1);
+  EXPECT_NE(output.find("there is no map 'demo'"), std::string::npos) << output;
+  EXPECT_EQ(seeker(daemon, {"map", "list", "--json"}, &output), 0);
+  EXPECT_NE(output.find("{\"maps\":[]}"), std::string::npos) << output;
+}
+
+}  // namespace
+}  // namespace seeker::testing
