@@ -93,6 +93,7 @@ LineFit fit_points(const PointRow& row, const Indices& indices) {
 
 Line build_line(const LaserScan& scan, const PointRow& row, const Indices& indices, double bearing_sigma_rad) {
   std::vector<PolarPoint> polar;
+  polar.reserve(indices.size());
   for (const std::size_t i : indices) {
     polar.push_back(row.polar[i]);
   }
@@ -130,6 +131,7 @@ ScanLines build_lines(const LaserScan& scan, const PointRow& row, std::vector<In
 std::vector<Indices> merge_lines(const LaserScan& scan, const PointRow& row, std::vector<Indices> lines,
                                  double max_distance, double max_gap_m, double bearing_sigma_rad) {
   std::vector<Line> fits;
+  fits.reserve(lines.size());
   for (const Indices& line : lines) {
     fits.push_back(build_line(scan, row, line, bearing_sigma_rad));
   }
