@@ -46,7 +46,7 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] PoseEstimate estimate() const override;
   void reset(const Pose2& map_T_base) override;
 
-  [[nodiscard]] std::vector<seeker::MapSegment> segments() const override;
+  [[nodiscard]] std::vector<MapSegment> segments() const override;
   [[nodiscard]] std::uint64_t revision() const override { return revision_; }
   [[nodiscard]] LineMap map() const override;
   [[nodiscard]] Status load(const LineMap& map, MapUse use) override;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr const char* kLooking = "looking for the robot in the map";
 
-seeker::MapSegment to_value(const SpMap& map, const MapSegment& segment, std::uint32_t node, std::uint64_t id_base,
-                            RobotTime now) {
-  seeker::MapSegment value;
+MapSegment to_value(const SpMap& map, const SpSegment& segment, std::uint32_t node, std::uint64_t id_base,
+                    RobotTime now) {
+  MapSegment value;
   value.id = id_base + segment.id;
   value.node = node;
   value.map_T_segment = segment.map_T_segment;
@@ -34,7 +34,7 @@ void LineSlam::store_local_map() {
   LocalMap& newest = backend_.newest();
   newest.segments_node.clear();
   std::uint64_t last_id = 0;
-  for (const MapSegment& segment : lines_->segments()) {
+  for (const SpSegment& segment : lines_->segments()) {
     newest.segments_node.push_back(to_value(*lines_, segment, newest.id, next_id_, last_scan_.value_or(RobotTime{})));
     last_id = std::max(last_id, segment.id);
   }
@@ -48,7 +48,7 @@ std::uint32_t LineSlam::map_end() const {
   return std::min(joined, read_only_.value_or(joined));
 }
 
-std::vector<seeker::MapSegment> LineSlam::segments() const { return fuse(map().segments, params_.fusion); }
+std::vector<MapSegment> LineSlam::segments() const { return fuse(map().segments, params_.fusion); }
 
 LineMap LineSlam::map() const {
   const std::uint32_t newest = backend_.maps().back().id;
@@ -58,8 +58,8 @@ LineMap LineSlam::map() const {
     return whole;
   }
   const Pose2& map_T_node = backend_.pose(newest);
-  for (const MapSegment& segment : lines_->segments()) {
-    seeker::MapSegment value = to_value(*lines_, segment, newest, next_id_, last_scan_.value_or(RobotTime{}));
+  for (const SpSegment& segment : lines_->segments()) {
+    MapSegment value = to_value(*lines_, segment, newest, next_id_, last_scan_.value_or(RobotTime{}));
     value.map_T_segment = map_T_node * value.map_T_segment;
     whole.segments.push_back(value);
     whole.next_id = std::max(whole.next_id, value.id + 1);

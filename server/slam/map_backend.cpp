@@ -60,7 +60,7 @@ void MapBackend::load(const LineMap& map) {
       graph_.set_enabled(*added, false);
     }
   }
-  for (seeker::MapSegment segment : map.segments) {
+  for (MapSegment segment : map.segments) {
     const std::uint32_t node = number.at(segment.node);
     segment.node = node;
     segment.map_T_segment = inverse(pose(node)) * segment.map_T_segment;
@@ -301,7 +301,7 @@ LineMap MapBackend::assemble(std::uint32_t end) const {
       break;
     }
     whole.nodes.push_back({map.id, pose(map.id), map.created});
-    for (seeker::MapSegment segment : map.segments_node) {
+    for (MapSegment segment : map.segments_node) {
       segment.map_T_segment = pose(map.id) * segment.map_T_segment;
       whole.next_id = std::max(whole.next_id, segment.id + 1);
       whole.segments.push_back(segment);

@@ -20,7 +20,7 @@ namespace seeker::slam {
 struct LocalMap {
   std::uint32_t id = 0;
   RobotTime created;
-  std::vector<seeker::MapSegment> segments_node;  ///< poses in the frame of the local map, whatever their field says
+  std::vector<MapSegment> segments_node;  ///< poses in the frame of the local map, whatever their field says
   std::vector<MapKeyframe> keyframes;
 };
 

@@ -20,7 +20,7 @@ enum class MapUse : std::uint8_t {
 class MapTracker : public PoseTracker {
  public:
   /// Segments of the whole map in the frame `map`, one per piece of wall.
-  [[nodiscard]] virtual std::vector<seeker::MapSegment> segments() const = 0;
+  [[nodiscard]] virtual std::vector<MapSegment> segments() const = 0;
   /// Rises with every change of segments().
   [[nodiscard]] virtual std::uint64_t revision() const = 0;
   /// The whole map, for a file.

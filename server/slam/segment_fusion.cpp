@@ -11,7 +11,7 @@
 namespace seeker::slam {
 namespace {
 
-using Segment = seeker::MapSegment;
+using Segment = MapSegment;
 
 constexpr double kBucket_m = 2.0;
 

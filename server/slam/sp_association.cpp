@@ -37,7 +37,7 @@ Cull cull_of(const SpState& state, const SegmentObservation& observation) {
 /// Cheap test without matrices: distance, direction, then the two coordinates of the mid-point.
 bool may_pair(const SpState& state, std::size_t segment, const Cull& cull, double observed_length_m, double reach_m,
               double min_cosine) {
-  const MapSegment& f = state.segments[segment];
+  const SpSegment& f = state.segments[segment];
   const Point2 d = cull.map_T_observation.translation() - f.map_T_segment.translation();
   const double half_m = 0.5 * (f.length_m + observed_length_m) + reach_m;
   const Index at = state.records[segment].at;
@@ -53,7 +53,7 @@ bool may_pair(const SpState& state, std::size_t segment, const Cull& cull, doubl
 
 /// Overlap test of S1.6; false: they lie apart.
 bool lies_on(const SpState& state, PairCandidate& pair, const SegmentObservation& observation) {
-  const MapSegment& f = state.segments[pair.segment];
+  const SpSegment& f = state.segments[pair.segment];
   const SpAssociationParams& params = state.params.association;
   pair.low_m = pair.geometry.end_x_m(lines::kLeft, observation.length_m);
   pair.high_m = pair.geometry.end_x_m(lines::kRight, observation.length_m);

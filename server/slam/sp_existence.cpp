@@ -30,7 +30,7 @@ BeamRange beams_between(const LaserScan& scan, double from_rad, double to_rad) {
 
 Sight look_at(const SpState& state, std::size_t segment, const LaserScan& scan) {
   const SpExistenceParams& params = state.params.existence;
-  const MapSegment& f = state.segments[segment];
+  const SpSegment& f = state.segments[segment];
   const Pose2 laser_T_segment = inverse(state.map_T_base * scan.base_T_laser) * f.map_T_segment;
   const double half_m = 0.5 * f.length_m - params.end_margin_m;
   const Point2 tangent(std::cos(laser_T_segment.theta_rad), std::sin(laser_T_segment.theta_rad));

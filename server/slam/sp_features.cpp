@@ -20,7 +20,7 @@ double along_sigma_m(const SpState& state, const PairGeometry& pair) {
 
 /// Virtual -> real: nominal end where it was seen, and its row.
 void make_real(SpState& state, std::size_t segment, std::size_t side, const SegmentObservation& observation) {
-  MapSegment& f = state.segments[segment];
+  SpSegment& f = state.segments[segment];
   const PairGeometry before = pair_geometry(f.map_T_segment, state.map_T_base, observation.base_T_segment);
   move_end(state, segment, side, before.end_x_m(side, observation.length_m));
   const PairGeometry pair = pair_geometry(f.map_T_segment, state.map_T_base, observation.base_T_segment);
@@ -43,7 +43,7 @@ void make_virtual(SpState& state, std::size_t segment, std::size_t side) {
 }
 
 void follow_end(SpState& state, std::size_t segment, std::size_t side, const SegmentObservation& observation) {
-  MapSegment& f = state.segments[segment];
+  SpSegment& f = state.segments[segment];
   SegmentRecord& record = state.records[segment];
   const SpFeatureParams& params = state.params.features;
   const PairGeometry pair = pair_geometry(f.map_T_segment, state.map_T_base, observation.base_T_segment);
@@ -80,7 +80,7 @@ bool is_same(const Tentative& old, const Pose2& map_T_segment, double length_m, 
 }  // namespace
 
 void move_end(SpState& state, std::size_t segment, std::size_t side, double x_m) {
-  MapSegment& f = state.segments[segment];
+  SpSegment& f = state.segments[segment];
   const double moved_m = x_m - 0.5 * end_sign(side) * f.length_m;
   const double length_m = f.length_m + end_sign(side) * moved_m;
   if (!(length_m > 0.0)) {
@@ -101,7 +101,7 @@ void follow_ends(SpState& state, std::size_t segment, const SegmentObservation& 
 }
 
 SegmentId add_segment(SpState& state, const SegmentObservation& observation) {
-  MapSegment segment;
+  SpSegment segment;
   segment.id = state.next_id++;
   segment.map_T_segment = state.map_T_base * observation.base_T_segment;
   segment.length_m = observation.length_m;

@@ -41,7 +41,7 @@ std::vector<SpPair> pairs_of(const SpState& state, const Association& associatio
 }
 
 void note_sighting(SpState& state, std::size_t segment) {
-  MapSegment& f = state.segments[segment];
+  SpSegment& f = state.segments[segment];
   f.hits += f.last_seen == state.scans && f.hits > 0 ? 0 : 1;
   f.last_seen = state.scans;
 }
@@ -157,7 +157,7 @@ bool is_usable(const SegmentObservation& observation) {
 
 std::optional<std::size_t> SpState::index_of(SegmentId id) const {
   const auto found = std::lower_bound(segments.begin(), segments.end(), id,
-                                      [](const MapSegment& segment, SegmentId wanted) { return segment.id < wanted; });
+                                      [](const SpSegment& segment, SegmentId wanted) { return segment.id < wanted; });
   if (found == segments.end() || found->id != id) {
     return std::nullopt;
   }
@@ -251,7 +251,7 @@ std::vector<SegmentId> SpMap::observe_free_space(const LaserScan& scan) {
   std::vector<SegmentId> gone;
   for (std::size_t k = state.segments.size(); k-- > 0;) {
     const Sight sight = look_at(state, k, scan);
-    MapSegment& segment = state.segments[k];
+    SpSegment& segment = state.segments[k];
     segment.misses = sight == Sight::kDenied ? segment.misses + 1 : sight == Sight::kConfirmed ? 0 : segment.misses;
     const int limit = segment.hits <= params.young_hits ? params.young_misses : params.misses;
     if (segment.misses >= limit) {
@@ -298,8 +298,8 @@ bool SpMap::forget(SegmentId id) {
 const Pose2& SpMap::robot() const { return state_->map_T_base; }
 Matrix3 SpMap::robot_covariance() const { return state_->p.block(0, kRobotRows); }
 Matrix3 SpMap::robot_covariance_map() const { return to_map_frame(robot_covariance(), state_->map_T_base); }
-const std::vector<MapSegment>& SpMap::segments() const { return state_->segments; }
-const MapSegment* SpMap::find(SegmentId id) const {
+const std::vector<SpSegment>& SpMap::segments() const { return state_->segments; }
+const SpSegment* SpMap::find(SegmentId id) const {
   const std::optional<std::size_t> segment = state_->index_of(id);
   return segment ? &state_->segments[*segment] : nullptr;
 }

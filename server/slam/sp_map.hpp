@@ -26,7 +26,7 @@ using SegmentCovariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 
 
 /// A wall of the map (spec S1.2): frame at the mid-point, x along it, y from free space into the wall; left end at
 /// x = -L/2, right end at +L/2.
-struct MapSegment {
+struct SpSegment {
   SegmentId id = 0;
   Pose2 map_T_segment;
   double length_m = 0.0;
@@ -131,8 +131,8 @@ class SpMap {
   [[nodiscard]] Matrix3 robot_covariance() const;      ///< of d_R: frame `base`
   [[nodiscard]] Matrix3 robot_covariance_map() const;  ///< of (x, y, theta) in the frame `map`, as in PoseEstimate
 
-  [[nodiscard]] const std::vector<MapSegment>& segments() const;  ///< in the order of their ids
-  [[nodiscard]] const MapSegment* find(SegmentId id) const;       ///< null: no such segment
+  [[nodiscard]] const std::vector<SpSegment>& segments() const;  ///< in the order of their ids
+  [[nodiscard]] const SpSegment* find(SegmentId id) const;       ///< null: no such segment
   [[nodiscard]] SegmentCovariance segment_covariance(SegmentId id) const;
   [[nodiscard]] Eigen::MatrixXd segment_robot_covariance(SegmentId id) const;  ///< rows of the segment x 3 of d_R
   /// All of it: 3 rows of d_R, then the rows of every segment in the order of segments().

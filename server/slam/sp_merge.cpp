@@ -15,8 +15,8 @@ constexpr double kConstraintVariance = 1e-10;
 /// Places of the two segments on the x axis of the first.
 bool are_neighbours(const SpState& state, std::size_t first, std::size_t second) {
   const SpFeatureParams& params = state.params.features;
-  const MapSegment& i = state.segments[first];
-  const MapSegment& j = state.segments[second];
+  const SpSegment& i = state.segments[first];
+  const SpSegment& j = state.segments[second];
   // Most pairs are far apart: no trigonometry for them.
   const double reach_m = 0.5 * (i.length_m + j.length_m) + params.merge_gap_m + params.merge_offset_m;
   const Point2 apart = j.map_T_segment.translation() - i.map_T_segment.translation();
@@ -99,8 +99,8 @@ void take_end(SpState& state, std::size_t first, std::size_t second, std::size_t
 
 /// On each side the outermost end; a real one that is nearly so.
 void transfer_end(SpState& state, std::size_t first, std::size_t second, std::size_t side) {
-  const MapSegment& i = state.segments[first];
-  const MapSegment& j = state.segments[second];
+  const SpSegment& i = state.segments[first];
+  const SpSegment& j = state.segments[second];
   Pose2 i_T_j = inverse(i.map_T_segment) * j.map_T_segment;
   const double x_m = i_T_j.x_m + 0.5 * end_sign(side) * j.length_m * std::cos(i_T_j.theta_rad);
   const double past_m = end_sign(side) * x_m - 0.5 * i.length_m;
@@ -129,8 +129,8 @@ void merge_pair(SpState& state, std::size_t first, std::size_t second, SpUpdateR
   for (const std::size_t side : {lines::kLeft, lines::kRight}) {
     transfer_end(state, first, second, side);
   }
-  MapSegment& kept = state.segments[first];
-  const MapSegment& gone = state.segments[second];
+  SpSegment& kept = state.segments[first];
+  const SpSegment& gone = state.segments[second];
   kept.hits += gone.hits;
   kept.misses = std::min(kept.misses, gone.misses);
   kept.last_seen = std::max(kept.last_seen, gone.last_seen);

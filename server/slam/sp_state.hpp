@@ -44,7 +44,7 @@ struct SpState {
   SpMapParams params;
   Pose2 map_T_base;
   SpCovariance p;
-  std::vector<MapSegment> segments;  ///< by id
+  std::vector<SpSegment> segments;  ///< by id
   std::vector<SegmentRecord> records;
   std::vector<Tentative> tentatives;
   Observability observability;

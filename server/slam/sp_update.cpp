@@ -57,7 +57,7 @@ std::vector<RowGroup> linearise(const SpState& state, const std::vector<SegmentO
   const Pose2 robot = p.size() == 0 ? state.map_T_base : moved_robot(state.map_T_base, p);
   for (const SpPair& pair : pairs) {
     const SegmentObservation& observation = observations[pair.observation];
-    const MapSegment& segment = state.segments[pair.segment];
+    const SpSegment& segment = state.segments[pair.segment];
     const SegmentRows rows = state.rows_of(pair.segment);
     SegmentShape shape{segment.map_T_segment, segment.length_m};
     if (p.size() != 0) {
@@ -187,7 +187,7 @@ void centre(SpState& state, const Eigen::Ref<const Eigen::VectorXd>& p) {
   for (std::size_t k = 0; k < state.segments.size(); ++k) {
     const SegmentRows rows = state.rows_of(k);
     const Vector4 part = segment_part(p, rows);
-    MapSegment& segment = state.segments[k];
+    SpSegment& segment = state.segments[k];
     const SegmentShape moved = perturbed({segment.map_T_segment, segment.length_m}, part);
     segment.map_T_segment = moved.map_T_segment;
     segment.length_m = moved.length_m;

@@ -91,7 +91,7 @@ inline Association known(const std::vector<SegmentId>& ids, const std::vector<li
   Association association;
   for (std::size_t k = 0; k < ids.size(); ++k) {
     SpMatch match;
-    if (const MapSegment* segment = map.find(ids[k])) {
+    if (const SpSegment* segment = map.find(ids[k])) {
       match.verdict = SpVerdict::kPaired;
       match.segment = ids[k];
       match.ends = {segment->real[0] && observations[k].real[0], segment->real[1] && observations[k].real[1]};
@@ -109,7 +109,7 @@ inline double robot_nees(const SpMap& map, const Pose2& truth) {
 }
 
 /// That of a segment, as many as it has rows on average. The wall is an infinite line; only real ends count.
-inline double segment_nees(const SpMap& map, const MapSegment& segment, const TrueWall& wall) {
+inline double segment_nees(const SpMap& map, const SpSegment& segment, const TrueWall& wall) {
   const Pose2 d = inverse(segment.map_T_segment) * wall.map_T_wall;
   const SegmentCovariance covariance = map.segment_covariance(segment.id);
   Eigen::VectorXd error(covariance.rows());

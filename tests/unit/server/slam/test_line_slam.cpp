@@ -103,10 +103,10 @@ TEST(LineSlam, MapsEachWallOnce) {
   Trip trip(4);
   LineSlam slam({}, trip.truth());
   ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 110.0));
-  const std::vector<seeker::MapSegment> segments = slam.segments();
+  const std::vector<MapSegment> segments = slam.segments();
   double mapped_m = 0.0;
   double off_m = 0.0;
-  for (const seeker::MapSegment& segment : segments) {
+  for (const MapSegment& segment : segments) {
     mapped_m += segment.length_m;
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const auto& [a, b] : ring()) {

@@ -5,8 +5,8 @@
 namespace seeker::slam {
 namespace {
 
-seeker::MapSegment wall(std::uint64_t id, double x_m, double y_m, double theta_rad, double length_m) {
-  seeker::MapSegment segment;
+MapSegment wall(std::uint64_t id, double x_m, double y_m, double theta_rad, double length_m) {
+  MapSegment segment;
   segment.id = id;
   segment.map_T_segment = {x_m, y_m, theta_rad};
   segment.length_m = length_m;
@@ -30,8 +30,8 @@ TEST(SegmentFusion, KeepsTheTwoFacesOfAWallApart) {
 }
 
 TEST(SegmentFusion, KeepsADoorwayOpenAndClosesAGapOfSight) {
-  seeker::MapSegment left = wall(1, 0.0, 0.0, 0.0, 2.0);
-  seeker::MapSegment right = wall(2, 2.15, 0.0, 0.0, 2.0);  // a gap of 0.15 m
+  MapSegment left = wall(1, 0.0, 0.0, 0.0, 2.0);
+  MapSegment right = wall(2, 2.15, 0.0, 0.0, 2.0);  // a gap of 0.15 m
   EXPECT_EQ(fuse({left, right}).size(), 1U);
   left.right_real = true;
   right.left_real = true;

@@ -52,7 +52,7 @@ MeanNees run(SpMapParams params, int steps, const std::vector<TrueWall>& walls, 
     }
     mean.robot += test::robot_nees(map, truth) / kRuns;
     for (std::size_t k = 0; k < walls.size(); ++k) {
-      const MapSegment* segment = map.find(ids[k]);
+      const SpSegment* segment = map.find(ids[k]);
       if (segment == nullptr || !segment->real[0] || !segment->real[1]) {
         ADD_FAILURE() << "wall " << k << " has no two real ends, seed " << seed;
         continue;
@@ -153,7 +153,7 @@ TEST(SpConsistency, PiecesOfAWallThatAreMerged) {
       map.update(observations, map.associate(observations));
     }
     robot += test::robot_nees(map, truth) / kRuns;
-    const auto whole = std::find_if(map.segments().begin(), map.segments().end(), [&](const MapSegment& s) {
+    const auto whole = std::find_if(map.segments().begin(), map.segments().end(), [&](const SpSegment& s) {
       return std::abs(wrap_angle(s.map_T_segment.theta_rad - walls[0].map_T_wall.theta_rad)) < 0.3;
     });
     if (map.segments().size() == walls.size()) {

@@ -86,7 +86,7 @@ class Torture {
   /// Parts of what is in the map, as seen from where the robot believes to be, with small errors.
   std::vector<SegmentObservation> again() {
     std::vector<SegmentObservation> seen;
-    for (const MapSegment& segment : map_.segments()) {
+    for (const SpSegment& segment : map_.segments()) {
       if (rng_.below(4) != 0) {
         continue;
       }
@@ -118,7 +118,7 @@ TEST(SpHostile, CovarianceStaysPositiveDefiniteOver100000Steps) {
       }
     }
     EXPECT_GT(torture.map().segments().size(), 3U);
-    for (const MapSegment& segment : torture.map().segments()) {
+    for (const SpSegment& segment : torture.map().segments()) {
       EXPECT_GT(segment.length_m, 0.0);
       EXPECT_TRUE(is_finite(segment.map_T_segment));
     }
@@ -165,7 +165,7 @@ RC_GTEST_PROP(SpHostile, IdsRiseAndRowsFitTheCovariance, ()) {
     torture.step();
     SegmentId last = 0;
     Eigen::Index rows = 3;
-    for (const MapSegment& segment : torture.map().segments()) {
+    for (const SpSegment& segment : torture.map().segments()) {
       RC_ASSERT(segment.id > last);
       last = segment.id;
       RC_ASSERT(torture.map().segment_covariance(segment.id).rows() == 2 + segment.real[0] + segment.real[1]);

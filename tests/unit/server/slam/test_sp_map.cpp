@@ -57,7 +57,7 @@ TEST(SpMap, LetsVirtualEndsGrowAndNeverShrink) {
   feed(map, {part(-0.5, 2.5)});
   feed(map, {part(-0.2, 0.2)});
   ASSERT_EQ(map.segments().size(), 1U);
-  const MapSegment& segment = map.segments()[0];
+  const SpSegment& segment = map.segments()[0];
   EXPECT_NEAR(segment.length_m, 3.5, 1e-3);
   EXPECT_THAT(segment.map_T_segment, Pose2Near(Pose2{0.75, 2.0, 0.0}, 1e-3, 1e-3));
   EXPECT_EQ(segment.hits, 3);
@@ -69,7 +69,7 @@ TEST(SpMap, MakesAnEndRealWhenItWasSeenTwice) {
   feed(map, {part(-1.0, 1.0, {false, true})});
   EXPECT_FALSE(map.segments()[0].real[lines::kRight]);
   feed(map, {part(-1.0, 1.0, {false, true})});
-  const MapSegment& segment = map.segments()[0];
+  const SpSegment& segment = map.segments()[0];
   EXPECT_TRUE(segment.real[lines::kRight]);
   EXPECT_FALSE(segment.real[lines::kLeft]);
   const SegmentCovariance covariance = map.segment_covariance(segment.id);
