@@ -107,7 +107,7 @@ void MapService::on_worker(const api::Reply<T>& reply, std::function<Result<T>(c
   }
 }
 
-void MapService::save(const std::string& name, bool replace, api::Reply<api::MapSummary> reply) {
+void MapService::save(const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply) {
   const bool posted = mailbox_.post([this, name, replace, reply] {
     Result<LoopMap> map = loop_.map_to_save(name);
     if (!map) {
@@ -156,7 +156,7 @@ void MapService::write(const LoopMap& from, const std::string& name, bool replac
   }
 }
 
-void MapService::load(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply) {
+void MapService::load(const std::string& name, api::MapUse use, const api::Reply<api::MapSummary>& reply) {
   const Status ok = enqueue([this, name, use, reply](const store::MapFiles& files) {
     Result<store::MapFile> file = files.read(name);
     const Result<store::MapListing> listing = files.inspect(name);
@@ -178,7 +178,7 @@ void MapService::load(const std::string& name, api::MapUse use, api::Reply<api::
   }
 }
 
-void MapService::list(api::Reply<std::vector<api::MapSummary>> reply) {
+void MapService::list(const api::Reply<std::vector<api::MapSummary>>& reply) {
   on_worker<std::vector<api::MapSummary>>(reply,
                                           [](const store::MapFiles& files) -> Result<std::vector<api::MapSummary>> {
                                             const Result<std::vector<store::MapListing>> listings = files.list();
@@ -193,7 +193,7 @@ void MapService::list(api::Reply<std::vector<api::MapSummary>> reply) {
                                           });
 }
 
-void MapService::inspect(const std::string& name, bool verify, api::Reply<api::MapSummary> reply) {
+void MapService::inspect(const std::string& name, bool verify, const api::Reply<api::MapSummary>& reply) {
   on_worker<api::MapSummary>(reply, [name, verify](const store::MapFiles& files) -> Result<api::MapSummary> {
     if (verify) {
       if (const Result<store::MapFile> file = files.read(name); !file) {
@@ -204,7 +204,7 @@ void MapService::inspect(const std::string& name, bool verify, api::Reply<api::M
   });
 }
 
-void MapService::remove(const std::string& name, api::Reply<void> reply) {
+void MapService::remove(const std::string& name, const api::Reply<void>& reply) {
   const bool posted = mailbox_.post([this, name, reply] {
     if (const Status free = loop_.map_not_in_use(name); !free) {
       reply(free);
@@ -217,7 +217,7 @@ void MapService::remove(const std::string& name, api::Reply<void> reply) {
   }
 }
 
-void MapService::download(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply) {
+void MapService::download(const std::string& name, const api::Reply<std::vector<std::uint8_t>>& reply) {
   on_worker<std::vector<std::uint8_t>>(
       reply, [name](const store::MapFiles& files) -> Result<std::vector<std::uint8_t>> {
         Result<std::vector<std::uint8_t>> bytes = files.read_bytes(name);
@@ -230,7 +230,7 @@ void MapService::download(const std::string& name, api::Reply<std::vector<std::u
       });
 }
 
-void MapService::upload(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) {
+void MapService::upload(const api::MapUpload& upload, const api::Reply<api::MapSummary>& reply) {
   const bool posted = mailbox_.post([this, upload, reply] {
     if (const Status free = upload.check_only ? Status() : loop_.map_not_in_use(upload.name); !free) {
       reply(tl::unexpected<Error>(free.error()));

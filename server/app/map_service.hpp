@@ -37,13 +37,13 @@ class MapService {
   /// Finishes what was accepted.
   ~MapService();
 
-  void save(const std::string& name, bool replace, api::Reply<api::MapSummary> reply);
-  void load(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply);
-  void list(api::Reply<std::vector<api::MapSummary>> reply);
-  void inspect(const std::string& name, bool verify, api::Reply<api::MapSummary> reply);
-  void remove(const std::string& name, api::Reply<void> reply);
-  void download(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply);
-  void upload(const api::MapUpload& upload, api::Reply<api::MapSummary> reply);
+  void save(const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply);
+  void load(const std::string& name, api::MapUse use, const api::Reply<api::MapSummary>& reply);
+  void list(const api::Reply<std::vector<api::MapSummary>>& reply);
+  void inspect(const std::string& name, bool verify, const api::Reply<api::MapSummary>& reply);
+  void remove(const std::string& name, const api::Reply<void>& reply);
+  void download(const std::string& name, const api::Reply<std::vector<std::uint8_t>>& reply);
+  void upload(const api::MapUpload& upload, const api::Reply<api::MapSummary>& reply);
 
  private:
   using Work = std::function<void(const store::MapFiles&)>;

@@ -87,23 +87,21 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     ask(std::move(reply), [this, since_revision] { return loop().robot_map().segments_since(since_revision); });
   }
   void save_map(const std::string& name, bool replace, api::Reply<api::MapSummary> reply) override {
-    robot_.maps_.save(name, replace, std::move(reply));
+    robot_.maps_.save(name, replace, reply);
   }
   void load_map(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply) override {
-    robot_.maps_.load(name, use, std::move(reply));
+    robot_.maps_.load(name, use, reply);
   }
-  void list_maps(api::Reply<std::vector<api::MapSummary>> reply) override { robot_.maps_.list(std::move(reply)); }
+  void list_maps(api::Reply<std::vector<api::MapSummary>> reply) override { robot_.maps_.list(reply); }
   void inspect_map(const std::string& name, bool verify, api::Reply<api::MapSummary> reply) override {
-    robot_.maps_.inspect(name, verify, std::move(reply));
+    robot_.maps_.inspect(name, verify, reply);
   }
-  void delete_map(const std::string& name, api::Reply<void> reply) override {
-    robot_.maps_.remove(name, std::move(reply));
-  }
+  void delete_map(const std::string& name, api::Reply<void> reply) override { robot_.maps_.remove(name, reply); }
   void download_map(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply) override {
-    robot_.maps_.download(name, std::move(reply));
+    robot_.maps_.download(name, reply);
   }
   void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override {
-    robot_.maps_.upload(upload, std::move(reply));
+    robot_.maps_.upload(upload, reply);
   }
   void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
     ask(std::move(reply), [this, map_T_base] { return loop().relocalise(map_T_base); });
