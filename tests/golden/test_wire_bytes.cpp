@@ -43,7 +43,8 @@ TEST_P(WireBytes, AFrameHasTheBytesItAlwaysHad) {
   EXPECT_EQ(back->SerializeAsString(), envelope.SerializeAsString());
 }
 
-INSTANTIATE_TEST_SUITE_P(Golden, WireBytes, ::testing::Values("hello", "stop_request", "status_update", "refusal"));
+INSTANTIATE_TEST_SUITE_P(Golden, WireBytes,
+                         ::testing::Values("hello", "stop_request", "status_update", "segments_update", "refusal"));
 
 TEST(WireBytesOfStreams, HeadBodyAndTailAreOneMessage) {
   v1::Envelope envelope;
