@@ -48,7 +48,7 @@ struct RobotOptions {
   SimSettings sim;
   ReplaySettings replay;
   LoopParams loop;
-  EstimatorType estimator = EstimatorType::kScanMatch;
+  EstimatorType estimator = EstimatorType::kLineSlam;
   slam::ScanMapParams tracking;  ///< its `odometry` part also drives pure dead reckoning
   slam::LineSlamParams slam;
   nav::OccupancyParams occupancy;

@@ -85,6 +85,7 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] bool is_confirmed(const Pose2& map_T_node);
   void settle(const PlaceAnswer& answer);
   [[nodiscard]] std::uint32_t map_end() const;
+  void append_newest(std::vector<MapSegment>& all) const;
 
   LineSlamParams params_;
   lines::FastExtractor extractor_;

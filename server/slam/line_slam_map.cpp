@@ -48,21 +48,31 @@ std::uint32_t LineSlam::map_end() const {
   return std::min(joined, read_only_.value_or(joined));
 }
 
-std::vector<MapSegment> LineSlam::segments() const { return fuse(map().segments, params_.fusion); }
+std::vector<MapSegment> LineSlam::segments() const {
+  std::vector<MapSegment> all = backend_.segments(map_end());
+  append_newest(all);
+  return fuse(std::move(all), params_.fusion);
+}
 
-LineMap LineSlam::map() const {
+void LineSlam::append_newest(std::vector<MapSegment>& all) const {
   const std::uint32_t newest = backend_.maps().back().id;
-  LineMap whole = backend_.assemble(map_end());
-  whole.next_id = std::max(whole.next_id, next_id_);
   if (newest >= map_end()) {
-    return whole;
+    return;
   }
   const Pose2& map_T_node = backend_.pose(newest);
   for (const SpSegment& segment : lines_->segments()) {
     MapSegment value = to_value(*lines_, segment, newest, next_id_, last_scan_.value_or(RobotTime{}));
     value.map_T_segment = map_T_node * value.map_T_segment;
-    whole.segments.push_back(value);
-    whole.next_id = std::max(whole.next_id, value.id + 1);
+    all.push_back(value);
+  }
+}
+
+LineMap LineSlam::map() const {
+  LineMap whole = backend_.assemble(map_end());
+  append_newest(whole.segments);
+  whole.next_id = std::max(whole.next_id, next_id_);
+  for (const MapSegment& segment : whole.segments) {
+    whole.next_id = std::max(whole.next_id, segment.id + 1);
   }
   return whole;
 }

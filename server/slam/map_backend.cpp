@@ -293,19 +293,32 @@ bool MapBackend::optimise() {
   return moved;
 }
 
+std::vector<MapSegment> MapBackend::segments(std::uint32_t end) const {
+  std::vector<MapSegment> all;
+  for (const LocalMap& map : maps_) {
+    if (map.id >= end) {
+      break;
+    }
+    for (MapSegment segment : map.segments_node) {
+      segment.map_T_segment = pose(map.id) * segment.map_T_segment;
+      all.push_back(segment);
+    }
+  }
+  return all;
+}
+
 LineMap MapBackend::assemble(std::uint32_t end) const {
   LineMap whole;
   whole.epoch = epoch_;
+  whole.segments = segments(end);
+  for (const MapSegment& segment : whole.segments) {
+    whole.next_id = std::max(whole.next_id, segment.id + 1);
+  }
   for (const LocalMap& map : maps_) {
     if (map.id >= end) {
       break;
     }
     whole.nodes.push_back({map.id, pose(map.id), map.created});
-    for (MapSegment segment : map.segments_node) {
-      segment.map_T_segment = pose(map.id) * segment.map_T_segment;
-      whole.next_id = std::max(whole.next_id, segment.id + 1);
-      whole.segments.push_back(segment);
-    }
     whole.keyframes.insert(whole.keyframes.end(), map.keyframes.begin(), map.keyframes.end());
   }
   for (std::size_t k = 0; k < graph_.edge_count(); ++k) {

@@ -70,6 +70,8 @@ class MapBackend {
 
   /// Places and relations of the local maps below `end`, their segments and scans; the frame is `map`.
   [[nodiscard]] LineMap assemble(std::uint32_t end) const;
+  /// Their segments alone, in the frame `map`.
+  [[nodiscard]] std::vector<MapSegment> segments(std::uint32_t end) const;
 
  private:
   struct Candidate {

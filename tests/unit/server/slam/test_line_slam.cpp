@@ -195,6 +195,7 @@ TEST(LineSlam, FindsTheRobotInALoadedMapWithoutAHint) {
   LineSlam slam;
   ASSERT_TRUE(slam.load(map, MapUse::kLocalise));
   EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown) << "never a pose that nobody measured";
+  EXPECT_GT(slam.segments().size(), 10U) << "the loaded map can be looked at meanwhile";
   for (int metre = 0; metre < 10 && slam.estimate().quality == LocalisationQuality::kUnknown; ++metre) {
     ASSERT_NO_FATAL_FAILURE(drive(second, slam, 1.0));
   }
