@@ -44,7 +44,7 @@ TEST(MapProcesses, SavedMapSurvivesAKillAndTheRobotFindsItsPlaceInIt) {
 }
 
 TEST(MapProcesses, EstimatorWithoutMapSaysWhichOneKeepsOne) {
-  const Daemon daemon;
+  const Daemon daemon({"--set", "estimator=scan_match"});
   std::string output;
   EXPECT_EQ(seeker(daemon, {"map", "save", "demo"}, &output), 3);
   EXPECT_NE(output.find("line_slam"), std::string::npos) << output;
