@@ -92,11 +92,18 @@ RobotTime ReplaySource::robot_time_of(const CarmenRecord& record) const {
 }
 
 void ReplaySource::advance_to(RobotTime now) {
-  now_ = std::max(now_, now);
-  while (pending_ && robot_time_of(*pending_) <= now_) {
+  bool fresh_scan = false;
+  while (pending_ && robot_time_of(*pending_) <= now) {
+    const bool is_scan = std::holds_alternative<CarmenScan>(*pending_);
+    if (is_scan && fresh_scan) {
+      return;  // the next call begins with it
+    }
+    fresh_scan = fresh_scan || is_scan;
+    now_ = std::max(now_, robot_time_of(*pending_));
     std::visit([this](const auto& record) { deliver(record); }, *pending_);
     fetch();
   }
+  now_ = std::max(now_, now);
 }
 
 bool ReplaySource::advance_one() {
@@ -156,10 +163,11 @@ Status ReplayClock::advance(Duration period) {
   if (source_->finished()) {
     return fail(Errc::kCancelled, "the replay has ended: " + describe(source_->summary()));
   }
-  source_->advance_to(source_->now() + period);
+  const RobotTime before = source_->now();
+  source_->advance_to(before + period);
   if (speed_ > 0.0) {
     const auto tick = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-        std::chrono::duration<double>(to_seconds(period) / speed_));
+        std::chrono::duration<double>(to_seconds(source_->now() - before) / speed_));
     const auto wall = std::chrono::steady_clock::now();
     // A loop that is late starts anew from now instead of racing to catch up.
     next_tick_ = std::max(next_tick_.value_or(wall) + tick, wall);

@@ -30,7 +30,8 @@ class ReplaySource {
   [[nodiscard]] static Result<std::shared_ptr<ReplaySource>> open(const std::filesystem::path& path,
                                                                   const ReplayParams& params = {});
 
-  /// Takes every record stamped up to `now`; the newest of each kind waits for its reader.
+  /// Takes records stamped up to `now`; the newest of each kind waits for its reader. Stops before a second scan, so
+  /// that none is lost where two fall into one tick: now() is then the time of the last record taken.
   void advance_to(RobotTime now);
   /// Takes exactly the next record, so that none is overtaken; false at the end.
   bool advance_one();
