@@ -84,7 +84,9 @@ void BlockSystem::lay_out(const std::vector<Pair>& pairs) {
       }
     }
   }
-  matrix_.makeCompressed();
+  if (size > 0) {  // of an empty matrix it reads beyond the end
+    matrix_.makeCompressed();
+  }
   right_ = Eigen::VectorXd::Zero(size);
 }
 
