@@ -121,6 +121,8 @@ Stacked stack(SpState& state, const std::vector<RowGroup>& groups) {
 }
 
 /// Turns pht into W = P H^T L^-T and f into L^-1 f, S = L L^T.
+// A writable Eigen::Ref is passed by value: a view, not a copy.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 bool solve(Eigen::Ref<Eigen::MatrixXd> pht, Eigen::Ref<Eigen::MatrixXd> s, Eigen::VectorXd& f) {
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(s);
   if (llt.info() != Eigen::Success) {
@@ -201,6 +203,8 @@ void centre(SpState& state, const Eigen::Ref<const Eigen::VectorXd>& p) {
   }
 }
 
+// A writable Eigen::Ref is passed by value: a view, not a copy.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 bool correct(SpState& state, Eigen::Ref<Eigen::MatrixXd> pht, Eigen::Ref<Eigen::MatrixXd> s,
              const Eigen::Ref<const Eigen::VectorXd>& f) {
   Eigen::VectorXd reduced_f = f;
