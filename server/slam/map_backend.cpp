@@ -190,11 +190,12 @@ std::shared_ptr<const PlaceMap> MapBackend::place_of(std::uint32_t id) {
   return places_.front().second;
 }
 
-UncertainPose MapBackend::relative(std::size_t from, std::size_t to) {
-  const Pose2 from_T_to = inverse(graph_.pose(from)) * graph_.pose(to);
+std::optional<UncertainPose> MapBackend::relative(std::size_t from, std::size_t to) {
   const Result<Matrix3> covariance = graph_.relative_covariance(from, to);
-  SEEKER_ASSERT(covariance.has_value());
-  return {from_T_to, *covariance};
+  if (!covariance) {
+    return std::nullopt;
+  }
+  return UncertainPose{inverse(graph_.pose(from)) * graph_.pose(to), *covariance};
 }
 
 void MapBackend::plan_loops(const Pose2& node_T_base) {
@@ -216,9 +217,11 @@ bool MapBackend::step_loops() {
   const std::uint32_t newest = maps_.back().id;
   ++counts_.tried;
   const std::shared_ptr<const PlaceMap> place = place_of(id);
-  if (id + 1 < newest && place) {
-    const auto loop = detector_.verify(query(), {.id = id, .place = place, .target_T_query = relative(id, newest)});
-    for (const LoopEdge& edge : loop ? believed({id, newest, loop->target_T_query}) : std::vector<LoopEdge>{}) {
+  const std::optional<UncertainPose> expected = relative(id, newest);
+  if (id + 1 < newest && place && expected) {
+    const auto loop = detector_.verify(query(), {.id = id, .place = place, .target_T_query = *expected});
+    for (const LoopEdge& edge :
+         loop ? believed({id, newest, loop->target_T_query}, *expected) : std::vector<LoopEdge>{}) {
       add_loop(edge);
       unsettled_ = true;
     }
@@ -230,8 +233,7 @@ bool MapBackend::step_loops() {
   return optimise();
 }
 
-std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop) {
-  const UncertainPose expected = relative(loop.a, loop.b);
+std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop, const UncertainPose& expected) {
   const Pose2 off = inverse(expected.a_T_b) * loop.a_T_b.a_T_b;
   const Matrix3 turn = compose_jacobian_b(expected.a_T_b, {});
   const Eigen::Vector3d residual = turn * Eigen::Vector3d(off.x_m, off.y_m, off.theta_rad);
@@ -244,8 +246,9 @@ std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop) {
   if (pending_.size() > params_.max_pending) {
     pending_.erase(pending_.begin());
   }
-  const ConsistentSet agreed = largest_consistent_set(
-      pending_, [this](std::size_t from, std::size_t to) { return from == to ? UncertainPose{} : relative(from, to); });
+  const ConsistentSet agreed = largest_consistent_set(pending_, [this](std::size_t from, std::size_t to) {
+    return from == to ? UncertainPose{} : relative(from, to).value();
+  });
   const bool includes_newest = !agreed.members.empty() && agreed.members.back() + 1 == pending_.size();
   if (agreed.members.size() < params_.witnesses || agreed.rival_size >= agreed.members.size() || !includes_newest) {
     return {};

@@ -82,8 +82,9 @@ class MapBackend {
   [[nodiscard]] std::vector<Candidate> candidates(const Pose2& map_T_base) const;
   [[nodiscard]] std::vector<SeenPoints> query() const;
   [[nodiscard]] std::shared_ptr<const PlaceMap> place_of(std::uint32_t id);
-  [[nodiscard]] UncertainPose relative(std::size_t from, std::size_t to);
-  [[nodiscard]] std::vector<LoopEdge> believed(const LoopEdge& loop);
+  /// Nothing where a loaded map has parts that no relation joins: all or none of its local maps have one.
+  [[nodiscard]] std::optional<UncertainPose> relative(std::size_t from, std::size_t to);
+  [[nodiscard]] std::vector<LoopEdge> believed(const LoopEdge& loop, const UncertainPose& expected);
   void add_loop(const LoopEdge& loop);
   bool optimise();
 
