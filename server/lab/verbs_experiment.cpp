@@ -31,6 +31,7 @@ const std::map<std::string, Reproduction> kReproductions = {
 
 std::vector<std::string> reproduction_ids() {
   std::vector<std::string> ids;
+  ids.reserve(kReproductions.size());
   for (const auto& [id, reproduction] : kReproductions) {
     ids.push_back(id);
   }
