@@ -5,7 +5,7 @@
 namespace seeker::search {
 
 DriveTo::DriveTo(const SearchParams& params, LocalPlanner planner, bool use_map)
-    : paper_(params.paper), planner_(std::move(planner)), driver_(params.plan), use_map_(use_map) {}
+    : paper_(params.paper), planner_(std::move(planner)), driver_(params.plan.driver()), use_map_(use_map) {}
 
 bool DriveTo::start(const StrategyInput& input, const Point2& goal_map, double tolerance_m) {
   goal_ = goal_map;
@@ -27,32 +27,32 @@ std::vector<Point2> DriveTo::path(const Pose2& map_T_base) const {
   return use_map_ ? driver_.path() : std::vector<Point2>{map_T_base.translation(), goal_};
 }
 
-DriveStep DriveTo::step(const StrategyInput& input) {
+nav::DriveStep DriveTo::step(const StrategyInput& input) {
   if (!active_) {
     return {};
   }
-  DriveStep out = use_map_ ? driver_.step(input) : step_locally(input);
-  active_ = out.state == DriveState::kDriving;
+  nav::DriveStep out = use_map_ ? driver_.step(input) : step_locally(input);
+  active_ = out.state == nav::DriveState::kDriving;
   return out;
 }
 
-DriveStep DriveTo::step_locally(const StrategyInput& input) {
+nav::DriveStep DriveTo::step_locally(const StrategyInput& input) {
   const double remaining = (goal_ - input.map_T_base.translation()).norm();
   if (remaining <= tolerance_m_) {
-    return {{}, DriveState::kArrived, {}};
+    return {{}, nav::DriveState::kArrived, {}};
   }
   if (progress_.idle_s(remaining, paper_.progress_m, input.now) > paper_.progress_time_s) {
-    return {{}, DriveState::kFailed, "no progress"};
+    return {{}, nav::DriveState::kFailed, "no progress"};
   }
   const auto sectors = planner_.sense(input.sonar, input.map_T_base, input.now);
   if (!sectors) {
-    return {{}, DriveState::kFailed, sectors.error().message};
+    return {{}, nav::DriveState::kFailed, sectors.error().message};
   }
   const auto command = planner_.drive(*sectors, bearing_to(input.map_T_base, goal_));
   if (!command) {
-    return {{}, DriveState::kFailed, command.error().message};
+    return {{}, nav::DriveState::kFailed, command.error().message};
   }
-  return {*command, DriveState::kDriving, {}};
+  return {*command, nav::DriveState::kDriving, {}};
 }
 
 }  // namespace seeker::search

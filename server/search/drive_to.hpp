@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "server/nav/planned_driver.hpp"
+#include "server/search/search_params.hpp"
+#include "server/search/strategy.hpp"
+#include "server/nav/progress_watch.hpp"
 #include "server/search/local_planner.hpp"
-#include "server/search/planned_driver.hpp"
-#include "server/search/progress_watch.hpp"
 
 namespace seeker::search {
 
@@ -19,22 +21,22 @@ class DriveTo {
 
   /// False when no way is known.
   bool start(const StrategyInput& input, const Point2& goal_map, double tolerance_m);
-  [[nodiscard]] DriveStep step(const StrategyInput& input);
+  [[nodiscard]] nav::DriveStep step(const StrategyInput& input);
   void stop();
   [[nodiscard]] std::vector<Point2> path(const Pose2& map_T_base) const;
   [[nodiscard]] bool uses_map() const { return use_map_; }
 
  private:
-  [[nodiscard]] DriveStep step_locally(const StrategyInput& input);
+  [[nodiscard]] nav::DriveStep step_locally(const StrategyInput& input);
 
   PaperParams paper_;
   LocalPlanner planner_;
-  PlannedDriver driver_;
+  nav::PlannedDriver driver_;
   bool use_map_;
   bool active_ = false;
   Point2 goal_ = Point2::Zero();
   double tolerance_m_ = 0.1;
-  ProgressWatch progress_;
+  nav::ProgressWatch progress_;
 };
 
 }  // namespace seeker::search

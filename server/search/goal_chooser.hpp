@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "server/nav/frontiers.hpp"
 #include "server/nav/planner.hpp"
 #include "server/search/search_params.hpp"
 #include "server/search/strategy.hpp"
@@ -26,7 +27,7 @@ struct Goal {
 };
 
 struct ChooseInput {
-  const FloorView& floor;
+  const nav::FloorView& floor;
   const nav::DistanceField& costs;
   const EvidenceGrid& evidence;
   Pose2 map_T_base;
@@ -46,7 +47,7 @@ class GoalChooser {
   /// The robot reached the goal (or came as near as it can) and looked.
   virtual void visited(const Goal& goal, const Pose2& map_T_base) = 0;
   /// Asked after every look on the way: false drops the goal for a better one.
-  [[nodiscard]] virtual bool still_worth(const Goal& goal, const FloorView& floor, const EvidenceGrid& evidence,
+  [[nodiscard]] virtual bool still_worth(const Goal& goal, const nav::FloorView& floor, const EvidenceGrid& evidence,
                                          double target_size_m) const = 0;
   virtual void transform(const Pose2& new_T_old) = 0;
 };
@@ -57,7 +58,7 @@ class PlanChooser final : public GoalChooser {
   explicit PlanChooser(const PlanParams& params) : params_(params) {}
   [[nodiscard]] std::optional<Goal> choose(const ChooseInput& input) override;
   void visited(const Goal& goal, const Pose2& map_T_base) override;
-  [[nodiscard]] bool still_worth(const Goal& goal, const FloorView& floor, const EvidenceGrid& evidence,
+  [[nodiscard]] bool still_worth(const Goal& goal, const nav::FloorView& floor, const EvidenceGrid& evidence,
                                  double target_size_m) const override;
   void transform(const Pose2& new_T_old) override;
 
@@ -82,7 +83,7 @@ class SpiralChooser final : public GoalChooser {
   explicit SpiralChooser(const PlanParams& params) : params_(params) {}
   [[nodiscard]] std::optional<Goal> choose(const ChooseInput& input) override;
   void visited(const Goal& goal, const Pose2& map_T_base) override;
-  [[nodiscard]] bool still_worth(const Goal&, const FloorView&, const EvidenceGrid&, double) const override {
+  [[nodiscard]] bool still_worth(const Goal&, const nav::FloorView&, const EvidenceGrid&, double) const override {
     return true;
   }
   void transform(const Pose2& new_T_old) override;
@@ -105,7 +106,7 @@ class FrontierChooser final : public GoalChooser {
   explicit FrontierChooser(const PlanParams& params) : params_(params) {}
   [[nodiscard]] std::optional<Goal> choose(const ChooseInput& input) override;
   void visited(const Goal& goal, const Pose2& map_T_base) override;
-  [[nodiscard]] bool still_worth(const Goal&, const FloorView&, const EvidenceGrid&, double) const override {
+  [[nodiscard]] bool still_worth(const Goal&, const nav::FloorView&, const EvidenceGrid&, double) const override {
     return true;
   }
   void transform(const Pose2& new_T_old) override;
@@ -114,19 +115,5 @@ class FrontierChooser final : public GoalChooser {
   PlanParams params_;
   std::vector<Point2> seen_frontiers_;
 };
-
-/// A border between reachable free floor and the unknown.
-struct Frontier {
-  Point2 p_map = Point2::Zero();  ///< its cheapest cell
-  double cost = 0.0;              ///< to get there
-  double length_m = 0.0;
-};
-
-/// Every frontier of at least `min_length_m`, cheapest first. Only cells that the robot's centre can reach.
-[[nodiscard]] std::vector<Frontier> find_frontiers(const nav::CostMap& map, const nav::DistanceField& costs,
-                                                   double min_length_m);
-
-/// True when p lies within `radius_m` of one of the places.
-[[nodiscard]] bool near_any(const Point2& p_map, const std::vector<Point2>& places, double radius_m);
 
 }  // namespace seeker::search

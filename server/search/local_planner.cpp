@@ -6,7 +6,7 @@
 
 namespace seeker::search {
 
-LocalPlanner::LocalPlanner(std::shared_ptr<const ControlTable> table, ForbiddenAreas areas,
+LocalPlanner::LocalPlanner(std::shared_ptr<const ControlTable> table, nav::ForbiddenAreas areas,
                            const LocalPlannerParams& params)
     : table_(std::move(table)), areas_(std::move(areas)), params_(params) {
   SEEKER_ASSERT(table_ != nullptr);

@@ -22,7 +22,7 @@ struct LocalPlannerParams {
 /// The reactive planner of the paper.
 class LocalPlanner {
  public:
-  LocalPlanner(std::shared_ptr<const ControlTable> table, ForbiddenAreas areas, const LocalPlannerParams& params);
+  LocalPlanner(std::shared_ptr<const ControlTable> table, nav::ForbiddenAreas areas, const LocalPlannerParams& params);
 
   /// The sectors now, or why the robot must stop: no ring, silence, invalid readings.
   [[nodiscard]] Result<Sectors> sense(const SonarScan* sonar, const Pose2& map_T_base, RobotTime now) const;
@@ -31,7 +31,7 @@ class LocalPlanner {
 
  private:
   std::shared_ptr<const ControlTable> table_;
-  ForbiddenAreas areas_;
+  nav::ForbiddenAreas areas_;
   LocalPlannerParams params_;
 };
 

@@ -17,7 +17,7 @@ constexpr double kSearchedShare = 0.8;
 }  // namespace
 
 MapCoverage::MapCoverage(const PlanParams& params, std::unique_ptr<GoalChooser> chooser)
-    : params_(params), chooser_(std::move(chooser)), driver_(params) {
+    : params_(params), chooser_(std::move(chooser)), driver_(params.driver()) {
   lists_.cell_size_m = params.cell_m;
 }
 
@@ -102,23 +102,23 @@ bool MapCoverage::look_due(const StrategyInput& input) const {
 }
 
 void MapCoverage::drive(const StrategyInput& input, StrategyStep& out) {
-  const DriveStep drive = driver_.step(input);
+  const nav::DriveStep drive = driver_.step(input);
   out.command = drive.command;
   out.planned_path = driver_.path();
   out.activity = "going to " + goal_->why + " " + text(goal_->p_map);
   switch (drive.state) {
-    case DriveState::kDriving:
+    case nav::DriveState::kDriving:
       if (look_due(input)) {
         out.wants_image = true;
         out.while_moving = params_.look_while_moving;
       }
       break;
-    case DriveState::kArrived:
+    case nav::DriveState::kArrived:
       chooser_->visited(*goal_, input.map_T_base);
       state_ = State::kLook;
       break;
-    case DriveState::kFailed:
-    case DriveState::kIdle: fail_goal(drive.reason, out); break;
+    case nav::DriveState::kFailed:
+    case nav::DriveState::kIdle: fail_goal(drive.reason, out); break;
   }
 }
 

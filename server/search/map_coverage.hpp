@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
+#include "server/nav/planned_driver.hpp"
 #include "server/search/goal_chooser.hpp"
-#include "server/search/planned_driver.hpp"
 #include "server/search/strategy.hpp"
 
 namespace seeker::search {
@@ -39,7 +39,7 @@ class MapCoverage final : public CoverageStrategy {
 
   PlanParams params_;
   std::unique_ptr<GoalChooser> chooser_;
-  PlannedDriver driver_;
+  nav::PlannedDriver driver_;
   State state_ = State::kLook;  ///< the first thing to do is to look around
   std::optional<Goal> goal_;
   std::optional<Point2> last_look_;

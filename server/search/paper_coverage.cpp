@@ -20,7 +20,7 @@ int first_limit(const PaperParams& params) {
 
 }  // namespace
 
-PaperCoverage::PaperCoverage(const PaperParams& params, LocalPlanner planner, ForbiddenAreas areas)
+PaperCoverage::PaperCoverage(const PaperParams& params, LocalPlanner planner, nav::ForbiddenAreas areas)
     : params_(params),
       planner_(std::move(planner)),
       areas_(std::move(areas)),

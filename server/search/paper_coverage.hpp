@@ -2,9 +2,9 @@
 /// The coverage algorithm as printed (spec S3.3, steps 1-4), with sonars and bearings only.
 #pragma once
 
+#include "server/nav/progress_watch.hpp"
 #include "server/search/coverage_lists.hpp"
 #include "server/search/local_planner.hpp"
-#include "server/search/progress_watch.hpp"
 #include "server/search/search_params.hpp"
 #include "server/search/strategy.hpp"
 
@@ -18,7 +18,7 @@ namespace seeker::search {
 ///   a row; then an escape's goal is dropped as unreachable, and a step 4 becomes an escape (step 3).
 class PaperCoverage final : public CoverageStrategy {
  public:
-  PaperCoverage(const PaperParams& params, LocalPlanner planner, ForbiddenAreas areas);
+  PaperCoverage(const PaperParams& params, LocalPlanner planner, nav::ForbiddenAreas areas);
 
   [[nodiscard]] StrategyStep step(const StrategyInput& input) override;
   void image_taken(const StrategyInput& input) override;
@@ -43,14 +43,14 @@ class PaperCoverage final : public CoverageStrategy {
 
   PaperParams params_;
   LocalPlanner planner_;
-  ForbiddenAreas areas_;
+  nav::ForbiddenAreas areas_;
   CoverageLists lists_;
   State state_ = State::kArrive;
   State after_recovery_ = State::kMove;
   Point2 cell_ = Point2::Zero();  ///< P_i
   Point2 goal_ = Point2::Zero();  ///< of an escape
-  ProgressWatch progress_;
-  MotionWatch motion_;
+  nav::ProgressWatch progress_;
+  nav::MotionWatch motion_;
   RobotTime recovery_since_;
   double recovery_turn_ = 1.0;
   Pose2 recovery_from_;

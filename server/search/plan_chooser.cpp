@@ -64,7 +64,7 @@ std::vector<PlanChooser::Candidate> PlanChooser::cells(const ChooseInput& input,
         continue;
       }
       const Point2 p = input.floor.cost.frame().centre_of(*place);
-      if (near_any(p, input.unreachable, params_.failed_radius_m)) {
+      if (nav::near_any(p, input.unreachable, params_.failed_radius_m)) {
         continue;
       }
       const double cost = *input.costs.cost_to(*place);
@@ -78,9 +78,9 @@ std::vector<PlanChooser::Candidate> PlanChooser::cells(const ChooseInput& input,
 }
 
 void PlanChooser::add_frontiers(const ChooseInput& input, std::vector<Candidate>& candidates) const {
-  for (const Frontier& frontier : find_frontiers(input.floor.cost, input.costs, params_.min_frontier_m)) {
-    if (near_any(frontier.p_map, input.unreachable, params_.failed_radius_m) ||
-        near_any(frontier.p_map, seen_frontiers_, params_.frontier_reach_m)) {
+  for (const nav::Frontier& frontier : nav::find_frontiers(input.floor.cost, input.costs, params_.min_frontier_m)) {
+    if (nav::near_any(frontier.p_map, input.unreachable, params_.failed_radius_m) ||
+        nav::near_any(frontier.p_map, seen_frontiers_, params_.frontier_reach_m)) {
       continue;
     }
     const double score = params_.frontier_bonus_cells / (frontier.cost + params_.travel_offset_m);
@@ -126,7 +126,7 @@ void PlanChooser::visited(const Goal& goal, const Pose2& /*map_T_base*/) {
   }
 }
 
-bool PlanChooser::still_worth(const Goal& goal, const FloorView& floor, const EvidenceGrid& evidence,
+bool PlanChooser::still_worth(const Goal& goal, const nav::FloorView& floor, const EvidenceGrid& evidence,
                               double target_size_m) const {
   if (goal.is_frontier) {
     return true;

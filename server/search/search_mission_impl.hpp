@@ -29,7 +29,7 @@ class SearchMission::Impl {
 
   SearchRequest request_;
   SearchParams params_;
-  FloorSource floors_;
+  nav::FloorSource floors_;
   EvidenceGrid evidence_;
   DetectionTracker tracker_;
   LocalPlanner planner_;

@@ -82,7 +82,7 @@ void SearchMission::Impl::note_sighting(std::uint64_t id, const StrategyInput& i
   if (!detection) {
     return;
   }
-  if (detection->position_map && near_any(*detection->position_map, refused_, kRefusedAgain_m)) {
+  if (detection->position_map && nav::near_any(*detection->position_map, refused_, kRefusedAgain_m)) {
     tracker_.refute(id);
     return;
   }
@@ -201,7 +201,8 @@ EvidenceReport SearchMission::Impl::evidence_report() const {
   const std::vector<Point2>& unreachable = strategy_->lists().unreachable;
   return evidence_.report(floor->reachable, [&](const Point2& p) -> std::optional<std::string> {
     if (floor_at(floor->reachable, p)) {
-      return near_any(p, unreachable, kUnreachableRadius_m) ? std::optional<std::string>("unreachable") : std::nullopt;
+      return nav::near_any(p, unreachable, kUnreachableRadius_m) ? std::optional<std::string>("unreachable")
+                                                                 : std::nullopt;
     }
     if (!everything || !floor_at(*everything, p)) {
       return std::nullopt;

@@ -4,7 +4,7 @@
 
 #include "common/core/result.hpp"
 #include "server/nav/cost_map.hpp"
-#include "server/nav/path_follower.hpp"
+#include "server/nav/planned_driver.hpp"
 #include "server/search/detection_params.hpp"
 #include "server/search/drive_law.hpp"
 #include "server/search/evidence.hpp"
@@ -52,6 +52,8 @@ struct PlanParams {
   double min_look_spacing_m = 0.3;        ///< a look from nearer than this to an earlier one teaches nothing
   nav::CostMapParams cost;
   nav::FollowerParams follower;
+
+  [[nodiscard]] nav::DriverParams driver() const { return {max_failures, goal_time_s, follower}; }
 };
 
 /// Looking, confirming, approaching.

@@ -45,8 +45,8 @@ struct SearchRequest {
   std::vector<SearchTarget> targets;
   Strategy strategy = Strategy::kPlan;
   OnFound on_found = OnFound::kApproach;
-  ForbiddenAreas areas;    ///< bound and keep-out areas, frame `map`
-  bool gaps_only = false;  ///< continue from earlier evidence (SearchMission::keep_evidence)
+  nav::ForbiddenAreas areas;  ///< bound and keep-out areas, frame `map`
+  bool gaps_only = false;     ///< continue from earlier evidence (SearchMission::keep_evidence)
 };
 
 /// Refuses no targets or more than kMaxSearchTargets, sizes outside (0, 10] m, invalid polygons.

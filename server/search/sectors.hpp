@@ -4,12 +4,11 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
-#include "common/core/polygon.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
+#include "server/nav/forbidden_areas.hpp"
 #include "server/search/fuzzy_rules.hpp"
 
 namespace seeker::search {
@@ -30,24 +29,9 @@ struct Sectors {
 /// leaves a sector without a transducer: the caller must stop.
 [[nodiscard]] Result<Sectors> fuse_sectors(const SonarScan& scan);
 
-/// Where the robot must not go: outside `bound` and inside any of `keep_out`, frame `map`.
-struct ForbiddenAreas {
-  std::optional<Polygon> bound;
-  std::vector<Polygon> keep_out;
-
-  [[nodiscard]] bool outside_bound(const Point2& p_map) const;
-  [[nodiscard]] bool in_keep_out(const Point2& p_map) const;
-  [[nodiscard]] bool allows(const Point2& p_map) const { return !outside_bound(p_map) && !in_keep_out(p_map); }
-  [[nodiscard]] bool empty() const { return !bound && keep_out.empty(); }
-};
-
-/// Distance along a ray to the first border that leads from allowed to forbidden ground; nothing within `max_m`.
-[[nodiscard]] std::optional<double> distance_to_forbidden(const ForbiddenAreas& areas, const Point2& from_map,
-                                                          double direction_rad, double max_m);
-
 /// Borders of forbidden areas count as walls for the planner: each sector becomes the smaller of the sonar's and the
 /// border's distance (seen from the transducers' ring, `ring_radius_m` from the centre).
-[[nodiscard]] Sectors with_virtual_walls(Sectors sectors, const ForbiddenAreas& areas, const Pose2& map_T_base,
+[[nodiscard]] Sectors with_virtual_walls(Sectors sectors, const nav::ForbiddenAreas& areas, const Pose2& map_T_base,
                                          double ring_radius_m);
 
 }  // namespace seeker::search

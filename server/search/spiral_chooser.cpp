@@ -17,7 +17,7 @@ CellIndex neighbour(CellIndex cell, int direction) {
 
 bool SpiralChooser::open(const ChooseInput& input, CellIndex cell) const {
   const Point2 centre = frame().centre_of(cell);
-  return !visited_.contains(cell) && !near_any(centre, input.unreachable, params_.failed_radius_m) &&
+  return !visited_.contains(cell) && !nav::near_any(centre, input.unreachable, params_.failed_radius_m) &&
          input.costs.cheapest_near(centre, params_.failed_radius_m / 2.0).has_value();
 }
 

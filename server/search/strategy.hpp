@@ -9,20 +9,15 @@
 #include "common/core/pose2.hpp"
 #include "common/core/scan.hpp"
 #include "common/core/time.hpp"
+#include "server/nav/planned_driver.hpp"
 #include "server/search/evidence.hpp"
-#include "server/search/floor_view.hpp"
 #include "server/search/search_types.hpp"
 
 namespace seeker::search {
 
 /// `now` is mission time: it stands still while the mission is paused or does something else.
-struct StrategyInput {
-  RobotTime now;
-  Pose2 map_T_base;
-  const SonarScan* sonar = nullptr;
-  const LaserScan* laser = nullptr;
+struct StrategyInput : nav::DriveInput {
   const EvidenceGrid& evidence;
-  FloorSource& floors;
   double target_size_m = 0.4;  ///< the smallest target looked for
 };
 

@@ -26,7 +26,7 @@ Point2 ahead(const Pose2& pose, double heading_rad, double distance_m) {
   return pose.translation() + distance_m * Point2(std::cos(heading_rad), std::sin(heading_rad));
 }
 
-bool sees(const FloorView& floor, const Point2& from, const Point2& target) {
+bool sees(const nav::FloorView& floor, const Point2& from, const Point2& target) {
   const Point2 d = target - from;
   const double r = d.norm();
   return r <= kTargetExtent_m || nav::line_of_sight(floor.occupancy, from, from + (r - kTargetExtent_m) / r * d);
@@ -34,7 +34,7 @@ bool sees(const FloorView& floor, const Point2& from, const Point2& target) {
 
 }  // namespace
 
-std::optional<Point2> viewpoint_about(const FloorView& floor, const Pose2& map_T_base, const Point2& p_map,
+std::optional<Point2> viewpoint_about(const nav::FloorView& floor, const Pose2& map_T_base, const Point2& p_map,
                                       const std::vector<double>& radii_m, const std::vector<Point2>& others,
                                       double away_m) {
   const auto costs = nav::DistanceField::build(floor.cost, map_T_base.translation());
@@ -48,7 +48,7 @@ std::optional<Point2> viewpoint_about(const FloorView& floor, const Pose2& map_T
       const double angle = kTwoPi * k / kDirections;
       const Point2 p = p_map + radius * Point2(std::cos(angle), std::sin(angle));
       const auto cost = costs->cost_to(p);
-      if (cost && (!best || *cost < best_cost) && !near_any(p, others, away_m) && sees(floor, p, p_map)) {
+      if (cost && (!best || *cost < best_cost) && !nav::near_any(p, others, away_m) && sees(floor, p, p_map)) {
         best = p;
         best_cost = *cost;
       }
@@ -209,11 +209,11 @@ void TargetVisit::plan_confirm(const StrategyInput& input, const DetectionTracke
 }
 
 void TargetVisit::drive(const StrategyInput& input, StrategyStep& out) {
-  const DriveStep step = drive_.step(input);
+  const nav::DriveStep step = drive_.step(input);
   out.command = step.command;
   out.planned_path = drive_.path(input.map_T_base);
   out.activity = approach_ ? "driving up to the target" : "driving to another place to see the target from";
-  if (step.state != DriveState::kDriving) {
+  if (step.state != nav::DriveState::kDriving) {
     face_since_ = input.now;
     state_ = approach_ ? State::kFace : State::kLook;
   }

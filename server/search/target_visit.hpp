@@ -68,7 +68,7 @@ class TargetVisit {
 
 /// The cheapest place on circles about `p_map` from which it can be seen, at least `away_m` from all `others`; radii
 /// are tried in order and the first that has a place wins.
-[[nodiscard]] std::optional<Point2> viewpoint_about(const FloorView& floor, const Pose2& map_T_base,
+[[nodiscard]] std::optional<Point2> viewpoint_about(const nav::FloorView& floor, const Pose2& map_T_base,
                                                     const Point2& p_map, const std::vector<double>& radii_m,
                                                     const std::vector<Point2>& others, double away_m);
 

@@ -216,7 +216,7 @@ TEST(Sectors, RefuseNanAndABlindSector) {
 }
 
 TEST(Sectors, BordersOfForbiddenAreasAreWalls) {
-  ForbiddenAreas areas;
+  nav::ForbiddenAreas areas;
   areas.bound = Polygon{{-5, -5}, {1, -5}, {1, 5}, {-5, 5}};
   areas.keep_out.push_back({{-1, 1}, {1, 1}, {1, 2}, {-1, 2}});
   Sectors open = all(3.0);

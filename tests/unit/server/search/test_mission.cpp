@@ -34,7 +34,7 @@ ToyWorld one_room() {
   return world;
 }
 
-SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::kApproach, ForbiddenAreas areas = {}) {
+SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::kApproach, nav::ForbiddenAreas areas = {}) {
   SearchRequest request;
   request.targets = {{"box", 0.4, 0.4, 0.3}};
   request.strategy = strategy;
@@ -136,7 +136,7 @@ TEST(SearchMission, PaperEndsCleanlyWithoutATarget) {
 }
 
 TEST(SearchMission, PaperStaysInsideItsBound) {
-  ForbiddenAreas areas;
+  nav::ForbiddenAreas areas;
   areas.bound = Polygon{{-1, -1}, {6, -1}, {6, 1.8}, {-1, 1.8}};
   auto mission = mission_of(Strategy::kPaper, OnFound::kApproach, areas);
   ToyRobot robot(one_room(), {0.8, 0.8, 0.0}, false, 10);
@@ -149,7 +149,7 @@ TEST(SearchMission, PaperStaysInsideItsBound) {
 }
 
 TEST(SearchMission, PlanKeepsOutAndListsWhy) {
-  ForbiddenAreas areas;
+  nav::ForbiddenAreas areas;
   areas.keep_out.push_back({{5.2, 0.0}, {10.2, 0.0}, {10.2, 5.0}, {5.2, 5.0}});
   auto mission = mission_of(Strategy::kPlan, OnFound::kApproach, areas);
   ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 11);

@@ -12,16 +12,16 @@
 #include "common/core/result.hpp"
 #include "common/core/time.hpp"
 #include "server/nav/cost_map.hpp"
+#include "server/nav/forbidden_areas.hpp"
 #include "server/nav/occupancy_map.hpp"
-#include "server/search/sectors.hpp"
 
-namespace seeker::search {
+namespace seeker::nav {
 
 /// One snapshot, immutable.
 struct FloorView {
   Grid<std::uint8_t> occupancy;  ///< cells as in OccupancyTile
-  nav::CostMap cost;
-  Grid<std::uint8_t> reachable;  ///< floor of the evidence's cell size: 1 = allowed and connected to the robot
+  CostMap cost;
+  Grid<std::uint8_t> reachable;  ///< floor in coarse cells: 1 = allowed and connected to the robot
   std::uint64_t revision = 0;    ///< of the map it was made from
   RobotTime built;
 };
@@ -29,10 +29,10 @@ struct FloorView {
 /// Makes snapshots only when the map has changed and the last one is old enough.
 class FloorSource {
  public:
-  FloorSource(const nav::CostMapParams& cost, ForbiddenAreas areas, double floor_cell_m, double period_s);
+  FloorSource(const CostMapParams& cost, ForbiddenAreas areas, double floor_cell_m, double period_s);
 
   /// Called once per step with the present map; cheap.
-  void attend(const nav::OccupancyMap& map, const Pose2& map_T_base, RobotTime now);
+  void attend(const OccupancyMap& map, const Pose2& map_T_base, RobotTime now);
   /// The newest view, at most `period_s` old; `fresh` asks for one of the present map. kNotReady: no map yet;
   /// kUnreachable: the robot stands walled in.
   [[nodiscard]] Result<std::shared_ptr<const FloorView>> view(bool fresh = false);
@@ -48,16 +48,16 @@ class FloorSource {
  private:
   [[nodiscard]] Result<FloorView> build() const;
 
-  nav::CostMapParams cost_;
+  CostMapParams cost_;
   ForbiddenAreas areas_;
   double floor_cell_m_;
   double period_s_;
   std::vector<Point2> obstacles_;
-  const nav::OccupancyMap* map_ = nullptr;  ///< of the present step only
+  const OccupancyMap* map_ = nullptr;  ///< of the present step only
   Pose2 map_T_base_;
   RobotTime now_;
   bool stale_ = true;
   std::shared_ptr<const FloorView> last_;
 };
 
-}  // namespace seeker::search
+}  // namespace seeker::nav

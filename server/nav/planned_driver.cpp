@@ -1,11 +1,10 @@
-#include "server/search/planned_driver.hpp"
+#include "server/nav/planned_driver.hpp"
 
 #include <cmath>
 
 #include "common/core/angle.hpp"
-#include "server/search/text.hpp"
 
-namespace seeker::search {
+namespace seeker::nav {
 namespace {
 
 /// With a laser only near echoes of the front count, against noise of the sonars; without, everything in use.
@@ -29,7 +28,7 @@ bool echo_counts(const SonarReading& reading, bool laser_fitted) {
 
 }  // namespace
 
-std::vector<Point2> obstacles_in_base(const StrategyInput& input) {
+std::vector<Point2> obstacles_in_base(const DriveInput& input) {
   std::vector<Point2> points;
   if (input.laser != nullptr) {
     points = points_in_base(*input.laser);
@@ -44,9 +43,9 @@ std::vector<Point2> obstacles_in_base(const StrategyInput& input) {
   return points;
 }
 
-PlannedDriver::PlannedDriver(const PlanParams& params) : params_(params), follower_(params.follower) {}
+PlannedDriver::PlannedDriver(const DriverParams& params) : params_(params), follower_(params.follower) {}
 
-bool PlannedDriver::start(const StrategyInput& input, const Point2& goal_map, std::optional<double> final_heading_rad) {
+bool PlannedDriver::start(const DriveInput& input, const Point2& goal_map, std::optional<double> final_heading_rad) {
   goal_ = goal_map;
   final_heading_rad_ = final_heading_rad;
   started_ = input.now;
@@ -60,7 +59,7 @@ void PlannedDriver::stop() {
   follower_.clear();
 }
 
-bool PlannedDriver::plan(const StrategyInput& input) {
+bool PlannedDriver::plan(const DriveInput& input) {
   const auto floor = input.floors.view(true);
   if (!floor) {
     reason_ = floor.error().message;
@@ -75,7 +74,7 @@ bool PlannedDriver::plan(const StrategyInput& input) {
   return true;
 }
 
-DriveStep PlannedDriver::plan_again(const StrategyInput& input, const std::string& why) {
+DriveStep PlannedDriver::plan_again(const DriveInput& input, const std::string& why) {
   for (const Point2& p : obstacles_in_base(input)) {
     if (p.norm() < kUnmappedObstacle_m && p.x() > 0.0) {
       input.floors.add_obstacle(input.map_T_base * p);
@@ -89,7 +88,7 @@ DriveStep PlannedDriver::plan_again(const StrategyInput& input, const std::strin
   return {{}, DriveState::kDriving, {}};
 }
 
-DriveStep PlannedDriver::step(const StrategyInput& input) {
+DriveStep PlannedDriver::step(const DriveInput& input) {
   if (!driving_) {
     return {};
   }
@@ -97,21 +96,21 @@ DriveStep PlannedDriver::step(const StrategyInput& input) {
     stop();
     return {{}, DriveState::kFailed, "not reached in time"};
   }
-  const nav::FollowStep follow = follower_.step(input.map_T_base, obstacles_in_base(input), input.now);
+  const FollowStep follow = follower_.step(input.map_T_base, obstacles_in_base(input), input.now);
   switch (follow.state) {
-    case nav::FollowState::kFollowing: return {follow.command, DriveState::kDriving, {}};
-    case nav::FollowState::kArrived: stop(); return {{}, DriveState::kArrived, {}};
-    case nav::FollowState::kBlocked:
-    case nav::FollowState::kStuck:
+    case FollowState::kFollowing: return {follow.command, DriveState::kDriving, {}};
+    case FollowState::kArrived: stop(); return {{}, DriveState::kArrived, {}};
+    case FollowState::kBlocked:
+    case FollowState::kStuck:
       if (follow.remaining_m < kCloseEnough_m) {
         stop();
         return {{}, DriveState::kArrived, {}};
       }
       return plan_again(input, follow.reason);
-    case nav::FollowState::kIdle: break;
+    case FollowState::kIdle: break;
   }
   driving_ = false;
   return {{}, DriveState::kFailed, "no path"};
 }
 
-}  // namespace seeker::search
+}  // namespace seeker::nav

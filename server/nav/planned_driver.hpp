@@ -7,12 +7,28 @@
 #include <string>
 #include <vector>
 
+#include "common/core/scan.hpp"
+#include "common/core/time.hpp"
+#include "server/nav/floor_view.hpp"
 #include "server/nav/path_follower.hpp"
 #include "server/nav/planner.hpp"
-#include "server/search/search_params.hpp"
-#include "server/search/strategy.hpp"
 
-namespace seeker::search {
+namespace seeker::nav {
+
+/// What a drive needs to know at one control step.
+struct DriveInput {
+  RobotTime now;  ///< of the mission: stands still while something else moves the robot
+  Pose2 map_T_base;
+  const SonarScan* sonar = nullptr;
+  const LaserScan* laser = nullptr;
+  FloorSource& floors;
+};
+
+struct DriverParams {
+  int max_failures = 2;        ///< failed plans of a drive before it is given up
+  double goal_time_s = 120.0;  ///< longest drive to one goal
+  FollowerParams follower;
+};
 
 enum class DriveState : std::uint8_t { kIdle, kDriving, kArrived, kFailed };
 
@@ -25,22 +41,22 @@ struct DriveStep {
 
 class PlannedDriver {
  public:
-  explicit PlannedDriver(const PlanParams& params);
+  explicit PlannedDriver(const DriverParams& params);
 
   /// Plans and starts; false when no way leads there now (reason()).
-  bool start(const StrategyInput& input, const Point2& goal_map, std::optional<double> final_heading_rad = {});
-  [[nodiscard]] DriveStep step(const StrategyInput& input);
+  bool start(const DriveInput& input, const Point2& goal_map, std::optional<double> final_heading_rad = {});
+  [[nodiscard]] DriveStep step(const DriveInput& input);
   void stop();
   [[nodiscard]] const std::vector<Point2>& path() const { return follower_.path().waypoints; }
   [[nodiscard]] const Point2& goal() const { return goal_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
-  bool plan(const StrategyInput& input);
-  [[nodiscard]] DriveStep plan_again(const StrategyInput& input, const std::string& why);
+  bool plan(const DriveInput& input);
+  [[nodiscard]] DriveStep plan_again(const DriveInput& input, const std::string& why);
 
-  PlanParams params_;
-  nav::PathFollower follower_;
+  DriverParams params_;
+  PathFollower follower_;
   Point2 goal_ = Point2::Zero();
   std::optional<double> final_heading_rad_;
   RobotTime started_;
@@ -50,6 +66,6 @@ class PlannedDriver {
 };
 
 /// What lies around the robot now, in the base: laser returns, and near sonar echoes (things below the laser's plane).
-[[nodiscard]] std::vector<Point2> obstacles_in_base(const StrategyInput& input);
+[[nodiscard]] std::vector<Point2> obstacles_in_base(const DriveInput& input);
 
-}  // namespace seeker::search
+}  // namespace seeker::nav

@@ -7,7 +7,7 @@
 #include "common/core/pose2.hpp"
 #include "common/core/time.hpp"
 
-namespace seeker::search {
+namespace seeker::nav {
 
 /// Watches a remaining distance: progress is every fall by at least `step_m`.
 class ProgressWatch {
@@ -55,4 +55,4 @@ class MotionWatch {
   RobotTime since_;
 };
 
-}  // namespace seeker::search
+}  // namespace seeker::nav

@@ -1,11 +1,11 @@
-#include "server/search/floor_view.hpp"
+#include "server/nav/floor_view.hpp"
 
 #include <utility>
 
 #include "common/core/assert.hpp"
 #include "server/nav/planner.hpp"
 
-namespace seeker::search {
+namespace seeker::nav {
 namespace {
 
 constexpr std::size_t kMaxObstacles = 256;
@@ -13,10 +13,10 @@ constexpr double kSameObstacle_m = 0.1;
 
 }  // namespace
 
-FloorSource::FloorSource(const nav::CostMapParams& cost, ForbiddenAreas areas, double floor_cell_m, double period_s)
+FloorSource::FloorSource(const CostMapParams& cost, ForbiddenAreas areas, double floor_cell_m, double period_s)
     : cost_(cost), areas_(std::move(areas)), floor_cell_m_(floor_cell_m), period_s_(period_s) {}
 
-void FloorSource::attend(const nav::OccupancyMap& map, const Pose2& map_T_base, RobotTime now) {
+void FloorSource::attend(const OccupancyMap& map, const Pose2& map_T_base, RobotTime now) {
   map_ = &map;
   map_T_base_ = map_T_base;
   now_ = now;
@@ -43,15 +43,15 @@ Result<FloorView> FloorSource::build() const {
   if (!occupancy) {
     return fail(Errc::kNotReady, "the map is still empty; wait for the range sensors");
   }
-  nav::CostMapLimits limits;
+  CostMapLimits limits;
   limits.bound = areas_.bound;
   limits.keep_out = areas_.keep_out;
   limits.obstacles = obstacles_;
-  auto cost = nav::CostMap::build(*occupancy, cost_, limits);
+  auto cost = CostMap::build(*occupancy, cost_, limits);
   if (!cost) {
     return tl::unexpected(cost.error());
   }
-  auto reachable = nav::reachable_floor(*cost, map_T_base_.translation(), floor_cell_m_);
+  auto reachable = reachable_floor(*cost, map_T_base_.translation(), floor_cell_m_);
   if (!reachable) {
     return tl::unexpected(reachable.error());
   }
@@ -74,11 +74,11 @@ std::optional<Grid<std::uint8_t>> FloorSource::unrestricted_floor() const {
   if (!last_ || areas_.empty()) {
     return std::nullopt;
   }
-  const auto cost = nav::CostMap::build(last_->occupancy, cost_, {});
+  const auto cost = CostMap::build(last_->occupancy, cost_, {});
   if (!cost) {
     return std::nullopt;
   }
-  auto floor = nav::reachable_floor(*cost, map_T_base_.translation(), floor_cell_m_);
+  auto floor = reachable_floor(*cost, map_T_base_.translation(), floor_cell_m_);
   return floor ? std::optional(std::move(*floor)) : std::nullopt;
 }
 
@@ -89,4 +89,4 @@ void FloorSource::transform(const Pose2& new_T_old) {
   stale_ = true;
 }
 
-}  // namespace seeker::search
+}  // namespace seeker::nav

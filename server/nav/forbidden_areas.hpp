@@ -1,0 +1,28 @@
+/// \file
+/// Ground that a mission keeps the robot from.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/core/polygon.hpp"
+#include "common/core/pose2.hpp"
+
+namespace seeker::nav {
+
+/// Where the robot must not go: outside `bound` and inside any of `keep_out`, frame `map`.
+struct ForbiddenAreas {
+  std::optional<Polygon> bound;
+  std::vector<Polygon> keep_out;
+
+  [[nodiscard]] bool outside_bound(const Point2& p_map) const;
+  [[nodiscard]] bool in_keep_out(const Point2& p_map) const;
+  [[nodiscard]] bool allows(const Point2& p_map) const { return !outside_bound(p_map) && !in_keep_out(p_map); }
+  [[nodiscard]] bool empty() const { return !bound && keep_out.empty(); }
+};
+
+/// Distance along a ray to the first border that leads from allowed to forbidden ground; nothing within `max_m`.
+[[nodiscard]] std::optional<double> distance_to_forbidden(const ForbiddenAreas& areas, const Point2& from_map,
+                                                          double direction_rad, double max_m);
+
+}  // namespace seeker::nav

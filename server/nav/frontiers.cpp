@@ -1,0 +1,77 @@
+#include "server/nav/frontiers.hpp"
+
+#include <algorithm>
+
+namespace seeker::nav {
+namespace {
+
+bool beside_unknown(const CostMap& map, CellIndex cell) {
+  for (const CellIndex next : {CellIndex{cell.i + 1, cell.j}, CellIndex{cell.i - 1, cell.j},
+                               CellIndex{cell.i, cell.j + 1}, CellIndex{cell.i, cell.j - 1}}) {
+    if (map.state(next) == CellState::kUnknown) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Takes one connected border out of `mark`.
+Frontier take_frontier(Grid<std::uint8_t>& mark, const DistanceField& costs, CellIndex seed) {
+  Frontier frontier;
+  frontier.p_map = mark.frame().centre_of(seed);
+  frontier.cost = *costs.cost_to(seed);
+  std::vector<CellIndex> open{seed};
+  mark[seed] = 0;
+  while (!open.empty()) {
+    const CellIndex cell = open.back();
+    open.pop_back();
+    frontier.length_m += mark.frame().resolution_m;
+    if (const double cost = *costs.cost_to(cell); cost < frontier.cost) {
+      frontier.cost = cost;
+      frontier.p_map = mark.frame().centre_of(cell);
+    }
+    for (int dj = -1; dj <= 1; ++dj) {
+      for (int di = -1; di <= 1; ++di) {
+        const CellIndex next{cell.i + di, cell.j + dj};
+        if (mark.contains(next) && mark[next] != 0) {
+          mark[next] = 0;
+          open.push_back(next);
+        }
+      }
+    }
+  }
+  return frontier;
+}
+
+}  // namespace
+
+std::vector<Frontier> find_frontiers(const CostMap& map, const DistanceField& costs, double min_length_m) {
+  Grid<std::uint8_t> mark(map.frame(), map.width(), map.height(), 0);
+  std::vector<CellIndex> border;
+  for (CellIndex cell{0, 0}; cell.j < map.height(); ++cell.j) {
+    for (cell.i = 0; cell.i < map.width(); ++cell.i) {
+      if (map.traversable(cell) && beside_unknown(map, cell) && costs.cost_to(cell)) {
+        mark[cell] = 1;
+        border.push_back(cell);
+      }
+    }
+  }
+  std::vector<Frontier> frontiers;
+  for (const CellIndex cell : border) {
+    if (mark[cell] != 0) {
+      const Frontier frontier = take_frontier(mark, costs, cell);
+      if (frontier.length_m >= min_length_m) {
+        frontiers.push_back(frontier);
+      }
+    }
+  }
+  std::stable_sort(frontiers.begin(), frontiers.end(),
+                   [](const Frontier& a, const Frontier& b) { return a.cost < b.cost; });
+  return frontiers;
+}
+
+bool near_any(const Point2& p_map, const std::vector<Point2>& places, double radius_m) {
+  return std::any_of(places.begin(), places.end(), [&](const Point2& q) { return (q - p_map).norm() < radius_m; });
+}
+
+}  // namespace seeker::nav
