@@ -76,6 +76,13 @@ Status LineSlam::predict(const Pose2& odom_T_base, RobotTime stamp) {
   return taken;
 }
 
+std::optional<LocalBelief> LineSlam::local_belief() const {
+  if (!last_scan_) {
+    return std::nullopt;
+  }
+  return LocalBelief{lines_.get(), backend_.pose(backend_.maps().back().id)};
+}
+
 PoseEstimate LineSlam::estimate() const {
   const PoseEstimate travelled = travelled_.estimate();
   const Pose2& map_T_node = backend_.pose(backend_.maps().back().id);

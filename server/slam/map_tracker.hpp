@@ -17,12 +17,22 @@ enum class MapUse : std::uint8_t {
   kLocalise,  ///< the map is only read: whatever is seen beside it is forgotten
 };
 
+class SpMap;
+
+/// The filter of robot and newest walls, for predictions of what the robot will know.
+struct LocalBelief {
+  const SpMap* lines = nullptr;  ///< never null; valid until the tracker's next call
+  Pose2 map_T_lines;             ///< the filter's own frame in the frame `map`
+};
+
 class MapTracker : public PoseTracker {
  public:
   /// Segments of the whole map in the frame `map`, one per piece of wall.
   [[nodiscard]] virtual std::vector<MapSegment> segments() const = 0;
   /// Rises with every change of segments().
   [[nodiscard]] virtual std::uint64_t revision() const = 0;
+  /// Robot and segments of the place around it with their joint covariance; nothing before the first scan.
+  [[nodiscard]] virtual std::optional<LocalBelief> local_belief() const { return std::nullopt; }
   /// The whole map, for a file.
   [[nodiscard]] virtual LineMap map() const = 0;
   /// Replaces the map. The pose is unknown (kUnknown) until relocalise() or the scans have found it.

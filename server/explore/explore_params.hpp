@@ -1,0 +1,36 @@
+/// \file
+/// Every number of an exploration that one may tune.
+#pragma once
+
+#include "common/core/result.hpp"
+#include "server/explore/one_step_params.hpp"
+#include "server/explore/viewpoint_params.hpp"
+#include "server/nav/cost_map.hpp"
+#include "server/nav/planned_driver.hpp"
+
+namespace seeker::explore {
+
+/// What ends an exploration, or sends the robot back to a place it knows.
+struct GuardParams {
+  double max_position_sigma_m = 0.5;     ///< beyond it the robot goes back to where it was certain
+  double regain_position_sigma_m = 0.2;  ///< and explores on below this
+  double regain_time_s = 180.0;          ///< not regained in so long: the exploration ends as uncertain
+  double battery_reserve_v = 11.5;       ///< below it the robot goes home; Pioneer 3-DX: 12 V lead accumulators
+};
+
+struct ExploreParams {
+  OneStepParams one_step;
+  WallParams wall;
+  RoamParams roam;
+  ViewpointParams viewpoints;
+  GuardParams guard;
+  nav::CostMapParams cost;
+  nav::DriverParams driver;
+  double floor_cell_m = 0.2;
+  double map_period_s = 1.0;  ///< shortest time between two cost maps
+};
+
+/// Refuses values that make no sense.
+[[nodiscard]] Status validate(const ExploreParams& params);
+
+}  // namespace seeker::explore

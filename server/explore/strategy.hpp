@@ -1,0 +1,60 @@
+/// \file
+/// What leads the robot through a building nobody has mapped: one interface for the paper's rule, the planner that
+/// looks farther, and the baselines.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/explore_decision.hpp"
+#include "common/core/line_map.hpp"
+#include "server/nav/planned_driver.hpp"
+#include "server/slam/map_tracker.hpp"
+
+namespace seeker::explore {
+
+/// `now` is the exploration's own time: it stands still while it is paused.
+struct StrategyInput : nav::DriveInput {
+  Twist2 velocity;
+  Matrix3 covariance = Matrix3::Zero();     ///< of (x, y, theta), frame `map`
+  const std::vector<MapSegment>& segments;  ///< of the whole map, frame `map`
+  std::uint64_t segments_revision = 0;      ///< rises with every change of `segments`
+  std::optional<slam::LocalBelief> belief;  ///< the filter behind the newest of them; nothing: the estimator has none
+};
+
+struct StrategyStep {
+  Twist2 command;
+  std::string phase;                 ///< "explore", "wall", "drive", "turn"
+  std::string activity;              ///< what the robot does and why, one sentence
+  std::vector<Point2> planned_path;  ///< frame `map`
+  std::optional<ExploreDecision>
+      decision;                     ///< present in the step that decided; number and stamp are filled in by the caller
+  bool step_done = false;           ///< a natural place to stop
+  bool done = false;                ///< nothing is left that this strategy could explore
+  std::vector<Point2> unreachable;  ///< of done: places left that no way leads to
+};
+
+class ExploreStrategy {
+ public:
+  ExploreStrategy() = default;
+  ExploreStrategy(const ExploreStrategy&) = delete;
+  ExploreStrategy& operator=(const ExploreStrategy&) = delete;
+  virtual ~ExploreStrategy() = default;
+
+  [[nodiscard]] virtual StrategyStep step(const StrategyInput& input) = 0;
+  /// Something else moved the robot meanwhile: present drives are void.
+  virtual void interrupted(RobotTime now) = 0;
+  /// The map moved: `new_T_old` takes places of the map before to the map now.
+  virtual void transform(const Pose2& new_T_old) = 0;
+};
+
+/// active: one step of the objective, out of traps along walls, then by paths (spec S1.11, S1.12).
+/// horizon: reachable viewpoints over several drives, same objective.
+/// roam, frontier, gain: the baselines.
+enum class Strategy : std::uint8_t { kActive, kHorizon, kRoam, kFrontier, kGain };
+
+[[nodiscard]] std::string_view to_string(Strategy strategy);
+
+}  // namespace seeker::explore
