@@ -8,6 +8,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/api/map.hpp"
 #include "common/api/robot_state.hpp"
@@ -68,6 +69,10 @@ class RobotMap {
   /// kNotReady: the estimator keeps no map.
   [[nodiscard]] Result<api::SegmentUpdate> segments_since(std::uint64_t revision) const;
   [[nodiscard]] std::optional<api::LineMapStatus> status() const;
+  /// Of the whole map as they are now; none where the estimator keeps no map.
+  [[nodiscard]] std::vector<MapSegment> segments() const;
+  /// See slam::MapTracker::local_belief(); nothing where the estimator keeps no map.
+  [[nodiscard]] std::optional<slam::LocalBelief> local_belief() const;
 
   [[nodiscard]] Result<LineMap> map() const;
   [[nodiscard]] const MapIdentity& identity() const { return identity_; }

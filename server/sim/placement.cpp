@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "common/core/angle.hpp"
-#include "common/core/grid.hpp"
 #include "server/sim/body_motion.hpp"
 #include "server/sim/scene.hpp"
 
@@ -14,37 +13,6 @@ namespace {
 
 constexpr int kAttempts = 40;
 constexpr double kClearanceLimit_m = 1.0;
-
-/// Clearance of every raster cell that is connected to the first start for a robot of this radius; -1 elsewhere.
-Grid<float> reachable_floor(const World& world, double radius_m, double resolution_m) {
-  const Scene scene(world);
-  const HeightBand band = body_band(RobotModel{});
-  const Point2 side = world.max_corner - world.min_corner;
-  Grid<float> floor({world.min_corner, resolution_m}, static_cast<int>(std::ceil(side.x() / resolution_m)),
-                    static_cast<int>(std::ceil(side.y() / resolution_m)), -1.0F);
-  const CellIndex first = floor.frame().cell_of(world.starts.front().translation());
-  std::vector<CellIndex> open;
-  const auto visit = [&](CellIndex cell) {
-    if (!floor.contains(cell) || floor[cell] >= 0.0F) {
-      return;
-    }
-    const double clearance = scene.clearance_m(floor.frame().centre_of(cell), kClearanceLimit_m, band);
-    if (clearance >= radius_m || cell == first) {
-      floor[cell] = static_cast<float>(clearance);
-      open.push_back(cell);
-    }
-  };
-  visit(first);
-  while (!open.empty()) {
-    const CellIndex cell = open.back();
-    open.pop_back();
-    visit({cell.i + 1, cell.j});
-    visit({cell.i - 1, cell.j});
-    visit({cell.i, cell.j + 1});
-    visit({cell.i, cell.j - 1});
-  }
-  return floor;
-}
 
 std::size_t count(const Grid<float>& floor) {
   return static_cast<std::size_t>(
@@ -64,6 +32,36 @@ std::vector<Point2> candidates(const Grid<float>& floor, const Point2& start, do
 }
 
 }  // namespace
+
+Grid<float> reachable_floor(const World& world, double robot_radius_m, double resolution_m) {
+  const Scene scene(world);
+  const HeightBand band = body_band(RobotModel{});
+  const Point2 side = world.max_corner - world.min_corner;
+  Grid<float> floor({world.min_corner, resolution_m}, static_cast<int>(std::ceil(side.x() / resolution_m)),
+                    static_cast<int>(std::ceil(side.y() / resolution_m)), -1.0F);
+  const CellIndex first = floor.frame().cell_of(world.starts.front().translation());
+  std::vector<CellIndex> open;
+  const auto visit = [&](CellIndex cell) {
+    if (!floor.contains(cell) || floor[cell] >= 0.0F) {
+      return;
+    }
+    const double clearance = scene.clearance_m(floor.frame().centre_of(cell), kClearanceLimit_m, band);
+    if (clearance >= robot_radius_m || cell == first) {
+      floor[cell] = static_cast<float>(clearance);
+      open.push_back(cell);
+    }
+  };
+  visit(first);
+  while (!open.empty()) {
+    const CellIndex cell = open.back();
+    open.pop_back();
+    visit({cell.i + 1, cell.j});
+    visit({cell.i - 1, cell.j});
+    visit({cell.i, cell.j + 1});
+    visit({cell.i, cell.j - 1});
+  }
+  return floor;
+}
 
 Result<Pose2> place_target(World& world, std::size_t index, Rng& rng, const PlacementParams& params) {
   if (const Status valid = validate(world); !valid) {

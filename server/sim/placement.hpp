@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "common/core/grid.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
 #include "common/core/rng.hpp"
@@ -25,6 +26,10 @@ struct PlacementParams {
 
 /// Replaces the starts by one random pose in the floor that is connected to the first of them.
 [[nodiscard]] Result<Pose2> place_start(World& world, Rng& rng, const PlacementParams& params = {});
+
+/// A raster over the world: clearance in metres (at most 1) of every cell that the centre of a robot of this radius can
+/// reach from the first start, -1 elsewhere. The start's own cell is always reached.
+[[nodiscard]] Grid<float> reachable_floor(const World& world, double robot_radius_m, double resolution_m = 0.05);
 
 /// Area of the floor that the centre of a robot of this radius can reach from the first start.
 [[nodiscard]] double reachable_area_m2(const World& world, double robot_radius_m, double resolution_m = 0.05);

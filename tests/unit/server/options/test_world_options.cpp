@@ -40,14 +40,15 @@ TEST_P(ShippedWorld, LoadsAndHasRoomForTheRobotAtEveryStart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedWorld,
-                         ::testing::Values("paper-a", "paper-b", "no-target", "office", "office-no-target", "demo"));
+                         ::testing::Values("paper-a", "paper-b", "no-target", "office", "office-no-target", "demo",
+                                           "corridor", "hospital", "hall", "closet", "closet-gap", "open-door"));
 
 TEST(ShippedWorlds, AreAllInTheTestAbove) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/worlds"))) {
     files += entry.path().extension() == ".yaml" ? 1 : 0;
   }
-  EXPECT_EQ(files, 6U);
+  EXPECT_EQ(files, 12U);
 }
 
 TEST(ShippedWorlds, AreAsLargeAsTheyShouldBe) {
@@ -61,7 +62,9 @@ TEST(ShippedWorlds, AreAsLargeAsTheyShouldBe) {
   EXPECT_GE(area("config/worlds/paper-a.yaml"), 16.0);
   EXPECT_LE(area("config/worlds/paper-b.yaml"), 19.2);
   EXPECT_GE(area("config/worlds/paper-b.yaml"), 16.0);
-  EXPECT_GE(area("config/worlds/office.yaml"), 290.0);  // 336 m2 of floor without walls and furniture
+  EXPECT_GE(area("config/worlds/office.yaml"), 290.0);          // 336 m2 of floor without walls and furniture
+  EXPECT_NEAR(area("config/worlds/corridor.yaml"), 81.0, 2.0);  // 85 m2 (spec S1.13) less 5 cm along walls
+  EXPECT_GE(area("config/worlds/hospital.yaml"), 900.0);        // of 1120 m2
 }
 
 TEST(ShippedWorlds, TargetsStandUnder55DegreesOnPaperAndNowhereInTheOthers) {
@@ -90,6 +93,36 @@ TEST(ShippedWorlds, EveryRoomOfTheOfficeCanBeReached) {
       // A free place in the middle of the room.
       from_room.starts = {Pose2{4.8 * room + (y > 7.0 ? 1.7 : 3.6), y + (room == 3 ? 1.2 : 1.6), 0.0}};
       EXPECT_NEAR(sim::reachable_area_m2(from_room, 0.30, 0.1), all, 0.1) << "room " << room << " at y " << y;
+    }
+  }
+}
+
+TEST(ShippedWorlds, EveryRoomOfTheHospitalCanBeReached) {
+  auto world = load_world(testing::source_file("config/worlds/hospital.yaml"));
+  ASSERT_TRUE(world) << world.error().message;
+  const Grid<float> floor = sim::reachable_floor(*world, 0.30, 0.1);
+  // A free place in every room: south, north, west, east, core, bathrooms.
+  const std::vector<Point2> places = {
+      {7.3, 5.0},   {9.7, 4.6},   {14.3, 4.8},  {17.0, 4.8},  {21.3, 3.6},  {25.8, 5.0},  {28.8, 4.8},  {33.0, 4.8},
+      {7.3, 23.2},  {11.2, 23.2}, {13.9, 24.0}, {18.2, 23.6}, {21.2, 23.4}, {27.2, 23.4}, {30.0, 24.0}, {32.8, 23.4},
+      {4.6, 8.2},   {4.8, 11.2},  {4.6, 15.0},  {4.8, 19.8},  {35.2, 8.2},  {35.4, 11.0}, {35.2, 16.6}, {35.2, 20.4},
+      {10.2, 10.6}, {14.2, 10.4}, {18.6, 10.4}, {22.7, 12.9}, {25.6, 9.4},  {30.4, 10.8}, {10.8, 18.0}, {16.4, 18.4},
+      {20.6, 17.0}, {24.0, 17.6}, {29.4, 17.6}, {1.1, 1.1},   {38.8, 1.1},  {1.1, 27.0},  {38.8, 27.0}};
+  for (const Point2& place : places) {
+    EXPECT_GE(floor[floor.frame().cell_of(place)], 0.30F) << place.transpose();
+  }
+}
+
+TEST(ShippedWorlds, NothingOfTheHallIsInReachOfTheLidarFromItsMiddle) {
+  auto world = load_world(testing::source_file("config/worlds/hall.yaml"));
+  ASSERT_TRUE(world) << world.error().message;
+  sim::RobotModel model = sim::without_errors({});
+  for (const double heading_rad : {0.0, 1.6, 3.1, -1.6}) {
+    world->starts = {Pose2{15.0, 12.5, heading_rad}};
+    auto simulation = sim::Simulation::create(*world, model, 1);
+    ASSERT_TRUE(simulation) << simulation.error().message;
+    for (const float range_m : simulation->scan().ranges_m) {
+      EXPECT_FALSE(range_m < model.lidar.range_max_m) << heading_rad;
     }
   }
 }
