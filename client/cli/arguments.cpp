@@ -124,4 +124,14 @@ api::SearchMode parse_search_mode(const std::string& name) {
   return name == to_string(api::SearchMode::kPaper) ? api::SearchMode::kPaper : api::SearchMode::kPlan;
 }
 
+api::ExploreStrategy parse_explore_strategy(const std::string& name) {
+  using enum api::ExploreStrategy;
+  for (const auto strategy : {kHorizon, kRoam, kFrontier, kGain}) {
+    if (name == to_string(strategy)) {
+      return strategy;
+    }
+  }
+  return kActive;
+}
+
 }  // namespace seeker::cli

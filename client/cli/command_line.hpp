@@ -36,6 +36,18 @@ struct SearchVerb {
   std::string bound;
   std::vector<std::string> keep_out;
   bool gaps_only = false;
+  bool explore = false;
+  std::optional<double> time_limit_s;
+  std::string link_policy = "stop";
+  bool detach = false;
+  std::string save;
+  std::string id;
+};
+struct ExploreVerb {
+  std::string strategy = "active";
+  std::string bound;
+  std::vector<std::string> keep_out;
+  bool return_to_start = false;
   std::optional<double> time_limit_s;
   std::string link_policy = "stop";
   bool detach = false;
@@ -120,8 +132,8 @@ struct CompletionVerb {
 };
 struct VersionVerb {};
 
-using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, GotoVerb, DriveVerb, StopVerb, EstopVerb, PauseVerb,
-                          ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb,
+using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, DriveVerb, StopVerb, EstopVerb,
+                          PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb,
                           MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb, GridVerb, DetectionsVerb,
                           CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 

@@ -1,5 +1,7 @@
 #include "client/cli/exit_code.hpp"
 
+#include "common/core/assert.hpp"
+
 namespace seeker::cli {
 
 ExitCode exit_code(Errc code) {
@@ -23,12 +25,14 @@ ExitCode exit_code(Errc code) {
   return ExitCode::kFailed;
 }
 
-ExitCode exit_code(api::Outcome outcome) {
-  switch (outcome) {
+ExitCode exit_code(const api::MissionStatus& ended) {
+  SEEKER_ASSERT(ended.end.has_value());
+  switch (ended.end->outcome) {
     case api::Outcome::kComplete:
     case api::Outcome::kTargetFound: return ExitCode::kOk;
-    case api::Outcome::kNotFoundAreaCovered:
-    case api::Outcome::kBoundReached: return ExitCode::kTargetNotFound;
+    case api::Outcome::kNotFoundAreaCovered: return ExitCode::kTargetNotFound;
+    case api::Outcome::kBoundReached:
+      return ended.kind == api::task_name(api::ExploreMission{}) ? ExitCode::kOk : ExitCode::kTargetNotFound;
     case api::Outcome::kTimeLimit: return ExitCode::kTimeout;
     case api::Outcome::kLinkLost: return ExitCode::kNoLink;
     case api::Outcome::kUnreachable:

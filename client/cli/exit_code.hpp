@@ -21,6 +21,7 @@ enum class ExitCode : std::uint8_t {
 };
 
 [[nodiscard]] ExitCode exit_code(Errc code);
-[[nodiscard]] ExitCode exit_code(api::Outcome outcome);
+/// Of a mission that has ended. A search that reached its bound has not found its target, an exploration is complete.
+[[nodiscard]] ExitCode exit_code(const api::MissionStatus& ended);
 
 }  // namespace seeker::cli

@@ -72,6 +72,7 @@ void MissionRun::take(const Context& context, const api::Update& update) {
   if (const auto* mission = std::get_if<api::MissionStatus>(&update.payload)) {
     if (mission->id == report_.status.id) {
       report_.status = *mission;
+      show_decision(context);
       show_progress(context);
       if (!context.err_is_tty && mission->phase != phase_shown_ && !mission->end) {
         phase_shown_ = mission->phase;
@@ -109,10 +110,27 @@ void MissionRun::show_progress(const Context& context) const {
   *context.err << "\r\x1b[K" << (m.end ? "" : line) << std::flush;
 }
 
+void MissionRun::show_decision(const Context& context) {
+  const std::optional<ExploreDecision>& decision = report_.status.decision;
+  if (!decision || decision->number <= decision_shown_) {
+    return;
+  }
+  decision_shown_ = decision->number;
+  if (!context.json) {
+    say(context, text_of(*decision));
+  } else if (decision_lines_) {
+    Json json;
+    json.begin_object().field("mission", report_.status.id).key("decision");
+    write_json(json, *decision);
+    *context.out << json.end_object().str() << '\n' << std::flush;
+  }
+}
+
 Status MissionRun::poll(const Context& context) {
   const Result<api::MissionStatus> status = ask<api::MissionStatus>(context, &api::RobotApi::get_mission);
   if (status && status->id == report_.status.id) {
     report_.status = *status;
+    show_decision(context);
     return {};
   }
   if (status || status.error().code == Errc::kNotFound) {
@@ -136,9 +154,10 @@ Error MissionRun::stop_because(const Context& context, Error why) const {
   return why;
 }
 
-Result<MissionReport> MissionRun::follow(const Context& context, const FollowLimits& limits) {
+Result<MissionReport> MissionRun::follow(const Context& context, const FollowOptions& options) {
+  decision_lines_ = options.decisions;
   auto last_news = SteadyClock::now();
-  auto deadline = limits.wall ? started_ + *limits.wall : SteadyClock::time_point::max();
+  auto deadline = options.wall ? started_ + *options.wall : SteadyClock::time_point::max();
   while (!report_.status.end) {
     if (const auto update = stream_.queue->pop(kPollPeriod)) {
       take(context, **update);
@@ -156,7 +175,7 @@ Result<MissionReport> MissionRun::follow(const Context& context, const FollowLim
           context, Error{Errc::kTimeout, report_.overran ? "the mission did not end after it was stopped"
                                                          : "the mission did not end in the time of --timeout"}));
     }
-    if (limits.robot && !report_.overran && report_.status.updated - report_.status.started > *limits.robot) {
+    if (options.robot && !report_.overran && report_.status.updated - report_.status.started > *options.robot) {
       report_.overran = true;
       say(context, "the mission is over its time; stopping it");
       if (const Status stopped = stop_mission(context); !stopped && stopped.error().code != Errc::kNotFound) {

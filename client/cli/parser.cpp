@@ -18,8 +18,6 @@ struct Parse {
   std::vector<std::function<void()>> choose;  ///< keep the structs of the verbs alive
 };
 
-constexpr const char* kPolicies = "What the robot does when this client is gone";
-
 /// Adds one verb: its options write to a struct that becomes Parse::verb when the verb is chosen.
 template <class T>
 std::pair<CLI::App*, std::shared_ptr<T>> add_verb(Parse& parse, CLI::App& parent, const std::string& name,
@@ -41,8 +39,9 @@ void add_globals(Parse& parse) {
       ->envname("SEEKER_ROBOT")
       ->capture_default_str();
   app.add_flag("--json", global.json, "Print data as JSON");
-  app.add_option("--timeout", global.timeout_s,
-                 "Longest wall time in s: for an answer (default 5), or for the whole of search, goto, watch and run")
+  app.add_option(
+         "--timeout", global.timeout_s,
+         "Longest wall time in s: for an answer (default 5), or for the whole of search, explore, goto, watch and run")
       ->check(CLI::PositiveNumber);
   CLI::Option* quiet = app.add_flag("-q,--quiet", global.quiet, "No progress and no messages except errors");
   app.add_flag("-v,--verbose", global.verbose, "Every event of the robot as a message")->excludes(quiet);
@@ -51,6 +50,17 @@ void add_globals(Parse& parse) {
       "Data go to stdout, messages and progress to stderr. NO_COLOR switches colours off.\n"
       "Exit codes: 0 ok, 1 failed, 2 usage, 3 refused, 4 no link, 5 timeout, 6 target not found, 130 interrupted.\n"
       "Example:\n  seeker --robot 10.0.0.5 search --target poster-a");
+}
+
+/// What every mission has; the option --detach.
+template <class Verb>
+CLI::Option* add_mission_options(CLI::App& sub, Verb& verb) {
+  sub.add_option("--time-limit", verb.time_limit_s, "Longest robot time, s")->check(CLI::PositiveNumber);
+  sub.add_option("--link-policy", verb.link_policy, "What the robot does when this client is gone")
+      ->check(CLI::IsMember({"stop", "finish-step", "continue", "return"}))
+      ->capture_default_str();
+  sub.add_option("--id", verb.id, "Id of the mission, [a-z0-9-]; else one is made up");
+  return sub.add_flag("--detach", verb.detach, "Print the mission's id and return; the mission goes on");
 }
 
 void add_search(Parse& parse) {
@@ -79,13 +89,27 @@ void add_search(Parse& parse) {
   sub->add_option("--bound", o->bound, "Search inside only: corners \"x,y x,y ...\" in m, or @FILE with a YAML list");
   repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners as in --bound; repeatable"));
   sub->add_flag("--gaps-only", o->gaps_only, "Cover what the last search left out");
-  sub->add_option("--time-limit", o->time_limit_s, "Longest robot time, s")->check(CLI::PositiveNumber);
-  sub->add_option("--link-policy", o->link_policy, kPolicies)
-      ->check(CLI::IsMember({"stop", "finish-step", "continue", "return"}))
-      ->capture_default_str();
-  CLI::Option* detach = sub->add_flag("--detach", o->detach, "Print the mission's id and return; the mission goes on");
+  sub->add_flag("--explore", o->explore, "Map the building too: search until no wall is left open");
+  CLI::Option* detach = add_mission_options(*sub, *o);
   sub->add_option("--save", o->save, "At the end write PREFIX.png, .pgm and .yaml of the map")->excludes(detach);
-  sub->add_option("--id", o->id, "Id of the mission, [a-z0-9-]; else one is made up");
+}
+
+void add_explore(Parse& parse) {
+  auto [sub, o] = add_verb<ExploreVerb>(
+      parse, parse.app, "explore", "Map the building: the robot finds its way by itself until nothing is left to map",
+      "seeker explore --bound \"0,0 12,0 12,8 0,8\" --return --save out/floor1\n"
+      "With --json each decision is a line with its candidates and their terms; the last line is the report.\n"
+      "Ctrl-C asks the robot to stop the mission before the program ends.");
+  sub->add_option("--strategy", o->strategy,
+                  "active: the published rule, a step at a time; horizon: the same aims over several drives; frontier, "
+                  "gain, roam: what these are compared with")
+      ->check(CLI::IsMember({"active", "horizon", "frontier", "gain", "roam"}))
+      ->capture_default_str();
+  sub->add_option("--bound", o->bound, "Explore inside only: corners \"x,y x,y ...\" in m, or @FILE with a YAML list");
+  repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners as in --bound; repeatable"));
+  sub->add_flag("--return", o->return_to_start, "Drive back to the start at the end");
+  CLI::Option* detach = add_mission_options(*sub, *o);
+  sub->add_option("--save", o->save, "At the end write PREFIX.png, .pgm and .yaml of the map")->excludes(detach);
 }
 
 void add_goto(Parse& parse) {
@@ -95,13 +119,8 @@ void add_goto(Parse& parse) {
   CLI::Option* points = sub->add_option("points", o->points, "Points X,Y in m");
   sub->add_option("--heading", o->heading_deg, "Heading at the last point, degrees")->needs(points);
   repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners \"x,y x,y ...\" or @FILE; repeatable"));
-  sub->add_option("--time-limit", o->time_limit_s, "Longest robot time, s")->check(CLI::PositiveNumber);
-  sub->add_option("--link-policy", o->link_policy, kPolicies)
-      ->check(CLI::IsMember({"stop", "finish-step", "continue", "return"}))
-      ->capture_default_str();
   sub->add_flag("--home", o->home, "Return to where the robot was started")->excludes(points);
-  sub->add_flag("--detach", o->detach, "Print the mission's id and return; the mission goes on");
-  sub->add_option("--id", o->id, "Id of the mission, [a-z0-9-]; else one is made up");
+  add_mission_options(*sub, *o);
 }
 
 void add_motion(Parse& parse) {
@@ -224,6 +243,7 @@ void build(Parse& parse) {
   add_globals(parse);
   add_reports(parse);
   add_search(parse);
+  add_explore(parse);
   add_goto(parse);
   add_motion(parse);
   add_rest(parse);

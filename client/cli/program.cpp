@@ -44,6 +44,11 @@ class Dispatch {
     return request ? with_robot([&] { return search(context_, *request, verb); }, true)
                    : VerbResult(tl::unexpected<Error>(request.error()));
   }
+  VerbResult operator()(const ExploreVerb& verb) {
+    const Result<api::MissionRequest> request = make_request(verb);
+    return request ? with_robot([&] { return explore(context_, *request, verb); }, true)
+                   : VerbResult(tl::unexpected<Error>(request.error()));
+  }
   VerbResult operator()(const GotoVerb& verb) {
     const Result<api::MissionRequest> request = make_request(verb);
     return request ? with_robot([&] { return go(context_, *request, verb); }, true)

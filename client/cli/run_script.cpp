@@ -35,6 +35,7 @@ class Player {
   StepResult operator()(const SearchStep&) { return mission(); }
   StepResult operator()(const GotoStep&) { return mission(); }
   StepResult operator()(const ReturnStep&) { return mission(); }
+  StepResult operator()(const ExploreStep&) { return mission(); }
   StepResult operator()(const AwaitStep&) {
     if (!background_) {
       return fail(Errc::kNotFound, "no mission was started in the background before this step");
@@ -86,13 +87,13 @@ class Player {
   }
 
   StepResult follow(MissionRun& run) const {
-    FollowLimits limits;
-    limits.robot = step_->expect.within;
+    FollowOptions options;
+    options.robot = step_->expect.within;
     if (context_.timeout) {
       // --timeout limits the whole script: what is left of it, counted from the start of this mission.
-      limits.wall = run.elapsed() + std::max(Duration::zero(), *context_.timeout - (SteadyClock::now() - start_));
+      options.wall = run.elapsed() + std::max(Duration::zero(), *context_.timeout - (SteadyClock::now() - start_));
     }
-    Result<MissionReport> report = run.follow(calls(), limits);
+    Result<MissionReport> report = run.follow(calls(), options);
     if (!report) {
       return tl::unexpected<Error>(report.error());
     }
@@ -159,7 +160,7 @@ std::string unmet_mission(const Expectation& expect, const MissionReport& report
     return fixed("took %.1f s of robot time, ", to_seconds(robot)) +
            fixed("expected at most %.1f s", expect.within ? to_seconds(*expect.within) : 0.0);
   }
-  const ExitCode code = exit_code(end.outcome);
+  const ExitCode code = exit_code(report.status);
   const bool ended_well = code == ExitCode::kOk || code == ExitCode::kTargetNotFound;
   if (expect.outcome.empty() ? !ended_well : expect.outcome != outcome) {
     return "ended with " + outcome + " (" + end.cause + ")" +

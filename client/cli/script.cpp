@@ -12,6 +12,11 @@ namespace fs = std::filesystem;
 const config::Choices<api::SearchMode> kModes{{"paper", api::SearchMode::kPaper}, {"plan", api::SearchMode::kPlan}};
 const config::Choices<api::OnFound> kOnFound{
     {"stop", api::OnFound::kStop}, {"approach", api::OnFound::kApproach}, {"continue", api::OnFound::kContinue}};
+const config::Choices<api::ExploreStrategy> kStrategies{{"active", api::ExploreStrategy::kActive},
+                                                        {"horizon", api::ExploreStrategy::kHorizon},
+                                                        {"roam", api::ExploreStrategy::kRoam},
+                                                        {"frontier", api::ExploreStrategy::kFrontier},
+                                                        {"gain", api::ExploreStrategy::kGain}};
 const config::Choices<api::LinkPolicy> kPolicies{{"stop", api::LinkPolicy::kStop},
                                                  {"finish-step", api::LinkPolicy::kFinishStep},
                                                  {"continue", api::LinkPolicy::kContinue},
@@ -70,6 +75,14 @@ void polygon(config::Fields& f, std::string_view key, Polygon& value) {
   }
 }
 
+void bound(config::Fields& f, std::optional<Polygon>& value) {
+  if (f.has("bound")) {
+    value.emplace();
+  }
+  Polygon none;
+  polygon(f, "bound", value ? *value : none);
+}
+
 /// An item of keep_out.
 struct Area {
   Polygon corners;
@@ -105,13 +118,22 @@ void describe(config::Fields& f, SearchSection& s) {
   name_of(f, "recogniser", s.search.recogniser, {"", "template", "features"});
   f.choice("mode", s.search.mode, kModes);
   f.choice("on_found", s.search.on_found, kOnFound);
-  if (f.has("bound")) {
-    s.search.bound.emplace();
-  }
-  Polygon bound;
-  polygon(f, "bound", s.search.bound ? *s.search.bound : bound);
+  bound(f, s.search.bound);
   areas(f, s.search.keep_out);
   f.field("gaps_only", s.search.gaps_only);
+  f.field("explore", s.search.explore);
+  describe_mission(f, s.step);
+}
+
+struct ExploreSection {
+  ExploreStep explore;
+  Step step;
+};
+void describe(config::Fields& f, ExploreSection& s) {
+  f.choice("strategy", s.explore.strategy, kStrategies);
+  bound(f, s.explore.bound);
+  areas(f, s.explore.keep_out);
+  f.field("return_to_start", s.explore.return_to_start);
   describe_mission(f, s.step);
 }
 
@@ -200,6 +222,10 @@ void describe_missions(config::Fields& f, Step& step, int& count) {
     step.action = s.search;
     keep_mission(step, s.step);
   });
+  action<ExploreSection>(f, "explore", step, count, [&](ExploreSection& s) {
+    step.action = s.explore;
+    keep_mission(step, s.step);
+  });
   action<GotoSection>(f, "goto", step, count, [&](GotoSection& s) {
     step.action = s.go;
     keep_mission(step, s.step);
@@ -241,9 +267,9 @@ void describe(config::Fields& f, StepItem& item) {
   ExpectSection expect;
   f.section("expect", expect);
   step.expect = expect.expect;
-  f.check(
-      "expect", count == 1,
-      "a step does exactly one of search, goto, return, await, wait, drive, pause, resume, stop, estop, map_export");
+  f.check("expect", count == 1,
+          "a step does exactly one of search, explore, goto, return, await, wait, drive, pause, resume, stop, estop, "
+          "map_export");
 }
 
 struct ScriptFile {

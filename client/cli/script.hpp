@@ -23,6 +23,13 @@ struct SearchStep {
   std::optional<Polygon> bound;
   std::vector<Polygon> keep_out;
   bool gaps_only = false;
+  bool explore = false;
+};
+struct ExploreStep {
+  api::ExploreStrategy strategy = api::ExploreStrategy::kActive;
+  std::optional<Polygon> bound;
+  std::vector<Polygon> keep_out;
+  bool return_to_start = false;
 };
 struct GotoStep {
   std::vector<Point2> waypoints;
@@ -49,8 +56,8 @@ struct ExportStep {
   std::string name;
 };
 
-using StepAction =
-    std::variant<SearchStep, GotoStep, ReturnStep, AwaitStep, WaitStep, DriveStep, CommandStep, EstopStep, ExportStep>;
+using StepAction = std::variant<SearchStep, ExploreStep, GotoStep, ReturnStep, AwaitStep, WaitStep, DriveStep,
+                                CommandStep, EstopStep, ExportStep>;
 
 /// What must hold after a step. Empty fields are not looked at.
 struct Expectation {
@@ -81,7 +88,7 @@ inline constexpr std::size_t kMaxSteps = 1000;
 [[nodiscard]] Result<Script> parse_script(std::string_view text, const std::string& name);
 [[nodiscard]] Result<Script> load_script(const std::filesystem::path& path);
 
-/// The mission of a search, goto or return step with its targets loaded.
+/// The mission of a search, explore, goto or return step with its targets loaded.
 [[nodiscard]] Result<api::MissionRequest> make_request(const Step& step, const std::filesystem::path& script_folder,
                                                        const std::vector<std::filesystem::path>& target_folders);
 /// Loads every target and validates every mission; the error names the step.

@@ -37,7 +37,10 @@ Result<api::MissionRequest> make_request(const Step& step, const fs::path& scrip
     mission.bound = search->bound;
     mission.keep_out = search->keep_out;
     mission.gaps_only = search->gaps_only;
+    mission.explore = search->explore;
     request.task = std::move(mission);
+  } else if (const auto* explore = std::get_if<ExploreStep>(&step.action)) {
+    request.task = api::ExploreMission{explore->strategy, explore->bound, explore->keep_out, explore->return_to_start};
   } else if (const auto* go = std::get_if<GotoStep>(&step.action)) {
     request.task = api::GotoMission{go->waypoints, go->heading_rad, go->keep_out};
   } else {
@@ -53,8 +56,8 @@ Status check_missions(const Script& script, const fs::path& script_folder,
                       const std::vector<fs::path>& target_folders) {
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
     const StepAction& action = script.steps[i].action;
-    const bool is_mission = std::holds_alternative<SearchStep>(action) || std::holds_alternative<GotoStep>(action) ||
-                            std::holds_alternative<ReturnStep>(action);
+    const bool is_mission = std::holds_alternative<SearchStep>(action) || std::holds_alternative<ExploreStep>(action) ||
+                            std::holds_alternative<GotoStep>(action) || std::holds_alternative<ReturnStep>(action);
     if (!is_mission) {
       continue;
     }

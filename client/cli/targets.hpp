@@ -38,5 +38,6 @@ struct TargetDefaults {
 [[nodiscard]] api::LinkPolicy parse_link_policy(const std::string& name);
 [[nodiscard]] api::OnFound parse_on_found(const std::string& name);
 [[nodiscard]] api::SearchMode parse_search_mode(const std::string& name);
+[[nodiscard]] api::ExploreStrategy parse_explore_strategy(const std::string& name);
 
 }  // namespace seeker::cli

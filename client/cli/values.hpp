@@ -13,6 +13,8 @@ void write_json(Json& json, const Pose2& pose);
 void write_json(Json& json, const api::Detection& detection);
 void write_json(Json& json, const api::Gap& gap);
 void write_json(Json& json, const api::CoverageSummary& coverage);
+void write_json(Json& json, const DecisionCandidate& candidate);
+void write_json(Json& json, const ExploreDecision& decision);
 void write_json(Json& json, const api::MissionStatus& mission);
 void write_json(Json& json, const api::RobotStatus& status);
 void write_json(Json& json, const api::ComponentInfo& component);
@@ -52,6 +54,8 @@ void write_list(Json& json, std::string_view name, const std::vector<T>& values)
 [[nodiscard]] std::string text_of(const api::Detection& detection);
 [[nodiscard]] std::string text_of(const api::CoverageSummary& coverage);
 [[nodiscard]] std::string text_of(const api::Gap& gap);
+/// One line: number, rule, the reason, how many alternatives there were.
+[[nodiscard]] std::string text_of(const ExploreDecision& decision);
 /// One line for people about any update.
 [[nodiscard]] std::string text_of(const api::Update& update);
 /// Largest standard deviation of a position.

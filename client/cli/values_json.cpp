@@ -49,6 +49,34 @@ void write_json(Json& json, const api::CoverageSummary& coverage) {
       .end_object();
 }
 
+void write_json(Json& json, const DecisionCandidate& candidate) {
+  json.begin_object()
+      .field("x_m", candidate.map_T_base.x_m)
+      .field("y_m", candidate.map_T_base.y_m)
+      .field("theta_rad", candidate.map_T_base.theta_rad)
+      .field("v_m_s", candidate.control.v_m_s)
+      .field("omega_rad_s", candidate.control.omega_rad_s)
+      .field("lg_j1", candidate.lg_j1)
+      .field("lg_j21", candidate.lg_j21)
+      .field("lg_j22", candidate.lg_j22)
+      .field("path_m", candidate.path_m)
+      .field("score", candidate.score)
+      .field("refused", candidate.refused)
+      .end_object();
+}
+
+void write_json(Json& json, const ExploreDecision& decision) {
+  json.begin_object()
+      .field("number", decision.number)
+      .field("stamp_s", to_seconds(decision.stamp))
+      .field("rule", decision.rule)
+      .field("why", decision.why)
+      .key("chosen");
+  decision.chosen ? json.value(*decision.chosen) : json.null();
+  write_list(json, "candidates", decision.candidates);
+  json.end_object();
+}
+
 void write_json(Json& json, const api::MissionStatus& mission) {
   json.begin_object()
       .field("id", mission.id)
@@ -77,6 +105,12 @@ void write_json(Json& json, const api::MissionStatus& mission) {
         .field("remedy", mission.end->remedy);
     write_list(json, "unreachable", mission.end->unreachable);
     json.end_object();
+  } else {
+    json.null();
+  }
+  json.key("decision");
+  if (mission.decision) {
+    write_json(json, *mission.decision);
   } else {
     json.null();
   }

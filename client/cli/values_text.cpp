@@ -15,7 +15,8 @@ std::string text_of_mission(const api::MissionStatus& mission) {
     return text + " " + std::string(to_string(mission.end->outcome)) + ": " + mission.end->cause;
   }
   return text + " " + fixed("%.0f %% ", 100.0 * mission.progress) + mission.phase +
-         (mission.activity.empty() ? "" : ": " + mission.activity);
+         (mission.activity.empty() ? "" : ": " + mission.activity) +
+         (mission.decision ? "; " + text_of(*mission.decision) : "");
 }
 
 struct Describe {
@@ -102,6 +103,13 @@ std::string text_of(const api::CoverageSummary& coverage) {
 
 std::string text_of(const api::Gap& gap) {
   return fixed("%.1f m\xC2\xB2 at ", gap.area_m2) + text_of(gap.centre) + " " + gap.reason;
+}
+
+std::string text_of(const ExploreDecision& decision) {
+  const auto available = std::count_if(decision.candidates.begin(), decision.candidates.end(),
+                                       [](const DecisionCandidate& c) { return c.refused.empty(); });
+  return "decision " + std::to_string(decision.number) + " (" + decision.rule + ", " + std::to_string(available) +
+         " of " + std::to_string(decision.candidates.size()) + " ways open): " + decision.why;
 }
 
 std::string text_of(const api::Update& update) {

@@ -16,6 +16,7 @@ using VerbResult = Result<ExitCode>;
 
 /// Reads targets and areas and checks everything that needs no robot.
 [[nodiscard]] Result<api::MissionRequest> make_request(const SearchVerb& verb);
+[[nodiscard]] Result<api::MissionRequest> make_request(const ExploreVerb& verb);
 [[nodiscard]] Result<api::MissionRequest> make_request(const GotoVerb& verb);
 
 [[nodiscard]] VerbResult show_status(const Context& context);
@@ -47,6 +48,7 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch);
 
 [[nodiscard]] VerbResult search(const Context& context, const api::MissionRequest& request, const SearchVerb& verb);
+[[nodiscard]] VerbResult explore(const Context& context, const api::MissionRequest& request, const ExploreVerb& verb);
 [[nodiscard]] VerbResult go(const Context& context, const api::MissionRequest& request, const GotoVerb& verb);
 /// Prints how a mission ended, with detections, coverage and gaps.
 void print_report(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps);

@@ -21,6 +21,24 @@ Result<std::vector<Polygon>> parse_areas(const std::vector<std::string>& texts) 
   return areas;
 }
 
+/// --bound and --keep-out of a verb.
+template <class Verb, class Mission>
+Status take_areas(const Verb& verb, Mission& mission) {
+  if (!verb.bound.empty()) {
+    Result<Polygon> bound = parse_polygon(verb.bound);
+    if (!bound) {
+      return fail_with_context("--bound", bound.error());
+    }
+    mission.bound = std::move(*bound);
+  }
+  Result<std::vector<Polygon>> keep_out = parse_areas(verb.keep_out);
+  if (!keep_out) {
+    return fail_with_context("--keep-out", keep_out.error());
+  }
+  mission.keep_out = std::move(*keep_out);
+  return {};
+}
+
 Result<api::MissionRequest> checked(api::MissionRequest request) {
   if (const Status ok = api::validate(request); !ok) {
     return tl::unexpected<Error>(ok.error());
@@ -50,7 +68,7 @@ void print_json(const Context& context, const MissionReport& report, const std::
       .field("outcome", to_string(m.end->outcome))
       .field("cause", m.end->cause)
       .field("remedy", m.end->remedy)
-      .field("exit_code", static_cast<int>(exit_code(m.end->outcome)));
+      .field("exit_code", static_cast<int>(exit_code(m)));
   write_list(json, "detections", report.detections);
   json.key("coverage");
   if (m.coverage) {
@@ -81,14 +99,17 @@ VerbResult run_mission(const Context& context, const api::MissionRequest& reques
   }
   say(context, "mission " + request.id +
                    " started; if this client is lost the robot does: " + std::string(to_string(request.link_policy)));
-  FollowLimits limits;
-  limits.wall = context.timeout;
-  Result<MissionReport> report = run->follow(context, limits);
+  FollowOptions options;
+  options.wall = context.timeout;
+  options.decisions = true;
+  Result<MissionReport> report = run->follow(context, options);
   if (!report) {
     return tl::unexpected<Error>(report.error());
   }
   refresh_detections(context, *report);
-  print_report(context, *report, request.task.index() == 0 ? fetch_gaps(context) : std::vector<api::Gap>());
+  print_report(
+      context, *report,
+      std::holds_alternative<api::SearchMission>(request.task) ? fetch_gaps(context) : std::vector<api::Gap>());
   if (!save.empty()) {
     const auto files = export_map(context, save);
     if (!files) {
@@ -98,7 +119,7 @@ VerbResult run_mission(const Context& context, const api::MissionRequest& reques
       say(context, "wrote " + file.string());
     }
   }
-  return exit_code(report->status.end->outcome);
+  return exit_code(report->status);
 }
 
 }  // namespace
@@ -113,24 +134,33 @@ Result<api::MissionRequest> make_request(const SearchVerb& verb) {
     }
     search.targets.push_back(std::move(*target));
   }
-  if (!verb.bound.empty()) {
-    Result<Polygon> bound = parse_polygon(verb.bound);
-    if (!bound) {
-      return fail_with_context("--bound", bound.error());
-    }
-    search.bound = std::move(*bound);
+  if (const Status ok = take_areas(verb, search); !ok) {
+    return tl::unexpected<Error>(ok.error());
   }
-  Result<std::vector<Polygon>> keep_out = parse_areas(verb.keep_out);
-  if (!keep_out) {
-    return fail_with_context("--keep-out", keep_out.error());
-  }
-  search.keep_out = std::move(*keep_out);
   search.mode = parse_search_mode(verb.mode);
   search.on_found = parse_on_found(verb.on_found);
   search.gaps_only = verb.gaps_only;
+  search.explore = verb.explore;
   api::MissionRequest request;
   request.id = verb.id.empty() ? make_mission_id("search") : verb.id;
   request.task = std::move(search);
+  request.link_policy = parse_link_policy(verb.link_policy);
+  if (verb.time_limit_s) {
+    request.time_limit = seconds(*verb.time_limit_s);
+  }
+  return checked(std::move(request));
+}
+
+Result<api::MissionRequest> make_request(const ExploreVerb& verb) {
+  api::ExploreMission explore;
+  if (const Status ok = take_areas(verb, explore); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  explore.strategy = parse_explore_strategy(verb.strategy);
+  explore.return_to_start = verb.return_to_start;
+  api::MissionRequest request;
+  request.id = verb.id.empty() ? make_mission_id("explore") : verb.id;
+  request.task = std::move(explore);
   request.link_policy = parse_link_policy(verb.link_policy);
   if (verb.time_limit_s) {
     request.time_limit = seconds(*verb.time_limit_s);
@@ -207,6 +237,10 @@ void print_report(const Context& context, const MissionReport& report, const std
 }
 
 VerbResult search(const Context& context, const api::MissionRequest& request, const SearchVerb& verb) {
+  return run_mission(context, request, verb.detach, verb.save);
+}
+
+VerbResult explore(const Context& context, const api::MissionRequest& request, const ExploreVerb& verb) {
   return run_mission(context, request, verb.detach, verb.save);
 }
 

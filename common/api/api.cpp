@@ -65,6 +65,15 @@ Status validate_keep_outs(const std::vector<Polygon>& keep_outs) {
   return {};
 }
 
+Status validate_areas(const std::optional<Polygon>& bound, const std::vector<Polygon>& keep_outs) {
+  if (bound) {
+    if (const Status ok = validate_polygon(*bound); !ok) {
+      return fail_with_context("bound", ok.error());
+    }
+  }
+  return validate_keep_outs(keep_outs);
+}
+
 Status validate_task(const SearchMission& search) {
   if (search.targets.empty() || search.targets.size() > kMaxTargets) {
     return fail(Errc::kInvalidArgument, "a search needs 1 to 16 targets, got " + std::to_string(search.targets.size()));
@@ -78,12 +87,7 @@ Status validate_task(const SearchMission& search) {
       return fail(Errc::kInvalidArgument, "two targets have the name '" + target.name + "'");
     }
   }
-  if (search.bound) {
-    if (const Status ok = validate_polygon(*search.bound); !ok) {
-      return fail_with_context("bound", ok.error());
-    }
-  }
-  return validate_keep_outs(search.keep_out);
+  return validate_areas(search.bound, search.keep_out);
 }
 
 Status validate_task(const GotoMission& go) {
@@ -103,6 +107,13 @@ Status validate_task(const GotoMission& go) {
 
 Status validate_task(const ReturnMission& /*unused*/) { return {}; }
 
+Status validate_task(const ExploreMission& explore) {
+  if (explore.strategy > ExploreStrategy::kGain) {
+    return fail(Errc::kInvalidArgument, "there is no such strategy of exploration");
+  }
+  return validate_areas(explore.bound, explore.keep_out);
+}
+
 }  // namespace
 
 Status validate(const MissionRequest& request) {
@@ -121,6 +132,7 @@ std::string_view task_name(const MissionTask& task) {
     std::string_view operator()(const SearchMission&) const { return "search"; }
     std::string_view operator()(const GotoMission&) const { return "goto"; }
     std::string_view operator()(const ReturnMission&) const { return "return"; }
+    std::string_view operator()(const ExploreMission&) const { return "explore"; }
   };
   return std::visit(Name{}, task);
 }
@@ -164,6 +176,17 @@ std::string_view to_string(OnFound on_found) {
     case OnFound::kContinue: return "continue";
   }
   return "stop";
+}
+
+std::string_view to_string(ExploreStrategy strategy) {
+  switch (strategy) {
+    case ExploreStrategy::kActive: return "active";
+    case ExploreStrategy::kHorizon: return "horizon";
+    case ExploreStrategy::kRoam: return "roam";
+    case ExploreStrategy::kFrontier: return "frontier";
+    case ExploreStrategy::kGain: return "gain";
+  }
+  return "active";
 }
 
 std::string_view to_string(MissionState state) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/api/perception.hpp"
+#include "common/core/explore_decision.hpp"
 #include "common/core/image.hpp"
 #include "common/core/polygon.hpp"
 #include "common/core/pose2.hpp"
@@ -60,8 +61,28 @@ struct SearchMission {
   std::optional<Polygon> bound;   ///< search inside only
   std::vector<Polygon> keep_out;  ///< never enter
   bool gaps_only = false;         ///< keep the evidence of the last search and cover what it left
+  bool explore = false;           ///< map the building too: the search goes on until no wall is left open
 
   friend bool operator==(const SearchMission&, const SearchMission&) = default;
+};
+
+/// How an exploration chooses its way: the first two build the map actively, the others are what they are compared with.
+enum class ExploreStrategy : std::uint8_t {
+  kActive,    ///< one step of the objective of spec S1.11, out of traps along walls
+  kHorizon,   ///< the same objective over several drives to reachable viewpoints
+  kRoam,      ///< straight on until something is near, then turn
+  kFrontier,  ///< nearest border of the unknown
+  kGain,      ///< most unknown ground in sight for the way
+};
+
+/// Maps a building by itself.
+struct ExploreMission {
+  ExploreStrategy strategy = ExploreStrategy::kActive;
+  std::optional<Polygon> bound;   ///< explore inside only
+  std::vector<Polygon> keep_out;  ///< never enter
+  bool return_to_start = false;
+
+  friend bool operator==(const ExploreMission&, const ExploreMission&) = default;
 };
 
 struct GotoMission {
@@ -77,7 +98,7 @@ struct ReturnMission {
   friend bool operator==(const ReturnMission&, const ReturnMission&) = default;
 };
 
-using MissionTask = std::variant<SearchMission, GotoMission, ReturnMission>;
+using MissionTask = std::variant<SearchMission, GotoMission, ReturnMission, ExploreMission>;
 
 [[nodiscard]] std::string_view task_name(const MissionTask& task);
 
@@ -121,6 +142,7 @@ enum class Outcome : std::uint8_t {
 [[nodiscard]] std::string_view to_string(RecogniserKind kind);
 [[nodiscard]] std::string_view to_string(SearchMode mode);
 [[nodiscard]] std::string_view to_string(OnFound on_found);
+[[nodiscard]] std::string_view to_string(ExploreStrategy strategy);
 
 enum class MissionState : std::uint8_t { kRunning, kPaused, kEnded };
 [[nodiscard]] std::string_view to_string(MissionState state);
@@ -150,6 +172,8 @@ struct MissionStatus {
   int cells_unsearched = 0;
   std::optional<CoverageSummary> coverage;
   std::vector<Point2> planned_path;  ///< in the frame `map`
+  /// The newest of an exploration. Reports of a running mission carry each decision once, RobotStatus none.
+  std::optional<ExploreDecision> decision;
   LinkPolicy link_policy = LinkPolicy::kStop;
   std::optional<MissionEnd> end;  ///< present exactly when state is kEnded
 

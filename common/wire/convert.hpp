@@ -66,8 +66,11 @@ void read(const pb::Detection& from, api::Detection& to, Check& check);
 void read(const pb::CoverageSummary& from, api::CoverageSummary& to, Check& check);
 void read(const pb::GridReport& from, api::GridReport& to, Check& check);
 
+/// Candidates beyond kMaxDecisionCandidates are left out.
+void write(const ExploreDecision& from, pb::ExploreDecision* to);
 void write(const api::MissionRequest& from, pb::MissionRequest* to);
 void write(const api::MissionStatus& from, pb::MissionStatus* to);
+void read(const pb::ExploreDecision& from, ExploreDecision& to, Check& check);
 void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check);
 void read(const pb::MissionStatus& from, api::MissionStatus& to, Check& check);
 

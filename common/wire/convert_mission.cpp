@@ -26,6 +26,24 @@ void read_polygons(const google::protobuf::RepeatedPtrField<pb::Polygon>& from, 
   }
 }
 
+/// The bound and the kept-out areas, which several missions have.
+template <class T, class M>
+void write_areas(const T& from, M* to) {
+  if (from.bound) {
+    write(*from.bound, to->mutable_bound()->mutable_corners());
+  }
+  write_polygons(from.keep_out, to->mutable_keep_out());
+}
+
+template <class M, class T>
+void read_areas(const M& from, T& to, Check& check) {
+  if (from.has_bound()) {
+    const auto scope = check.in("bound");
+    read_polygon(from.bound(), to.bound.emplace(), check);
+  }
+  read_polygons(from.keep_out(), to.keep_out, check);
+}
+
 void write_target(const api::TargetSpec& from, pb::Target* to) {
   to->set_name(clean_text(from.name, kMaxNameBytes));
   write(from.picture, to->mutable_picture());
@@ -60,11 +78,9 @@ struct TaskWriter {
     }
     search->set_mode(static_cast<pb::SearchMode>(wire_enum(from.mode)));
     search->set_on_found(static_cast<pb::OnFound>(wire_enum(from.on_found)));
-    if (from.bound) {
-      write(*from.bound, search->mutable_bound()->mutable_corners());
-    }
-    write_polygons(from.keep_out, search->mutable_keep_out());
+    write_areas(from, search);
     search->set_gaps_only(from.gaps_only);
+    search->set_explore(from.explore);
   }
   void operator()(const api::GotoMission& from) const {
     pb::GotoMission* go = to->mutable_go_to();
@@ -75,6 +91,12 @@ struct TaskWriter {
     write_polygons(from.keep_out, go->mutable_keep_out());
   }
   void operator()(const api::ReturnMission& /*from*/) const { to->mutable_return_home(); }
+  void operator()(const api::ExploreMission& from) const {
+    pb::ExploreMission* explore = to->mutable_explore();
+    explore->set_strategy(static_cast<pb::ExploreStrategy>(wire_enum(from.strategy)));
+    write_areas(from, explore);
+    explore->set_return_to_start(from.return_to_start);
+  }
 };
 
 void read_search(const pb::SearchMission& from, api::SearchMission& to, Check& check) {
@@ -88,12 +110,15 @@ void read_search(const pb::SearchMission& from, api::SearchMission& to, Check& c
   }
   check.enumerator("mode", from.mode(), api::SearchMode::kPlan, to.mode);
   check.enumerator("on_found", from.on_found(), api::OnFound::kContinue, to.on_found);
-  if (from.has_bound()) {
-    const auto scope = check.in("bound");
-    read_polygon(from.bound(), to.bound.emplace(), check);
-  }
-  read_polygons(from.keep_out(), to.keep_out, check);
+  read_areas(from, to, check);
   to.gaps_only = from.gaps_only();
+  to.explore = from.explore();
+}
+
+void read_explore(const pb::ExploreMission& from, api::ExploreMission& to, Check& check) {
+  check.enumerator("strategy", from.strategy(), api::ExploreStrategy::kGain, to.strategy);
+  read_areas(from, to, check);
+  to.return_to_start = from.return_to_start();
 }
 
 void read_goto(const pb::GotoMission& from, api::GotoMission& to, Check& check) {
@@ -147,6 +172,11 @@ void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check)
       break;
     }
     case pb::MissionRequest::kReturnHome: to.task = api::ReturnMission{}; break;
+    case pb::MissionRequest::kExplore: {
+      const auto scope = check.in("explore");
+      read_explore(from.explore(), to.task.emplace<api::ExploreMission>(), check);
+      break;
+    }
     case pb::MissionRequest::TASK_NOT_SET:
       check.refuse("task", Errc::kInvalidArgument, "is missing or of a kind that is not known here");
       break;
@@ -177,6 +207,9 @@ void write(const api::MissionStatus& from, pb::MissionStatus* to) {
   if (from.end) {
     write_end(*from.end, to->mutable_end());
   }
+  if (from.decision) {
+    write(*from.decision, to->mutable_decision());
+  }
 }
 
 void read(const pb::MissionStatus& from, api::MissionStatus& to, Check& check) {
@@ -206,6 +239,10 @@ void read(const pb::MissionStatus& from, api::MissionStatus& to, Check& check) {
   if (from.has_end()) {
     const auto scope = check.in("end");
     read_end(from.end(), to.end.emplace(), check);
+  }
+  if (from.has_decision()) {
+    const auto scope = check.in("decision");
+    read(from.decision(), to.decision.emplace(), check);
   }
 }
 

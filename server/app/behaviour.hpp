@@ -13,6 +13,7 @@
 #include "common/core/pose_estimate.hpp"
 #include "common/core/scan.hpp"
 #include "server/nav/occupancy_map.hpp"
+#include "server/slam/map_tracker.hpp"
 #include "server/vision/sighting.hpp"
 
 namespace seeker::app {
@@ -25,6 +26,9 @@ struct Situation {
   const LaserScan* scan = nullptr;
   const SonarScan* sonar = nullptr;
   const nav::OccupancyMap* map = nullptr;
+  const slam::MapTracker* tracker = nullptr;  ///< keeper of the map of segments; null: the estimator keeps none
+  bool map_is_read_only = false;              ///< the robot only localises in the map of segments
+  std::optional<double> battery_v;
 };
 
 /// A line for the mission's log, without stamps: the executor adds them.
@@ -44,6 +48,7 @@ struct Decision {
   double progress = 0.0;
   std::vector<Point2> planned_path;
   std::vector<BehaviourEvent> events;
+  std::optional<ExploreDecision> exploration;  ///< where to explore next, in the step that decided
   std::optional<api::MissionEnd> end;
 };
 

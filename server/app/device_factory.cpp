@@ -77,10 +77,14 @@ class Behaviours {
       home.waypoints = {Point2::Zero()};
       return std::unique_ptr<Behaviour>(std::make_unique<GotoBehaviour>(go_, home));
     }
+    const auto* search = std::get_if<api::SearchMission>(&task);
+    if (search == nullptr) {
+      return fail(Errc::kRefused, "this robot has no behaviour for the mission '" + std::string(task_name(task)) + "'");
+    }
     if (!has_camera_) {
       return fail(Errc::kRefused, "this robot has no camera to search with");
     }
-    return SearchBehaviour::create(search_, std::get<api::SearchMission>(task), table_, memory_);
+    return SearchBehaviour::create(search_, *search, table_, memory_);
   }
 
   [[nodiscard]] const EvidenceMemory& memory() const { return memory_; }

@@ -203,6 +203,10 @@ void MissionExecutor::take(const Decision& decision, const Situation& situation)
   status.activity = decision.activity;
   status.progress = decision.progress;
   status.planned_path = decision.planned_path;
+  if (decision.exploration) {
+    status.decision = decision.exploration;
+    active_->decision_told = false;
+  }
   for (const BehaviourEvent& event : decision.events) {
     log(situation.now, event.kind, event.text, event.severity);
   }
@@ -214,7 +218,7 @@ void MissionExecutor::take(const Decision& decision, const Situation& situation)
   } else if (active_->finish_step && decision.step_done) {
     end(api::Outcome::kLinkLost, "the client that started the mission is gone; the step was finished",
         "check the network", situation.now);
-  } else if (new_phase || situation.now - active_->last_report >= params_.report_period) {
+  } else if (new_phase || decision.exploration || situation.now - active_->last_report >= params_.report_period) {
     collect();
     report(situation.now);
   }
@@ -277,7 +281,15 @@ void MissionExecutor::report(RobotTime now) {
   active_->last_report = now;
   active_->status.updated = now;
   last_ = active_->status;
-  outputs_.status(active_->status);
+  if (active_->decision_told) {
+    // Told once: the candidates of one decision are many times the rest of a report.
+    api::MissionStatus status = active_->status;
+    status.decision.reset();
+    outputs_.status(status);
+  } else {
+    outputs_.status(active_->status);
+    active_->decision_told = true;
+  }
 }
 
 void MissionExecutor::log(RobotTime now, const std::string& kind, const std::string& text, api::Severity severity) {

@@ -79,6 +79,7 @@ class MissionExecutor {
     std::optional<api::MissionEnd> end_after;  ///< the outcome once the robot is back (link policy RETURN)
     std::optional<RobotTime> blocked_since;
     std::optional<RobotTime> unlocalised_since;
+    bool decision_told = true;  ///< the status' decision was in a report
     std::optional<Pose2> last_pose;
     RobotTime last_report;
     std::uint32_t map_epoch = 0;  ///< that results belong to

@@ -201,6 +201,9 @@ Situation RobotLoop::situation() const {
   s.scan = scan_ ? &*scan_ : nullptr;
   s.sonar = sonar_ ? &*sonar_ : nullptr;
   s.map = &map_.occupancy();
+  s.tracker = parts_.estimator->map_tracker();
+  s.map_is_read_only = map_.identity().use == api::MapUse::kLocalise;
+  s.battery_v = odometry_ ? odometry_->battery_v : std::nullopt;
   return s;
 }
 

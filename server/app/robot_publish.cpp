@@ -95,6 +95,9 @@ api::RobotStatus RobotLoop::status() const {
   status.motors_armed = authority_.armed();
   status.lease = authority_.lease();
   status.mission = missions_.last();
+  if (status.mission) {
+    status.mission->decision.reset();  // its candidates are many bytes; the mission's own topic has them
+  }
   status.faults = faults_.all();
   status.safety = safety_reason_;
   status.clock_speed = parts_.devices.clock->speed();
@@ -115,7 +118,7 @@ std::vector<std::string> RobotLoop::capabilities() const {
     words.emplace_back("sonar");
   }
   if (map_.has_segments()) {
-    words.emplace_back("line_map");
+    words.insert(words.end(), {"line_map", "explore"});
   }
   return words;
 }

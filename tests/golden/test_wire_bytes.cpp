@@ -44,7 +44,8 @@ TEST_P(WireBytes, AFrameHasTheBytesItAlwaysHad) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Golden, WireBytes,
-                         ::testing::Values("hello", "stop_request", "status_update", "segments_update", "refusal"));
+                         ::testing::Values("hello", "stop_request", "status_update", "segments_update",
+                                           "decision_update", "refusal"));
 
 TEST(WireBytesOfStreams, HeadBodyAndTailAreOneMessage) {
   v1::Envelope envelope;

@@ -26,11 +26,11 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
     }
   };
   visit(tree, {});
-  EXPECT_EQ(names, (std::vector<std::string>{"status",     "watch", "map",        "export", "save",     "load",
-                                             "list",       "info",  "verify",     "delete", "download", "upload",
-                                             "relocalise", "grid",  "detections", "camera", "grab",     "components",
-                                             "search",     "goto",  "drive",      "stop",   "estop",    "pause",
-                                             "resume",     "run",   "completion", "version"}));
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "status", "watch",      "map",      "export",     "save",       "load",  "list",       "info",
+                       "verify", "delete",     "download", "upload",     "relocalise", "grid",  "detections", "camera",
+                       "grab",   "components", "search",   "explore",    "goto",       "drive", "stop",       "estop",
+                       "pause",  "resume",     "run",      "completion", "version"}));
 }
 
 TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
@@ -42,6 +42,8 @@ TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
       {"search", "--target", "a", "--mode", "fast"},
       {"search", "--target", "a", "--time-limit", "-3"},
       {"search", "--target", "a", "--detach", "--save", "x"},
+      {"explore", "--strategy", "by-chance"},
+      {"explore", "--link-policy", "hope"},
       {"drive", "0.2"},
       {"drive", "fast", "0"},
       {"map"},

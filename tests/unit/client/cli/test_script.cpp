@@ -28,10 +28,19 @@ TEST(Script, StepsKeepTheirValues) {
       "    expect: {outcome: TARGET_FOUND, within: 5min, found: [ring], covered: 0.5}\n"
       "  - drive: {v_m_s: 0.1, omega_deg_s: 90, for: 500ms}\n"
       "  - estop: {release: true}\n"
-      "  - map_export: out/night\n",
+      "  - map_export: out/night\n"
+      "  - explore: {strategy: gain, bound: [[0, 0], [4, 0], [4, 4]], keep_out: [{corners: [[1, 1], [2, 1], [2, 2]]}], "
+      "return_to_start: true}\n"
+      "  - search: {targets: [ring], explore: true}\n",
       "m.yaml");
   ASSERT_TRUE(script) << script.error().message;
-  ASSERT_EQ(script->steps.size(), 8U);
+  ASSERT_EQ(script->steps.size(), 10U);
+  const auto& explore = std::get<ExploreStep>(script->steps[8].action);
+  EXPECT_EQ(explore.strategy, api::ExploreStrategy::kGain);
+  EXPECT_EQ(explore.bound->size(), 3U);
+  EXPECT_EQ(explore.keep_out.size(), 1U);
+  EXPECT_TRUE(explore.return_to_start);
+  EXPECT_TRUE(std::get<SearchStep>(script->steps[9].action).explore);
   EXPECT_TRUE(script->steps[0].background);
   EXPECT_EQ(script->steps[0].link_policy, api::LinkPolicy::kReturn);
   EXPECT_EQ(std::get<SearchStep>(script->steps[0].action).bound->size(), 3U);
@@ -55,6 +64,21 @@ TEST(Script, ErrorsNameFileLineAndPath) {
             std::string::npos);
 }
 
+TEST(Script, MissionsAreMadeOfTheirSteps) {
+  const auto script = parse_script(
+      "steps:\n"
+      "  - explore: {strategy: horizon, return_to_start: true, time_limit: 60s}\n"
+      "  - search: {targets: [ring], explore: true}\n",
+      "m.yaml");
+  ASSERT_TRUE(script) << script.error().message;
+  const auto request = [&](std::size_t step) {
+    return make_request(script->steps[step], ".", {testing::source_file("config/targets")}).value();
+  };
+  EXPECT_EQ(request(0).task, api::MissionTask(api::ExploreMission{api::ExploreStrategy::kHorizon, {}, {}, true}));
+  EXPECT_EQ(*request(0).time_limit, seconds(60));
+  EXPECT_TRUE(std::get<api::SearchMission>(request(1).task).explore);
+}
+
 TEST(Script, ShippedMissionsAreSound) {
   const std::filesystem::path folder = testing::source_file("config/missions");
   int count = 0;
@@ -65,7 +89,7 @@ TEST(Script, ShippedMissionsAreSound) {
     EXPECT_TRUE(ok) << ok.error().message;
     ++count;
   }
-  EXPECT_GE(count, 3);
+  EXPECT_GE(count, 4);
 }
 
 class RunScript : public ::testing::Test, public CliFixture {

@@ -137,6 +137,72 @@ TEST_F(Verbs, SearchSendsWhatTheUserAskedFor) {
   EXPECT_EQ(*missions[0].time_limit, seconds(60));
 }
 
+TEST_F(Verbs, ExploreSendsWhatTheUserAskedFor) {
+  EXPECT_EQ(run({"explore", "--strategy", "horizon", "--bound", "0,0 4,0 4,3", "--keep-out", "1,1 2,1 2,2", "--return",
+                 "--time-limit", "60", "--link-policy", "continue", "--detach", "--id", "look-round"})
+                .out,
+            "look-round\n");
+  host->edit([](testing::FakeRobotValues& v) { v.mission.reset(); });
+  EXPECT_EQ(run({"explore", "--detach"}).code, 0);
+  host->edit([](testing::FakeRobotValues& v) { v.mission.reset(); });
+  EXPECT_EQ(run({"search", "-t", path("board.png"), "--explore", "--detach"}).code, 0);
+  EXPECT_EQ(run({"explore", "--bound", "0,0 2,2 2,0 0,2"}).code, 2);
+  const auto missions = host->values().missions;
+  ASSERT_EQ(missions.size(), 3U);
+  const auto& explore = std::get<api::ExploreMission>(missions[0].task);
+  EXPECT_EQ(explore.strategy, api::ExploreStrategy::kHorizon);
+  EXPECT_EQ(explore.bound->size(), 3U);
+  EXPECT_EQ(explore.keep_out.size(), 1U);
+  EXPECT_TRUE(explore.return_to_start);
+  EXPECT_EQ(missions[0].link_policy, api::LinkPolicy::kContinue);
+  EXPECT_EQ(*missions[0].time_limit, seconds(60));
+  EXPECT_EQ(std::get<api::ExploreMission>(missions[1].task), api::ExploreMission{});
+  EXPECT_TRUE(std::get<api::SearchMission>(missions[2].task).explore);
+}
+
+TEST_F(Verbs, AnExplorationThatReachedItsBoundHasSucceeded) {
+  EXPECT_EQ(run({"explore"}, [&] { end_mission(api::Outcome::kBoundReached); }).code, 0);
+  EXPECT_EQ(run({"explore"}, [&] { end_mission(api::Outcome::kUnreachable); }).code, 1);
+  EXPECT_EQ(run({"search", "-t", path("board.png")}, [&] { end_mission(api::Outcome::kBoundReached); }).code, 6);
+}
+
+TEST_F(Verbs, EveryDecisionOfAnExplorationIsToldOnce) {
+  const auto decide_twice_and_end = [&] {
+    for (std::uint64_t number : {1U, 1U, 2U}) {
+      while (!host->values().mission || host->values().mission->end) {
+        std::this_thread::yield();
+      }
+      api::MissionStatus status = *host->values().mission;
+      DecisionCandidate open;
+      open.score = -1.5;
+      DecisionCandidate shut;
+      shut.refused = "a wall";
+      status.decision = ExploreDecision{.number = number,
+                                        .stamp = robot_time_s(3.0),
+                                        .rule = "one-step",
+                                        .candidates = {open, shut},
+                                        .chosen = 0,
+                                        .why = "the long wall grows"};
+      host->publish(api::Topic::kMission, status.updated, status);
+    }
+    end_mission(api::Outcome::kComplete);
+  };
+  Ran ran = run({"explore", "--json"}, decide_twice_and_end);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  std::istringstream lines(ran.out);
+  std::vector<std::string> documents;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(is_json(line)) << line;
+    documents.push_back(line);
+  }
+  ASSERT_EQ(documents.size(), 3U) << ran.out;
+  EXPECT_NE(documents[0].find("\"decision\":{\"number\":1,"), std::string::npos) << documents[0];
+  EXPECT_NE(documents[1].find("\"score\":-1.5,\"refused\":\"\""), std::string::npos) << documents[1];
+  EXPECT_NE(documents[2].find("\"outcome\":\"COMPLETE\""), std::string::npos);
+  ran = run({"explore"}, decide_twice_and_end);
+  EXPECT_NE(ran.err.find("decision 2 (one-step, 1 of 2 ways open): the long wall grows"), std::string::npos) << ran.err;
+}
+
 TEST_F(Verbs, TargetFileErrorsNameFileAndLine) {
   write("bad.yaml", "picture: board.png\nwidth: 0.6\n");
   const Ran ran = run({"search", "-t", path("bad.yaml")});

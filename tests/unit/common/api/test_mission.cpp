@@ -44,6 +44,7 @@ const Polygon kBowTie{{0, 0}, {2, 2}, {2, 0}, {0, 2}};
 TEST(MissionRequest, OrdinaryMissionsAreAccepted) {
   EXPECT_TRUE(validate(search_for(target())));
   EXPECT_TRUE(validate(go_to({1.0, -2.0})));
+  EXPECT_TRUE(validate({"look-round", ExploreMission{}, LinkPolicy::kContinue, std::nullopt}));
   EXPECT_TRUE(validate({"back", ReturnMission{}, LinkPolicy::kReturn, std::chrono::seconds(5)}));
 }
 
@@ -108,6 +109,17 @@ TEST(MissionRequest, CrossingPolygonIsRefusedAndNamed) {
   EXPECT_THAT(validate({"m", search, LinkPolicy::kStop, std::nullopt}).error().message, HasSubstr("keep-out area 2"));
 }
 
+TEST(MissionRequest, AreasOfAnExplorationAreChecked) {
+  ExploreMission explore;
+  explore.bound = kBowTie;
+  EXPECT_THAT(validate({"m", explore, LinkPolicy::kStop, std::nullopt}).error().message, HasSubstr("bound: "));
+  explore.bound = kSquare;
+  explore.keep_out = std::vector<Polygon>(kMaxKeepOuts + 1, kSquare);
+  EXPECT_EQ(validate({"m", explore, LinkPolicy::kStop, std::nullopt}).error().code, Errc::kTooLarge);
+  explore.keep_out = {kSquare};
+  EXPECT_TRUE(validate({"m", explore, LinkPolicy::kStop, std::nullopt}));
+}
+
 TEST(MissionRequest, GotoNeedsFiniteWaypoints) {
   EXPECT_FALSE(validate(go_to({std::nan(""), 0.0})));
   EXPECT_FALSE(validate({"m", GotoMission{}, LinkPolicy::kStop, std::nullopt}));
@@ -129,6 +141,15 @@ TEST(Names, EveryTopicAndOutcomeHasItsOwn) {
     outcomes.insert(std::string(to_string(static_cast<Outcome>(i))));
   }
   EXPECT_EQ(outcomes.size(), static_cast<std::size_t>(Outcome::kFault) + 1);
+}
+
+TEST(Names, EveryStrategyAndTaskHasItsOwn) {
+  std::set<std::string> strategies;
+  for (int i = 0; i <= static_cast<int>(ExploreStrategy::kGain); ++i) {
+    strategies.insert(std::string(to_string(static_cast<ExploreStrategy>(i))));
+  }
+  EXPECT_EQ(strategies.size(), static_cast<std::size_t>(ExploreStrategy::kGain) + 1);
+  EXPECT_EQ(task_name(ExploreMission{}), "explore");
 }
 
 TEST(Names, OnlyMissionEventAndDetectionAreReliable) {

@@ -53,6 +53,7 @@ class ValueMaker {
   api::Detection detection();
   api::CoverageSummary coverage();
   api::GridReport grid();
+  ExploreDecision decision();
   api::MissionRequest mission();
   api::MissionStatus mission_status();
   PoseEstimate estimate();

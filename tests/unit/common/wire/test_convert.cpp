@@ -31,6 +31,7 @@ RC_GTEST_PROP(Convert, EveryValueComesBackUnchanged, (std::uint64_t seed)) {
   expect_round_trip<pb::TileUpdate>(make.tiles());
   expect_round_trip<pb::Detection>(make.detection());
   expect_round_trip<pb::GridReport>(make.grid());
+  expect_round_trip<pb::ExploreDecision>(make.decision());
   expect_round_trip<pb::MissionRequest>(make.mission());
   expect_round_trip<pb::MissionStatus>(make.mission_status());
   expect_round_trip<pb::RobotStatus>(make.status());
@@ -126,6 +127,10 @@ TEST(Convert, RefusalsNameTheField) {
   pb::DriveCommand drive = to_message<pb::DriveCommand>(make.drive());
   drive.set_ttl_ns(2'000'000'000);
   expect_refused<api::DriveCommand>(drive, "ttl_ns", Errc::kInvalidArgument);
+  pb::MissionRequest explore;
+  explore.set_id("m");
+  explore.mutable_explore()->set_strategy(static_cast<pb::ExploreStrategy>(6));
+  expect_refused<api::MissionRequest>(explore, "explore.strategy", Errc::kInvalidArgument);
   pb::MissionRequest nothing;
   nothing.set_id("m");
   expect_refused<api::MissionRequest>(nothing, "task", Errc::kInvalidArgument);
@@ -152,6 +157,34 @@ TEST(Convert, SegmentsOfAPeerAreNotTrusted) {
   poses.add_stamp_ns(1);
   poses.add_stamp_ns(2);
   EXPECT_FALSE(from_message<std::vector<api::StampedPose>>(poses));
+}
+
+TEST(Convert, DecisionsOfAPeerAreNotTrusted) {
+  pb::ExploreDecision decision;
+  for (std::size_t k = 0; k <= kMaxDecisionCandidates; ++k) {
+    decision.add_candidates();
+  }
+  expect_refused<ExploreDecision>(decision, "candidates", Errc::kTooLarge);
+  decision = to_message<pb::ExploreDecision>(
+      ExploreDecision{.number = 1, .stamp = {}, .rule = "one-step", .candidates = {{}, {}}, .chosen = 1, .why = ""});
+  EXPECT_TRUE(from_message<ExploreDecision>(decision));
+  decision.set_chosen(2);
+  expect_refused<ExploreDecision>(decision, "chosen", Errc::kInvalidArgument);
+  decision.clear_chosen();
+  decision.mutable_candidates(1)->set_score(-std::numeric_limits<double>::infinity());
+  expect_refused<ExploreDecision>(decision, "candidates[1].score", Errc::kInvalidArgument);
+  decision.mutable_candidates(1)->clear_map_t_base();
+  expect_refused<ExploreDecision>(decision, "candidates[1].map_t_base", Errc::kInvalidArgument);
+}
+
+TEST(Convert, ADecisionWithTooManyCandidatesTravelsCut) {
+  ExploreDecision decision;
+  decision.candidates.resize(kMaxDecisionCandidates + 1);
+  decision.chosen = static_cast<std::uint32_t>(kMaxDecisionCandidates);
+  const auto back = from_message<ExploreDecision>(to_message<pb::ExploreDecision>(decision));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->candidates.size(), kMaxDecisionCandidates);
+  EXPECT_FALSE(back->chosen) << "what was chosen did not travel";
 }
 
 TEST(Convert, SizesAreBoundedBeforeMemoryIsSpent) {

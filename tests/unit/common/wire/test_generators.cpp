@@ -82,6 +82,21 @@ api::GridReport ValueMaker::grid() {
   return g;
 }
 
+ExploreDecision ValueMaker::decision() {
+  ExploreDecision d;
+  d.number = rng_.bits();
+  d.stamp = time();
+  d.rule = text();
+  for (int k = count(4); k > 0; --k) {
+    d.candidates.push_back({pose(), {number(), number()}, number(), number(), number(), number(), number(), text()});
+  }
+  if (!d.candidates.empty() && flag()) {
+    d.chosen = static_cast<std::uint32_t>(rng_.below(d.candidates.size()));
+  }
+  d.why = text();
+  return d;
+}
+
 api::MissionRequest ValueMaker::mission() {
   api::MissionRequest m;
   m.id = "m-" + std::to_string(count(99));
@@ -89,7 +104,7 @@ api::MissionRequest ValueMaker::mission() {
   if (flag()) {
     m.time_limit = Duration(count(1'000'000));
   }
-  switch (count(2)) {
+  switch (count(3)) {
     case 0: {
       api::SearchMission search;
       for (int k = count(3); k > 0; --k) {
@@ -103,6 +118,7 @@ api::MissionRequest ValueMaker::mission() {
       }
       search.keep_out = {points(), points()};
       search.gaps_only = flag();
+      search.explore = flag();
       m.task = search;
       break;
     }
@@ -112,6 +128,14 @@ api::MissionRequest ValueMaker::mission() {
         go.final_heading_rad = number();
       }
       m.task = go;
+      break;
+    }
+    case 2: {
+      api::ExploreMission explore{one_of(api::ExploreStrategy::kGain), {}, {points()}, flag()};
+      if (flag()) {
+        explore.bound = points();
+      }
+      m.task = explore;
       break;
     }
     default: m.task = api::ReturnMission{};
@@ -137,6 +161,9 @@ api::MissionStatus ValueMaker::mission_status() {
   }
   m.planned_path = points();
   m.link_policy = one_of(api::LinkPolicy::kReturn);
+  if (flag()) {
+    m.decision = decision();
+  }
   if (m.state == api::MissionState::kEnded) {
     m.end = api::MissionEnd{one_of(api::Outcome::kFault), text(), text(), points()};
   }

@@ -41,7 +41,7 @@ class MissionExecutorTest : public ::testing::Test {
               return std::unique_ptr<Behaviour>(std::make_unique<ScriptedBehaviour>(script));
             },
             {.event = [this](const api::Event& event) { events.push_back(event); },
-             .status = [](const api::MissionStatus& /*status*/) {},
+             .status = [this](const api::MissionStatus& status) { reports.push_back(status); },
              .detection = [](const api::Detection& /*detection*/) {}}) {
     situation.pose.quality = LocalisationQuality::kLocalised;
   }
@@ -65,6 +65,7 @@ class MissionExecutorTest : public ::testing::Test {
   std::shared_ptr<Script> script = std::make_shared<Script>();
   std::vector<std::string> made;
   std::vector<api::Event> events;
+  std::vector<api::MissionStatus> reports;
   Situation situation;
   WallTime wall;
   MissionExecutor executor;
@@ -173,6 +174,24 @@ TEST_F(MissionExecutorTest, LostPoseEndsTheMissionAfterTheGrace) {
   static_cast<void>(tick());
   static_cast<void>(tick(11.0));
   EXPECT_EQ(end().outcome, api::Outcome::kLost);
+}
+
+TEST_F(MissionExecutorTest, DecisionIsReportedAtOnceAndOnlyOnceButKept) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  script->next.phase = "explore";
+  static_cast<void>(tick());
+  const std::size_t before = reports.size();
+  script->next.exploration = ExploreDecision{
+      .number = 1, .stamp = situation.now, .rule = "one-step", .candidates = {{}}, .chosen = 0, .why = "it is near"};
+  static_cast<void>(tick());
+  ASSERT_EQ(reports.size(), before + 1) << "no report period has passed";
+  EXPECT_EQ(reports.back().decision, script->next.exploration);
+  script->next.exploration.reset();
+  static_cast<void>(tick(2.0));
+  ASSERT_EQ(reports.size(), before + 2);
+  EXPECT_FALSE(reports.back().decision);
+  ASSERT_TRUE(executor.last()->decision);
+  EXPECT_EQ(executor.last()->decision->number, 1U);
 }
 
 TEST_F(MissionExecutorTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {

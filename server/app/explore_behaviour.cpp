@@ -1,0 +1,123 @@
+#include "server/app/explore_behaviour.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "common/core/assert.hpp"
+
+namespace seeker::app {
+namespace {
+
+explore::Strategy to_explore(api::ExploreStrategy strategy) {
+  switch (strategy) {
+    case api::ExploreStrategy::kActive: return explore::Strategy::kActive;
+    case api::ExploreStrategy::kHorizon: return explore::Strategy::kHorizon;
+    case api::ExploreStrategy::kRoam: return explore::Strategy::kRoam;
+    case api::ExploreStrategy::kFrontier: return explore::Strategy::kFrontier;
+    case api::ExploreStrategy::kGain: return explore::Strategy::kGain;
+  }
+  return explore::Strategy::kActive;
+}
+
+api::Outcome to_api(explore::EndKind kind) {
+  switch (kind) {
+    case explore::EndKind::kComplete: return api::Outcome::kComplete;
+    case explore::EndKind::kBoundReached: return api::Outcome::kBoundReached;
+    case explore::EndKind::kUnreachable: return api::Outcome::kUnreachable;
+    case explore::EndKind::kUncertain: return api::Outcome::kUncertain;
+    case explore::EndKind::kBattery: return api::Outcome::kBattery;
+  }
+  return api::Outcome::kFault;
+}
+
+api::Severity severity_of(const explore::ExploreEvent& event) {
+  const bool trouble = event.kind == "uncertain" || event.kind == "battery" || event.kind == "unreachable";
+  return trouble ? api::Severity::kWarning : api::Severity::kInfo;
+}
+
+/// "(1.20, -0.45) m, score -2.61 of J1 -0.50 J21 -1.25 J22 -3.00, way 0.6 m"
+std::string describe(const DecisionCandidate& c) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), "(%.2f, %.2f) m, score %.2f of J1 %.2f J21 %.2f J22 %.2f, way %.1f m",
+                c.map_T_base.x_m, c.map_T_base.y_m, c.score, c.lg_j1, c.lg_j21, c.lg_j22, c.path_m);
+  return text.data();
+}
+
+}  // namespace
+
+Status check_map_grows(const Situation& situation) {
+  if (situation.tracker == nullptr) {
+    return fail(Errc::kRefused,
+                "this robot's estimator keeps no map of segments that could be explored; start it with "
+                "--set estimator=line_slam");
+  }
+  if (situation.map_is_read_only) {
+    return fail(Errc::kRefused, "the robot only localises in its map, which does not grow; load it without --localise");
+  }
+  return {};
+}
+
+std::string describe(const ExploreDecision& decision) {
+  std::string text = std::to_string(decision.number) + " " + decision.rule + ": " + decision.why;
+  if (decision.chosen && *decision.chosen < decision.candidates.size()) {
+    text += "; to " + describe(decision.candidates[*decision.chosen]);
+  }
+  return text + "; " + std::to_string(decision.candidates.size()) + " candidates";
+}
+
+Result<std::unique_ptr<Behaviour>> ExploreBehaviour::create(const explore::ExploreParams& params,
+                                                            const api::ExploreMission& mission,
+                                                            const Situation& situation) {
+  if (const Status grows = check_map_grows(situation); !grows) {
+    return tl::unexpected<Error>(grows.error());
+  }
+  explore::ExploreRequest request;
+  request.strategy = to_explore(mission.strategy);
+  request.areas.bound = mission.bound;
+  request.areas.keep_out = mission.keep_out;
+  request.return_to_start = mission.return_to_start;
+  Result<explore::Exploration> core = explore::Exploration::create(request, params);
+  if (!core) {
+    return tl::unexpected<Error>(core.error());
+  }
+  return std::unique_ptr<Behaviour>(new ExploreBehaviour(std::move(*core)));
+}
+
+Decision ExploreBehaviour::step(const Situation& situation) {
+  SEEKER_ASSERT(situation.tracker != nullptr);
+  const slam::MapTracker& tracker = *situation.tracker;
+  explore::ExploreStep step = exploration_.step({.now = situation.now,
+                                                 .pose = situation.pose,
+                                                 .velocity = situation.velocity,
+                                                 .sonar = situation.sonar,
+                                                 .laser = situation.scan,
+                                                 .map = *situation.map,
+                                                 .segments = segments_.of(tracker),
+                                                 .segments_revision = tracker.revision(),
+                                                 .belief = tracker.local_belief(),
+                                                 .battery_v = situation.battery_v});
+  Decision decision;
+  decision.command = step.command;
+  decision.step_done = step.step_done;
+  decision.phase = std::move(step.phase);
+  decision.activity = std::move(step.activity);
+  decision.progress = step.progress;
+  decision.planned_path = std::move(step.planned_path);
+  for (explore::ExploreEvent& event : step.events) {
+    const api::Severity severity = severity_of(event);
+    decision.events.push_back({std::move(event.kind), std::move(event.text), severity});
+  }
+  if (step.decision) {
+    decision.events.push_back({"decision", describe(*step.decision), api::Severity::kInfo});
+    decision.exploration = std::move(step.decision);
+  }
+  if (step.end) {
+    decision.end = api::MissionEnd{.outcome = to_api(step.end->kind),
+                                   .cause = step.end->cause,
+                                   .remedy = step.end->remedy,
+                                   .unreachable = step.end->unreachable};
+  }
+  return decision;
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,37 @@
+/// \file
+/// Mission `explore`: the exploration of server/explore behind the loop's behaviour interface.
+#pragma once
+
+#include <memory>
+
+#include "server/app/behaviour.hpp"
+#include "server/app/segment_view.hpp"
+#include "server/explore/exploration.hpp"
+
+namespace seeker::app {
+
+/// kRefused where the robot's map of segments cannot grow: the estimator keeps none, or it is only localised in.
+[[nodiscard]] Status check_map_grows(const Situation& situation);
+
+/// The sentence of a decision in the mission's log: what was chosen and what spoke for it.
+[[nodiscard]] std::string describe(const ExploreDecision& decision);
+
+class ExploreBehaviour final : public Behaviour {
+ public:
+  /// Errors of check_map_grows() and of explore::Exploration::create().
+  [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(const explore::ExploreParams& params,
+                                                                 const api::ExploreMission& mission,
+                                                                 const Situation& situation);
+
+  [[nodiscard]] Decision step(const Situation& situation) override;
+  void resumed(RobotTime now) override { exploration_.resume(now); }
+  void map_moved(const Pose2& new_T_old) override { exploration_.transform(new_T_old); }
+
+ private:
+  explicit ExploreBehaviour(explore::Exploration exploration) : exploration_(std::move(exploration)) {}
+
+  explore::Exploration exploration_;
+  SegmentView segments_;
+};
+
+}  // namespace seeker::app
