@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/core/angle.hpp"
+#include "server/slam/odometry_tracker.hpp"
 
 namespace seeker::explore {
 
@@ -35,7 +36,11 @@ struct OneStepParams {
   int trap_decisions = 3;
   int max_observed = 32;       ///< segments that a prediction updates, the nearest: bounds the cost of a decision
   bool escape_by_path = true;  ///< when no wall leads on, drive to what is left by planned paths; false: as printed
+  /// What is known of the floor counts too: walls do not go on where the floor was seen to be free, and obstacles that
+  /// are no walls hide what is behind them. false: as printed, mapped segments only.
+  bool use_floor = true;
   SensorModel sensor;
+  slam::OdometryParams odometry;  ///< of the predictions; only its noise counts
 };
 
 struct WallParams {

@@ -5,6 +5,16 @@
 
 namespace seeker::slam {
 
+Matrix3 increment_covariance(const Pose2& increment, const OdometryParams& params) {
+  const double way_m = std::hypot(increment.x_m, increment.y_m);
+  const double turn_rad = std::abs(increment.theta_rad);
+  const auto square = [](double x) { return x * x; };
+  return Eigen::Vector3d(
+             square(params.along_sigma_m_per_sqrt_m) * way_m, square(params.across_sigma_m_per_sqrt_m) * way_m,
+             square(params.theta_sigma_rad_per_sqrt_m) * way_m + square(params.theta_sigma_rad_per_sqrt_rad) * turn_rad)
+      .asDiagonal();
+}
+
 OdometryTracker::OdometryTracker(const OdometryParams& params, const Pose2& map_T_base) : params_(params) {
   reset(map_T_base);
 }
@@ -16,17 +26,6 @@ void OdometryTracker::reset(const Pose2& map_T_base) {
   estimate_.map_T_base = map_T_base;
   estimate_.cause = "no odometry yet";
   last_odom_T_base_.reset();
-}
-
-Matrix3 OdometryTracker::increment_covariance(const Pose2& increment) const {
-  const double way_m = std::hypot(increment.x_m, increment.y_m);
-  const double turn_rad = std::abs(increment.theta_rad);
-  const auto square = [](double x) { return x * x; };
-  return Eigen::Vector3d(square(params_.along_sigma_m_per_sqrt_m) * way_m,
-                         square(params_.across_sigma_m_per_sqrt_m) * way_m,
-                         square(params_.theta_sigma_rad_per_sqrt_m) * way_m +
-                             square(params_.theta_sigma_rad_per_sqrt_rad) * turn_rad)
-      .asDiagonal();
 }
 
 bool OdometryTracker::is_jump(const Pose2& increment, double dt_s) const {
@@ -62,8 +61,8 @@ Status OdometryTracker::predict(const Pose2& odom_T_base, RobotTime stamp) {
   }
   const Matrix3 to_a = compose_jacobian_a(estimate_.map_T_base, increment);
   const Matrix3 to_b = compose_jacobian_b(estimate_.map_T_base, increment);
-  estimate_.covariance =
-      to_a * estimate_.covariance * to_a.transpose() + to_b * increment_covariance(increment) * to_b.transpose();
+  estimate_.covariance = to_a * estimate_.covariance * to_a.transpose() +
+                         to_b * increment_covariance(increment, params_) * to_b.transpose();
   estimate_.map_T_base = estimate_.map_T_base * increment;
   return {};
 }

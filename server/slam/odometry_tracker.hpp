@@ -22,6 +22,9 @@ struct OdometryParams {
   double jump_sigma_rad = 0.3;
 };
 
+/// Noise of one increment: covariance of d in increment (+) d, that is in the frame of the new pose.
+[[nodiscard]] Matrix3 increment_covariance(const Pose2& increment, const OdometryParams& params);
+
 class OdometryTracker final : public PoseTracker {
  public:
   explicit OdometryTracker(const OdometryParams& params = {}, const Pose2& map_T_base = {});
@@ -38,7 +41,6 @@ class OdometryTracker final : public PoseTracker {
   void set_quality(LocalisationQuality quality, std::string cause);
 
  private:
-  [[nodiscard]] Matrix3 increment_covariance(const Pose2& increment) const;
   [[nodiscard]] bool is_jump(const Pose2& increment, double dt_s) const;
 
   OdometryParams params_;

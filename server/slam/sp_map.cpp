@@ -318,6 +318,26 @@ Eigen::MatrixXd SpMap::segment_robot_covariance(SegmentId id) const {
   return columns.middleRows(rows.at, rows.count());
 }
 Eigen::MatrixXd SpMap::covariance() const { return state_->p.full(); }
+Eigen::MatrixXd SpMap::joint_covariance(const std::vector<SegmentId>& ids) const {
+  std::vector<Index> rows{0, 1, 2};
+  rows.reserve(kRobotRows + kMaxSegmentRows * ids.size());
+  for (const SegmentId id : ids) {
+    const std::optional<std::size_t> segment = state_->index_of(id);
+    SEEKER_ASSERT(segment.has_value());
+    const SegmentRows own = state_->rows_of(*segment);
+    for (Index k = 0; k < own.count(); ++k) {
+      rows.push_back(own.at + k);
+    }
+  }
+  const auto n = static_cast<Index>(rows.size());
+  Eigen::MatrixXd joint(n, n);
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      joint(i, j) = state_->p(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
+    }
+  }
+  return joint;
+}
 const Observability& SpMap::observability() const { return state_->observability; }
 std::uint64_t SpMap::scans() const { return state_->scans; }
 const SpMapParams& SpMap::params() const { return state_->params; }

@@ -137,6 +137,8 @@ class SpMap {
   [[nodiscard]] Eigen::MatrixXd segment_robot_covariance(SegmentId id) const;  ///< rows of the segment x 3 of d_R
   /// All of it: 3 rows of d_R, then the rows of every segment in the order of segments().
   [[nodiscard]] Eigen::MatrixXd covariance() const;
+  /// The part of it for the robot and these segments, in the order given. Every id must be of this map.
+  [[nodiscard]] Eigen::MatrixXd joint_covariance(const std::vector<SegmentId>& ids) const;
   [[nodiscard]] const Observability& observability() const;  ///< of the last update
   [[nodiscard]] std::uint64_t scans() const;                 ///< updates so far
   [[nodiscard]] const SpMapParams& params() const;
