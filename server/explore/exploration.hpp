@@ -62,7 +62,7 @@ struct ExploreEvent {
 
 struct ExploreStep {
   Twist2 command;
-  std::string phase;  ///< a strategy's, "regain", "return", "stopped", "done"
+  std::string phase;  ///< a strategy's, "wait", "regain", "return", "stopped", "done"
   std::string activity;
   double progress = 0.0;  ///< 0..1: known reachable floor over that and what is estimated to lie behind the openings
   bool step_done = false;

@@ -44,7 +44,7 @@ class ExploreStrategy {
   virtual ~ExploreStrategy() = default;
 
   [[nodiscard]] virtual StrategyStep step(const StrategyInput& input) = 0;
-  /// Something else moved the robot meanwhile: present drives are void.
+  /// Something else moved the robot, or time passed: present drives are void, and one that was done looks again.
   virtual void interrupted(RobotTime now) = 0;
   /// The map moved: `new_T_old` takes places of the map before to the map now.
   virtual void transform(const Pose2& new_T_old) = 0;

@@ -1,6 +1,7 @@
 #include "server/nav/frontiers.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace seeker::nav {
 namespace {
@@ -20,12 +21,11 @@ Frontier take_frontier(Grid<std::uint8_t>& mark, const DistanceField& costs, Cel
   Frontier frontier;
   frontier.p_map = mark.frame().centre_of(seed);
   frontier.cost = *costs.cost_to(seed);
-  std::vector<CellIndex> open{seed};
+  std::vector<CellIndex>& cells = frontier.cells;
+  cells.push_back(seed);
   mark[seed] = 0;
-  while (!open.empty()) {
-    const CellIndex cell = open.back();
-    open.pop_back();
-    frontier.length_m += mark.frame().resolution_m;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const CellIndex cell = cells[k];
     if (const double cost = *costs.cost_to(cell); cost < frontier.cost) {
       frontier.cost = cost;
       frontier.p_map = mark.frame().centre_of(cell);
@@ -35,11 +35,12 @@ Frontier take_frontier(Grid<std::uint8_t>& mark, const DistanceField& costs, Cel
         const CellIndex next{cell.i + di, cell.j + dj};
         if (mark.contains(next) && mark[next] != 0) {
           mark[next] = 0;
-          open.push_back(next);
+          cells.push_back(next);
         }
       }
     }
   }
+  frontier.length_m = mark.frame().resolution_m * static_cast<double>(cells.size());
   return frontier;
 }
 
@@ -59,9 +60,9 @@ std::vector<Frontier> find_frontiers(const CostMap& map, const DistanceField& co
   std::vector<Frontier> frontiers;
   for (const CellIndex cell : border) {
     if (mark[cell] != 0) {
-      const Frontier frontier = take_frontier(mark, costs, cell);
+      Frontier frontier = take_frontier(mark, costs, cell);
       if (frontier.length_m >= min_length_m) {
-        frontiers.push_back(frontier);
+        frontiers.push_back(std::move(frontier));
       }
     }
   }

@@ -14,6 +14,7 @@ struct Frontier {
   Point2 p_map = Point2::Zero();  ///< its cheapest cell
   double cost = 0.0;              ///< to get there
   double length_m = 0.0;
+  std::vector<CellIndex> cells;  ///< all of it, of the cost map
 };
 
 /// Every frontier of at least `min_length_m`, cheapest first. Only cells that the robot's centre can reach.

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "server/search/text.hpp"
+#include "common/core/text.hpp"
 
 namespace seeker::search {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/core/angle.hpp"
-#include "server/search/text.hpp"
+#include "common/core/text.hpp"
 
 namespace seeker::search {
 namespace {

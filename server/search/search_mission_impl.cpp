@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "common/core/angle.hpp"
+#include "common/core/text.hpp"
 #include "server/search/map_coverage.hpp"
 #include "server/search/paper_coverage.hpp"
-#include "server/search/text.hpp"
 
 namespace seeker::search {
 namespace {

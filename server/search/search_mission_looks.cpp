@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "common/core/angle.hpp"
+#include "common/core/text.hpp"
 #include "server/nav/visibility.hpp"
 #include "server/search/goal_chooser.hpp"
 #include "server/search/search_mission_impl.hpp"
-#include "server/search/text.hpp"
 
 namespace seeker::search {
 namespace {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "common/core/angle.hpp"
+#include "common/core/text.hpp"
 #include "server/nav/visibility.hpp"
 #include "server/search/goal_chooser.hpp"
-#include "server/search/text.hpp"
 
 namespace seeker::search {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "common/core/pose2.hpp"
 
-namespace seeker::search {
+namespace seeker {
 
 /// "(1.25, -0.40)"
 [[nodiscard]] std::string text(const Point2& p_map);
 /// "1.25"
 [[nodiscard]] std::string text(double value);
 
-}  // namespace seeker::search
+}  // namespace seeker

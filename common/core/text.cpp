@@ -1,9 +1,9 @@
-#include "server/search/text.hpp"
+#include "common/core/text.hpp"
 
 #include <array>
 #include <cstdio>
 
-namespace seeker::search {
+namespace seeker {
 
 std::string text(double value) {
   std::array<char, 352> buffer{};
@@ -16,4 +16,4 @@ std::string text(double value) {
 
 std::string text(const Point2& p_map) { return "(" + text(p_map.x()) + ", " + text(p_map.y()) + ")"; }
 
-}  // namespace seeker::search
+}  // namespace seeker

@@ -1,0 +1,50 @@
+#include "server/explore/exploration.hpp"
+
+#include <utility>
+
+#include "server/explore/exploration_impl.hpp"
+#include "server/explore/make_strategy.hpp"
+
+namespace seeker::explore {
+namespace {
+
+Status validate(const nav::ForbiddenAreas& areas) {
+  if (areas.bound) {
+    if (const Status bound = validate_polygon(*areas.bound); !bound) {
+      return fail_with_context("bound", bound.error());
+    }
+  }
+  for (const Polygon& polygon : areas.keep_out) {
+    if (const Status valid = validate_polygon(polygon); !valid) {
+      return fail_with_context("keep-out area", valid.error());
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Exploration> Exploration::create(const ExploreRequest& request, const ExploreParams& params) {
+  if (const Status valid = explore::validate(params); !valid) {
+    return tl::unexpected(valid.error());
+  }
+  if (const Status valid = validate(request.areas); !valid) {
+    return tl::unexpected(valid.error());
+  }
+  auto strategy = make_strategy(request.strategy, params);
+  if (!strategy) {
+    return tl::unexpected(strategy.error());
+  }
+  return Exploration(std::make_unique<Impl>(request, params, std::move(*strategy)));
+}
+
+Exploration::Exploration(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Exploration::Exploration(Exploration&&) noexcept = default;
+Exploration& Exploration::operator=(Exploration&&) noexcept = default;
+Exploration::~Exploration() = default;
+
+ExploreStep Exploration::step(const ExploreInput& input) { return impl_->step(input); }
+void Exploration::resume(RobotTime now) { impl_->resume(now); }
+void Exploration::transform(const Pose2& new_T_old) { impl_->transform(new_T_old); }
+
+}  // namespace seeker::explore

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <utility>
+
+#include "common/core/text.hpp"
+#include "server/explore/exploration_impl.hpp"
+#include "server/explore/openings.hpp"
+#include "server/nav/frontiers.hpp"
+
+namespace seeker::explore {
+namespace {
+
+/// Places so near to each other are told of once.
+constexpr double kSamePlace_m = 1.0;
+constexpr std::size_t kMaxUnreachable = 64;
+/// How deep unknown floor is taken to be behind a metre of its border, for the progress.
+constexpr double kDepthBehindBorder_m = 2.0;
+constexpr double kProgressPeriod_s = 3.0;
+/// So far beyond the border of the unknown lies what it leads to.
+constexpr double kBeyond_m = 0.3;
+/// The floor grew by so much: waiting had a use.
+constexpr double kNewFloor_m2 = 2.0;
+
+void add_places(const std::vector<Point2>& from, std::vector<Point2>& to) {
+  for (const Point2& p : from) {
+    if (to.size() < kMaxUnreachable && !nav::near_any(p, to, kSamePlace_m)) {
+      to.push_back(p);
+    }
+  }
+}
+
+/// Whether unknown floor would be left if nothing was forbidden: then the limits are why the exploration ends.
+bool more_beyond_limits(const nav::FloorView& floor, const nav::ForbiddenAreas& areas, const Point2& robot_map,
+                        const ExploreParams& params) {
+  if (areas.empty()) {
+    return false;
+  }
+  const auto open_map = nav::CostMap::build(floor.occupancy, params.cost);
+  if (!open_map) {
+    return false;
+  }
+  const auto costs = nav::DistanceField::build(*open_map, robot_map);
+  if (!costs) {
+    return false;
+  }
+  const nav::ForbiddenAreas nothing;
+  const std::vector<MapSegment> no_walls;
+  const nav::FloorView open_floor{floor.occupancy, *open_map, floor.reachable, floor.revision, floor.built};
+  const std::vector<Opening> openings = frontier_openings(
+      {open_floor, *costs, no_walls, nothing, {robot_map.x(), robot_map.y(), 0.0}, floor.built}, params.viewpoints);
+  return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
+    return !areas.allows(opening.p_map) || !areas.allows(opening.p_map + kBeyond_m * opening.outward_map);
+  });
+}
+
+ExploreEnd unreachable_end(std::vector<Point2> places) {
+  std::string list;
+  for (const Point2& p : places) {
+    list += (list.empty() ? "" : ", ") + text(p);
+  }
+  return {EndKind::kUnreachable, "no way leads to what is left: " + list,
+          "open doors or clear the way, then explore again; or give a bound without these places", std::move(places)};
+}
+
+}  // namespace
+
+Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& input) {
+  Left left;
+  const auto floor = floors_.view(true);
+  const Point2 here = input.map_T_base.translation();
+  if (!floor) {
+    left.no_floor = floor.error();
+    return left;
+  }
+  if (const auto costs = nav::DistanceField::build((*floor)->cost, here)) {
+    left.cut_off = cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2);
+  }
+  for (const Point2& p : left.cut_off) {
+    if (known_floor_.contains(p)) {
+      left.blocked.push_back(p);
+    }
+  }
+  left.beyond_limits = more_beyond_limits(**floor, request_.areas, here, params_);
+  return left;
+}
+
+/// Somebody who stands in the way is given some time to go on.
+void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out) {
+  const Left left = what_is_left(input);
+  if (known_floor_.present_area_m2() > floor_at_wait_m2_ + kNewFloor_m2) {
+    waits_ = 0;
+  }
+  if (!left.blocked.empty() && waits_ < params_.viewpoints.max_failures) {
+    ++waits_;
+    floor_at_wait_m2_ = known_floor_.present_area_m2();
+    waiting_since_ = input.now;
+    out.phase = "wait";
+    out.activity = "waiting for the way to " + text(left.blocked.front()) + " to become free again";
+    return;
+  }
+  conclude(end_for(left, last, input.map_T_base.translation()), input.now, out);
+}
+
+ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last, const Point2& here_map) const {
+  if (left.no_floor) {
+    return {EndKind::kUnreachable,
+            left.no_floor->message,
+            "set the robot on free floor inside the bound, then explore",
+            {here_map}};
+  }
+  std::vector<Point2> unreachable;
+  add_places(last.unreachable, unreachable);
+  add_places(left.cut_off, unreachable);
+  if (!unreachable.empty()) {
+    return unreachable_end(std::move(unreachable));
+  }
+  const std::string known = text(known_floor_.present_area_m2()) + " m2 of floor are known";
+  if (left.beyond_limits) {
+    return {EndKind::kBoundReached,
+            known + "; all that is left lies beyond the bound or in kept-out ground",
+            "give a wider bound to explore on",
+            {}};
+  }
+  return {EndKind::kComplete, known + "; nothing is left to explore", "none is needed", {}};
+}
+
+void Exploration::Impl::conclude(ExploreEnd end, RobotTime now, ExploreStep& out) {
+  if (end.kind == EndKind::kUnreachable) {
+    out.events.push_back({"unreachable", end.cause});
+  }
+  if (end.kind == EndKind::kComplete) {
+    progress_ = 1.0;
+  }
+  if (!request_.return_to_start) {
+    end_ = std::move(end);
+    return;
+  }
+  out.events.push_back({"return", "driving back to the start: " + end.cause});
+  pending_end_ = std::move(end);
+  mode_ = Mode::kReturn;
+  home_.go(*start_, now);
+  out.phase = "return";
+  out.activity = "driving back to the start";
+}
+
+void Exploration::Impl::measure_progress(RobotTime now) {
+  if (mode_ == Mode::kReturn || (measured_at_ && to_seconds(now - *measured_at_) < kProgressPeriod_s)) {
+    return;
+  }
+  measured_at_ = now;
+  const auto view = floors_.view();
+  if (!view) {
+    return;
+  }
+  const Grid<std::uint8_t>& floor = (*view)->reachable;
+  const nav::CostMap& cost = (*view)->cost;
+  const double cell_m = floor.frame().resolution_m;
+  const auto unknown = [&](CellIndex c) {
+    return cost.state(cost.frame().cell_of(floor.frame().centre_of(c))) == nav::CellState::kUnknown;
+  };
+  known_floor_.add(floor);
+  const double known_m2 = known_floor_.present_area_m2();
+  double border_m = 0.0;
+  for (CellIndex c{0, 0}; c.j < floor.height(); ++c.j) {
+    for (c.i = 0; c.i < floor.width(); ++c.i) {
+      if (floor[c] != 0) {
+        const bool border =
+            unknown({c.i + 1, c.j}) || unknown({c.i - 1, c.j}) || unknown({c.i, c.j + 1}) || unknown({c.i, c.j - 1});
+        border_m += border ? cell_m : 0.0;
+      }
+    }
+  }
+  progress_ = known_m2 > 0.0 ? known_m2 / (known_m2 + kDepthBehindBorder_m * border_m) : 0.0;
+}
+
+}  // namespace seeker::explore

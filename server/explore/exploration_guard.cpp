@@ -1,0 +1,113 @@
+#include <utility>
+
+#include "common/core/text.hpp"
+#include "server/explore/exploration_impl.hpp"
+
+namespace seeker::explore {
+namespace {
+
+/// Accelerating motors pull the voltage down for a moment.
+constexpr double kBatterySag_s = 5.0;
+/// Going back so often without having seen new floor in between does not help.
+constexpr int kFruitlessRegains = 3;
+constexpr double kNewFloor_m2 = 2.0;
+
+}  // namespace
+
+void Exploration::Impl::check_battery(const ExploreInput& input, ExploreStep& out) {
+  const bool low = input.battery_v && *input.battery_v < params_.guard.battery_reserve_v;
+  if (!low || !battery_checked_) {
+    battery_low_since_.reset();
+    return;
+  }
+  if (!battery_low_since_) {
+    battery_low_since_ = input.now;
+  }
+  if (to_seconds(input.now - *battery_low_since_) < kBatterySag_s) {
+    return;
+  }
+  battery_checked_ = false;
+  const std::string cause = "the battery is down to its reserve (" + text(*input.battery_v) + " V)";
+  out.events.push_back({"battery", cause});
+  if (mode_ == Mode::kReturn) {
+    return;  // on its way home anyhow
+  }
+  conclude({EndKind::kBattery, cause, "charge the battery, then explore again: the map so far is kept", {}},
+           input.now - paused_, out);
+}
+
+void Exploration::Impl::check_certainty(const StrategyInput& input, double sigma_m, ExploreStep& out) {
+  if (mode_ == Mode::kExplore && !end_ && sigma_m > params_.guard.max_position_sigma_m) {
+    begin_regain(input, sigma_m, out);
+  }
+}
+
+void Exploration::Impl::begin_regain(const StrategyInput& input, double sigma_m, ExploreStep& out) {
+  fruitless_regains_ = known_floor_.present_area_m2() > floor_at_regain_m2_ + kNewFloor_m2 ? 0 : fruitless_regains_ + 1;
+  floor_at_regain_m2_ = known_floor_.present_area_m2();
+  const std::string cause = "the robot's position is uncertain by " + text(sigma_m) + " m";
+  if (fruitless_regains_ > kFruitlessRegains) {
+    end_ = ExploreEnd{EndKind::kUncertain,
+                      cause + ", again at the same place",
+                      "what is left cannot be explored with so much certainty: raise the limit, or add things that the "
+                      "robot can recognise there",
+                      {}};
+    return;
+  }
+  mode_ = Mode::kRegain;
+  regain_since_ = input.now;
+  back_driving_ = false;
+  const std::vector<Point2> way = trail_.way_to_certainty();
+  back_way_.assign(way.begin(), way.end());
+  out.events.push_back({"uncertain", cause + "; going back along its trail to where it was certain"});
+}
+
+void Exploration::Impl::regain(const StrategyInput& input, double sigma_m, ExploreStep& out) {
+  out.phase = "regain";
+  out.activity = "going back to where the robot was certain of its position, now " + text(sigma_m) + " m";
+  if (sigma_m < params_.guard.regain_position_sigma_m) {
+    out.events.push_back({"certain", "the robot's position is certain to " + text(sigma_m) + " m again"});
+    mode_ = Mode::kExplore;
+    trail_.cut_after(input.map_T_base.translation());
+    strategy_->interrupted(input.now);
+    out.step_done = true;
+    return;
+  }
+  if (to_seconds(input.now - regain_since_) > params_.guard.regain_time_s) {
+    end_ = ExploreEnd{EndKind::kUncertain,
+                      "the robot's position is uncertain by " + text(sigma_m) + " m, and going back did not help",
+                      "localise the robot, then explore again: the map so far is kept",
+                      {}};
+    return;
+  }
+  if (back_way_.empty()) {
+    out.activity = "waiting where the robot was most certain of its position";
+    return;
+  }
+  if (!std::exchange(back_driving_, true)) {
+    back_.go(back_way_.front(), input.now);
+  }
+  const nav::DriveStep driven = back_.step(input);
+  out.command = driven.command;
+  out.planned_path = back_.path();
+  if (driven.state != nav::DriveState::kDriving) {  // arrived, or no way there: on to the next
+    back_way_.pop_front();
+    back_driving_ = false;
+  }
+}
+
+void Exploration::Impl::go_home(const StrategyInput& input, ExploreStep& out) {
+  out.phase = "return";
+  out.activity = "driving back to the start";
+  const nav::DriveStep driven = home_.step(input);
+  out.command = driven.command;
+  out.planned_path = home_.path();
+  if (driven.state == nav::DriveState::kFailed) {
+    pending_end_->cause += "; the way back to the start is blocked: " + driven.reason;
+  }
+  if (driven.state != nav::DriveState::kDriving) {
+    end_ = std::move(pending_end_);
+  }
+}
+
+}  // namespace seeker::explore

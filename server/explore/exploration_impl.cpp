@@ -1,0 +1,198 @@
+#include "server/explore/exploration_impl.hpp"
+
+#include <utility>
+
+namespace seeker::explore {
+namespace {
+
+/// Ways home and back to certainty are tried so often.
+constexpr int kHomeAttempts = 4;
+constexpr int kBackAttempts = 2;
+constexpr double kRetry_s = 15.0;
+
+}  // namespace
+
+Exploration::Impl::Impl(const ExploreRequest& request, const ExploreParams& params,
+                        std::unique_ptr<ExploreStrategy> strategy)
+    : request_(request),
+      params_(params),
+      strategy_(std::move(strategy)),
+      floors_(params.cost, request.areas, params.floor_cell_m, params.map_period_s),
+      home_(params.driver, kHomeAttempts, kRetry_s),
+      back_(params.driver, kBackAttempts, kRetry_s) {}
+
+StrategyInput Exploration::Impl::strategy_input(const ExploreInput& input) {
+  return {{input.now - paused_, input.pose.map_T_base, input.sonar, input.laser, floors_},
+          input.velocity,
+          input.pose.covariance,
+          input.segments,
+          input.segments_revision,
+          input.belief};
+}
+
+ExploreStep Exploration::Impl::step(const ExploreInput& input) {
+  ExploreStep out;
+  out.phase = "done";
+  const RobotTime before = last_now_.value_or(input.now);
+  last_now_ = input.now;
+  if (!end_) {
+    if (std::string why = cause_to_stand(input); !why.empty()) {
+      paused_ += standing_ ? input.now - before : Duration{0};
+      stand(input, std::move(why), out);
+    } else {
+      act(input, out);
+    }
+  }
+  if (end_) {
+    out.command = {};
+    out.phase = "done";
+    out.activity = end_->cause;
+    out.planned_path.clear();
+    out.step_done = true;
+    out.end = end_;
+  }
+  out.progress = progress_;
+  if (out.decision) {
+    out.decision->number = ++decisions_;
+    out.decision->stamp = input.now;
+  }
+  return out;
+}
+
+std::string Exploration::Impl::cause_to_stand(const ExploreInput& input) const {
+  const LocalisationQuality quality = input.pose.quality;
+  if (quality == LocalisationQuality::kLost || quality == LocalisationQuality::kUnknown ||
+      !is_finite(input.pose.map_T_base) || !input.pose.covariance.allFinite()) {
+    return "the robot does not know where it is" + (input.pose.cause.empty() ? "" : ": " + input.pose.cause);
+  }
+  if (input.laser == nullptr && input.sonar == nullptr) {
+    return "there are no range readings";
+  }
+  return {};
+}
+
+/// Time of standing does not count for drives; too long of it ends the exploration.
+void Exploration::Impl::stand(const ExploreInput& input, std::string why, ExploreStep& out) {
+  if (!std::exchange(standing_, true)) {
+    lost_since_ = input.now;
+  }
+  out.phase = "stopped";
+  out.activity = why + "; standing still";
+  if (to_seconds(input.now - lost_since_) > params_.guard.regain_time_s) {
+    end_ = ExploreEnd{EndKind::kUncertain,
+                      why,
+                      "localise the robot or look after its range sensors, then explore again: the map so far is kept",
+                      {}};
+  }
+}
+
+void Exploration::Impl::begin(const ExploreInput& input) {
+  if (!start_) {
+    start_ = input.pose.map_T_base.translation();
+  }
+  if (std::exchange(standing_, false)) {
+    strategy_->interrupted(input.now - paused_);
+    home_.interrupted();
+    back_.interrupted();
+  }
+}
+
+void Exploration::Impl::act(const ExploreInput& input, ExploreStep& out) {
+  begin(input);
+  floors_.attend(input.map, input.pose.map_T_base, input.now - paused_);
+  const StrategyInput now = strategy_input(input);
+  sonar_obstacles_.note(now);
+  measure_progress(now.now);
+  const double sigma_m = position_sigma_m(input.pose.covariance);
+  check_battery(input, out);
+  check_certainty(now, sigma_m, out);
+  if (end_) {
+    return;
+  }
+  switch (mode_) {
+    case Mode::kExplore:
+      trail_.note(now.map_T_base.translation(), sigma_m);
+      explore(now, out);
+      break;
+    case Mode::kRegain: regain(now, sigma_m, out); break;
+    case Mode::kReturn: go_home(now, out); break;
+  }
+}
+
+void Exploration::Impl::explore(const StrategyInput& input, ExploreStep& out) {
+  if (waiting_since_) {
+    if (to_seconds(input.now - *waiting_since_) < params_.viewpoints.retry_s) {
+      out.phase = "wait";
+      out.activity = "waiting for the way to become free again";
+      return;
+    }
+    waiting_since_.reset();
+    strategy_->interrupted(input.now);
+  }
+  StrategyStep step = strategy_->step(input);
+  if (step.done) {
+    out.decision = std::move(step.decision);
+    strategy_done(step, input, out);
+    return;
+  }
+  hand_over(std::move(step), out);
+}
+
+void Exploration::Impl::hand_over(StrategyStep&& from, ExploreStep& out) {
+  note_traps(from.phase, from.activity, out);
+  out.command = from.command;
+  out.phase = std::move(from.phase);
+  out.activity = std::move(from.activity);
+  out.planned_path = std::move(from.planned_path);
+  out.step_done = from.step_done;
+  out.decision = std::move(from.decision);
+}
+
+void Exploration::Impl::note_traps(const std::string& phase, const std::string& activity, ExploreStep& out) {
+  const bool was_wall = last_phase_ == "wall";
+  const bool is_wall = phase == "wall";
+  if (is_wall && !was_wall) {
+    out.events.push_back({"trap", activity});
+  } else if (was_wall && !is_wall) {
+    out.events.push_back({"escape", activity});
+  }
+  last_phase_ = phase;
+}
+
+void Exploration::Impl::resume(RobotTime now) {
+  if (!last_now_) {
+    return;
+  }
+  paused_ += now - *last_now_;
+  lost_since_ += now - *last_now_;
+  last_now_ = now;
+  battery_low_since_.reset();
+  strategy_->interrupted(now - paused_);
+  home_.interrupted();
+  back_.interrupted();
+}
+
+void Exploration::Impl::transform(const Pose2& new_T_old) {
+  strategy_->transform(new_T_old);
+  floors_.transform(new_T_old);
+  sonar_obstacles_.transform(new_T_old);
+  trail_.transform(new_T_old);
+  known_floor_.clear();
+  home_.transform(new_T_old);
+  back_.transform(new_T_old);
+  if (start_) {
+    start_ = new_T_old * *start_;
+  }
+  for (Point2& p : back_way_) {
+    p = new_T_old * p;
+  }
+  for (const auto& end : {&pending_end_, &end_}) {
+    if (*end) {
+      for (Point2& p : (*end)->unreachable) {
+        p = new_T_old * p;
+      }
+    }
+  }
+}
+
+}  // namespace seeker::explore

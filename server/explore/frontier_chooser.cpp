@@ -1,0 +1,37 @@
+#include "server/explore/place_strategy.hpp"
+
+namespace seeker::explore {
+namespace {
+
+/// Nearest frontier (Yamauchi 1997), nearest by the cost of the way.
+class FrontierChooser final : public PlaceChooser {
+ public:
+  [[nodiscard]] PlaceChoice choose(const PlaceInput& input) override {
+    PlaceChoice choice;
+    choice.opening = input.openings.front();
+    choice.decision.rule = "frontier";
+    choice.decision.chosen = 0;
+    choice.decision.why = "the nearest border of unknown floor";
+    for (const Opening& opening : input.openings) {
+      if (choice.decision.candidates.size() == kMaxDecisionCandidates) {
+        break;
+      }
+      DecisionCandidate candidate;
+      candidate.map_T_base = opening.map_T_view;
+      candidate.path_m = opening.cost;
+      candidate.score = -opening.cost;
+      choice.decision.candidates.push_back(candidate);
+    }
+    return choice;
+  }
+  [[nodiscard]] bool wants_wall_ends() const override { return false; }
+  [[nodiscard]] bool changes_its_mind() const override { return false; }
+};
+
+}  // namespace
+
+std::unique_ptr<PlaceChooser> make_frontier_chooser(const ExploreParams& /*params*/) {
+  return std::make_unique<FrontierChooser>();
+}
+
+}  // namespace seeker::explore

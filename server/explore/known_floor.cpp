@@ -1,0 +1,50 @@
+#include "server/explore/known_floor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seeker::explore {
+namespace {
+
+/// A grid as fine as `like` that covers both, all zero.
+Grid<std::uint8_t> covering(const Grid<std::uint8_t>& a, const Grid<std::uint8_t>& like) {
+  const double cell_m = like.frame().resolution_m;
+  Point2 low = like.frame().origin;
+  Point2 high = low + cell_m * Point2(like.width(), like.height());
+  if (!a.empty()) {
+    low = low.cwiseMin(a.frame().origin);
+    high = high.cwiseMax(a.frame().origin + cell_m * Point2(a.width(), a.height()));
+  }
+  const Point2 size = (high - low) / cell_m;
+  return {GridFrame{low, cell_m}, static_cast<int>(std::lround(size.x())), static_cast<int>(std::lround(size.y())), 0};
+}
+
+void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from) {
+  for (std::size_t k = 0; k < from.cells().size(); ++k) {
+    if (from.cells()[k] != 0) {
+      to[to.frame().cell_of(from.frame().centre_of(from.cell(k)))] = 1;
+    }
+  }
+}
+
+}  // namespace
+
+void KnownFloor::add(const Grid<std::uint8_t>& reachable) {
+  Grid<std::uint8_t> both = covering(floor_, reachable);
+  copy_into(both, floor_);
+  copy_into(both, reachable);
+  floor_ = std::move(both);
+  const double cell_m = reachable.frame().resolution_m;
+  present_m2_ = cell_m * cell_m *
+                static_cast<double>(std::count_if(reachable.cells().begin(), reachable.cells().end(),
+                                                  [](std::uint8_t cell) { return cell != 0; }));
+}
+
+bool KnownFloor::contains(const Point2& p_map) const {
+  const CellIndex cell = floor_.frame().cell_of(p_map);
+  return floor_.contains(cell) && floor_[cell] != 0;
+}
+
+void KnownFloor::clear() { floor_ = {}; }
+
+}  // namespace seeker::explore

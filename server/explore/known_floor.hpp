@@ -1,0 +1,26 @@
+/// \file
+/// Floor that the robot could reach at some time.
+#pragma once
+
+#include <cstdint>
+
+#include "common/core/grid.hpp"
+
+namespace seeker::explore {
+
+/// Union of the reachable floor of many floor views; their cells lie on multiples of their size, so that they line up.
+class KnownFloor {
+ public:
+  void add(const Grid<std::uint8_t>& reachable);
+  [[nodiscard]] bool contains(const Point2& p_map) const;
+  /// Of the last grid added.
+  [[nodiscard]] double present_area_m2() const { return present_m2_; }
+  /// The map moved: what was known no longer lies on cells.
+  void clear();
+
+ private:
+  Grid<std::uint8_t> floor_;
+  double present_m2_ = 0.0;
+};
+
+}  // namespace seeker::explore

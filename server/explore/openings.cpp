@@ -1,0 +1,140 @@
+#include "server/explore/openings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/angle.hpp"
+#include "common/core/text.hpp"
+#include "server/nav/visibility.hpp"
+
+namespace seeker::explore {
+namespace {
+
+/// Half of what the robot's sensors see, less a margin.
+constexpr double kViewHalfAngle_rad = deg_to_rad(80.0);
+/// A wall seen flatter than this gives no line worth the name.
+constexpr double kFlat_rad = deg_to_rad(12.0);
+/// Beside a wall one looks at the floor before it: the wall's own cells are occupied.
+constexpr double kOffWall_m = 0.15;
+
+}  // namespace
+
+Openings::Openings(const ViewpointParams& params) : params_(params) {}
+
+std::vector<Opening> Openings::find(const OpeningsInput& input) {
+  std::vector<Opening> all = frontier_openings(input, params_);
+  const std::vector<Opening> ends = wall_end_openings(input, params_);
+  all.insert(all.end(), ends.begin(), ends.end());
+  std::vector<Opening> open;
+  open.reserve(all.size());
+  for (Opening& opening : all) {
+    if (is_open(opening, input)) {
+      open.push_back(opening);
+    }
+  }
+  std::stable_sort(open.begin(), open.end(), [](const Opening& a, const Opening& b) { return a.cost < b.cost; });
+  return open;
+}
+
+bool Openings::is_open(Opening& opening, const OpeningsInput& input) {
+  Memory& memory = memory_of(opening);
+  const bool near_enough = opening.kind == OpeningKind::kWallEnd ||
+                           (opening.p_map - input.map_T_base.translation()).norm() < params_.reached_m;
+  if (near_enough && well_in_view(opening, input.map_T_base, input.floor.occupancy, params_)) {
+    count_look(memory, input.now);
+  }
+  opening.id = memory.id;
+  opening.visits = memory.visits;
+  opening.resting = std::any_of(memories_.begin(), memories_.end(), [&](const Memory& other) {
+    return other.failures > 0 && to_seconds(input.now - other.failed_at) < params_.retry_s &&
+           (other.p_map - opening.p_map).norm() < params_.failed_radius_m;
+  });
+  return memory.visits < params_.max_visits && memory.failures < params_.max_failures;
+}
+
+Openings::Memory& Openings::memory_of(const Opening& opening) {
+  Memory* nearest = nullptr;
+  double nearest_m = params_.same_m;
+  for (Memory& memory : memories_) {
+    const double d = (memory.p_map - opening.p_map).norm();
+    if (memory.kind == opening.kind && d < nearest_m) {
+      nearest = &memory;
+      nearest_m = d;
+    }
+  }
+  if (nearest != nullptr) {
+    return *nearest;
+  }
+  Memory& memory = memories_.emplace_back();
+  memory.id = next_id_++;
+  memory.kind = opening.kind;
+  memory.p_map = opening.p_map;
+  return memory;
+}
+
+void Openings::count_look(Memory& memory, RobotTime now) const {
+  if (memory.visits == 0 || to_seconds(now - memory.looked_at) >= params_.look_s) {
+    ++memory.visits;
+    memory.looked_at = now;
+  }
+}
+
+void Openings::looked(const Opening& opening, RobotTime now) { count_look(memory_of(opening), now); }
+
+void Openings::failed(const Opening& opening, RobotTime now) {
+  Memory& memory = memory_of(opening);
+  ++memory.failures;
+  memory.failed_at = now;
+}
+
+std::vector<Point2> Openings::given_up() const {
+  std::vector<Point2> places;
+  for (const Memory& memory : memories_) {
+    if (memory.failures >= params_.max_failures && memory.visits < params_.max_visits) {
+      places.push_back(memory.p_map);
+    }
+  }
+  return places;
+}
+
+void Openings::transform(const Pose2& new_T_old) {
+  for (Memory& memory : memories_) {
+    memory.p_map = new_T_old * memory.p_map;
+  }
+}
+
+std::string describe(const Opening& opening) {
+  if (opening.kind == OpeningKind::kFrontier) {
+    return "the border of unknown floor (" + text(opening.size_m) + " m)";
+  }
+  return "the end of wall " + std::to_string(opening.segment);
+}
+
+bool well_in_view(const Opening& opening, const Pose2& map_T_base, const Grid<std::uint8_t>& occupancy,
+                  const ViewpointParams& params) {
+  const Point2 eye = map_T_base.translation();
+  const bool wall = opening.kind == OpeningKind::kWallEnd;
+  if ((opening.p_map - eye).norm() > params.view_range_m) {
+    return false;
+  }
+  // What counts is what lies behind: the floor beyond a border, the place into which a wall would go on.
+  const Point2 target = opening.p_map + (wall ? params.min_extension_m : params.reached_m) * opening.outward_map;
+  if (std::abs(bearing_to(map_T_base, target)) > kViewHalfAngle_rad) {
+    return false;
+  }
+  nav::VisibilityParams sight;
+  sight.unknown_blocks = false;
+  if (!wall) {
+    return nav::line_of_sight(occupancy, eye, opening.p_map, sight);
+  }
+  const Point2 along = opening.outward_map;
+  const Point2 across(-along.y(), along.x());
+  const double off = across.dot(eye - opening.p_map);
+  if (std::abs(off) < std::sin(kFlat_rad) * (eye - opening.p_map).norm()) {
+    return false;
+  }
+  const Point2 before = target + std::copysign(kOffWall_m, off) * across;
+  return nav::line_of_sight(occupancy, eye, before, sight);
+}
+
+}  // namespace seeker::explore

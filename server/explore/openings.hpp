@@ -1,0 +1,105 @@
+/// \file
+/// What is left to explore: borders of unknown floor, and ends of mapped walls that may go on; each with a place from
+/// which it would be seen.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/core/line_map.hpp"
+#include "common/core/time.hpp"
+#include "server/explore/viewpoint_params.hpp"
+#include "server/nav/floor_view.hpp"
+#include "server/nav/planner.hpp"
+
+namespace seeker::explore {
+
+enum class OpeningKind : std::uint8_t {
+  kFrontier,  ///< border between free floor that the robot can reach and the unknown (Yamauchi 1997)
+  kWallEnd,   ///< virtual end of a segment, beyond which the wall may go on (spec S1.11: it would add to V)
+};
+
+struct Opening {
+  std::uint64_t id = 0;  ///< stays the same while it is the same opening; never 0
+  OpeningKind kind = OpeningKind::kFrontier;
+  Point2 p_map = Point2::Zero();         ///< where the unknown begins
+  Point2 outward_map = Point2::UnitX();  ///< unit vector into it
+  Pose2 map_T_view;                      ///< a reachable place from which it would be seen, facing it
+  double cost = 0.0;                     ///< of the way there (nav::DistanceField)
+  double size_m = 0.0;                   ///< length of the border, or by how much the wall may be longer
+  std::uint64_t segment = 0;             ///< of kWallEnd
+  int visits = 0;                        ///< good looks at it that changed nothing
+  bool resting = false;                  ///< a drive there failed lately: others first
+};
+
+/// For people: "the border of unknown floor (2.3 m)", "the end of wall 17".
+[[nodiscard]] std::string describe(const Opening& opening);
+
+/// What openings are looked for in. `costs` is of floor.cost, from the robot.
+struct OpeningsInput {
+  const nav::FloorView& floor;
+  const nav::DistanceField& costs;
+  const std::vector<MapSegment>& segments;
+  const nav::ForbiddenAreas& areas;
+  Pose2 map_T_base;
+  RobotTime now;  ///< stands still while the exploration is paused
+};
+
+/// Remembers what was looked at and what could not be reached, so that an exploration always ends: an opening that
+/// does not change by max_visits good looks is settled (glass, furniture before a wall), and one that max_failures
+/// drives have not reached is given up. Openings are recognised again by their place, within same_m.
+class Openings {
+ public:
+  explicit Openings(const ViewpointParams& params);
+
+  /// Everything open now, cheapest first. Also takes note of what the robot sees well from where it stands.
+  [[nodiscard]] std::vector<Opening> find(const OpeningsInput& input);
+  /// The robot stood at the opening's viewpoint for look_s.
+  void looked(const Opening& opening, RobotTime now);
+  /// A drive there failed.
+  void failed(const Opening& opening, RobotTime now);
+  /// Places that no drive could reach.
+  [[nodiscard]] std::vector<Point2> given_up() const;
+  void transform(const Pose2& new_T_old);
+
+ private:
+  struct Memory {
+    std::uint64_t id = 0;
+    OpeningKind kind = OpeningKind::kFrontier;
+    Point2 p_map;
+    int visits = 0;
+    int failures = 0;
+    RobotTime looked_at;  ///< the last counted look
+    RobotTime failed_at;
+  };
+
+  [[nodiscard]] Memory& memory_of(const Opening& opening);
+  void count_look(Memory& memory, RobotTime now) const;
+  [[nodiscard]] bool is_open(Opening& opening, const OpeningsInput& input);
+
+  ViewpointParams params_;
+  std::vector<Memory> memories_;
+  std::uint64_t next_id_ = 1;
+};
+
+/// Borders of unknown floor with viewpoints, cheapest first; ids, visits and resting not yet set.
+[[nodiscard]] std::vector<Opening> frontier_openings(const OpeningsInput& input, const ViewpointParams& params);
+/// Ends of walls that may go on, without those that cannot be looked at from anywhere.
+[[nodiscard]] std::vector<Opening> wall_end_openings(const OpeningsInput& input, const ViewpointParams& params);
+
+/// How far the wall may go on beyond its virtual end: up to the next segment, or to where the floor is known to be
+/// free.
+[[nodiscard]] double possible_extension_m(const nav::CostMap& map, const std::vector<MapSegment>& segments,
+                                          const MapSegment& segment, bool left, double max_m);
+
+/// Whether somebody at the pose sees what is at the opening: near enough, not too flat, nothing in between.
+[[nodiscard]] bool well_in_view(const Opening& opening, const Pose2& map_T_base, const Grid<std::uint8_t>& occupancy,
+                                const ViewpointParams& params);
+
+/// Free floor at least as large as `min_m2` that was seen but that no way leads to: one place of each part.
+[[nodiscard]] std::vector<Point2> cut_off_floor(const nav::CostMap& map, const nav::DistanceField& costs,
+                                                double min_m2);
+
+}  // namespace seeker::explore

@@ -1,0 +1,214 @@
+#include "server/explore/place_strategy.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/core/angle.hpp"
+#include "common/core/text.hpp"
+
+namespace seeker::explore {
+namespace {
+
+constexpr double kTurn_rad_s = 0.6;
+constexpr double kWaitTick_s = 1.0;
+
+}  // namespace
+
+PlaceStrategy::PlaceStrategy(const ExploreParams& params, std::unique_ptr<PlaceChooser> chooser)
+    : params_(params), chooser_(std::move(chooser)), openings_(params.viewpoints), driver_(params.driver) {}
+
+StrategyStep PlaceStrategy::step(const StrategyInput& input) {
+  StrategyStep out;
+  out.phase = "drive";
+  switch (state_) {
+    case State::kChoose: choose(input, out); break;
+    case State::kDrive: drive(input, out); break;
+    case State::kLook: look(input, out); break;
+    case State::kTurn: turn(input, out); break;
+    case State::kWait:
+      if (to_seconds(input.now - since_) >= kWaitTick_s) {
+        choose(input, out);
+      }
+      break;
+    case State::kDone: break;
+  }
+  if (out.activity.empty()) {
+    out.activity = why_;
+  }
+  if (state_ == State::kDone) {
+    out.done = true;
+    out.unreachable = openings_.given_up();
+  } else if (state_ == State::kDrive) {
+    out.planned_path = driver_.path();
+  }
+  return out;
+}
+
+Result<PlaceStrategy::Survey> PlaceStrategy::survey(const StrategyInput& input) {
+  auto floor = input.floors.view();
+  if (!floor) {
+    return tl::unexpected(floor.error());
+  }
+  auto costs = nav::DistanceField::build((*floor)->cost, input.map_T_base.translation());
+  if (!costs) {
+    return tl::unexpected(costs.error());
+  }
+  static const std::vector<MapSegment> kNoWalls;
+  Survey found{*floor, std::move(*costs), {}, false};
+  for (Opening& opening : openings_.find({**floor, found.costs, chooser_->wants_wall_ends() ? input.segments : kNoWalls,
+                                          input.floors.areas(), input.map_T_base, input.now})) {
+    if (opening.resting) {
+      found.resting = true;
+    } else {
+      found.open.push_back(std::move(opening));
+    }
+  }
+  return found;
+}
+
+void PlaceStrategy::choose(const StrategyInput& input, StrategyStep& out) {
+  auto found = survey(input);
+  if (!found) {
+    if (turned_) {
+      finish(found.error().message, out);
+      return;
+    }
+    why_ = "turning on the spot to see more: " + found.error().message;
+    state_ = State::kTurn;
+    since_ = input.now;
+    turn(input, out);
+    return;
+  }
+  since_ = input.now;
+  considered_ = input.now;
+  if (found->open.empty()) {
+    wait_or_finish(*found, out);
+    return;
+  }
+  go(input, chooser_->choose({input, *found->floor, found->costs, found->open}), out);
+  if (!goal_) {
+    wait_or_finish(*found, out);
+  }
+}
+
+void PlaceStrategy::wait_or_finish(const Survey& found, StrategyStep& out) {
+  goal_.reset();
+  if (found.resting) {
+    state_ = State::kWait;
+    why_ = "waiting to try again what could not be reached";
+    return;
+  }
+  finish("nothing is left to explore", out);
+}
+
+void PlaceStrategy::finish(std::string why, StrategyStep& out) {
+  goal_.reset();
+  driver_.stop();
+  state_ = State::kDone;
+  why_ = std::move(why);
+  out.step_done = true;
+}
+
+void PlaceStrategy::go(const StrategyInput& input, PlaceChoice choice, StrategyStep& out) {
+  goal_ = std::move(choice.opening);
+  out.decision = std::move(choice.decision);
+  if (!goal_) {
+    return;
+  }
+  since_ = input.now;
+  why_ = "driving to look at " + describe(*goal_) + " at " + text(goal_->p_map);
+  if (driver_.start(input, goal_->map_T_view.translation(), goal_->map_T_view.theta_rad)) {
+    state_ = State::kDrive;
+    return;
+  }
+  openings_.failed(*goal_, input.now);
+  why_ = "no way to " + describe(*goal_) + ": " + driver_.reason();
+  state_ = State::kChoose;
+}
+
+void PlaceStrategy::drive(const StrategyInput& input, StrategyStep& out) {
+  const nav::DriveStep driven = driver_.step(input);
+  out.command = driven.command;
+  switch (driven.state) {
+    case nav::DriveState::kDriving:
+      if (to_seconds(input.now - considered_) >= params_.viewpoints.replan_period_s) {
+        reconsider(input, out);
+      }
+      return;
+    case nav::DriveState::kArrived:
+      state_ = State::kLook;
+      since_ = input.now;
+      return;
+    case nav::DriveState::kFailed:
+    case nav::DriveState::kIdle:
+      openings_.failed(*goal_, input.now);
+      why_ = "no way to " + describe(*goal_) + ": " + driven.reason;
+      state_ = State::kChoose;
+      return;
+  }
+}
+
+/// On the way: is the goal still there, and still the best?
+void PlaceStrategy::reconsider(const StrategyInput& input, StrategyStep& out) {
+  considered_ = input.now;
+  const auto found = survey(input);
+  if (!found) {
+    return;  // the drive itself notices when the way is lost
+  }
+  const auto same = std::find_if(found->open.begin(), found->open.end(),
+                                 [&](const Opening& opening) { return opening.id == goal_->id; });
+  if (same == found->open.end()) {
+    state_ = State::kChoose;
+    out.step_done = true;
+    out.activity = describe(*goal_) + " has been seen on the way";
+    return;
+  }
+  if (!chooser_->changes_its_mind()) {
+    return;
+  }
+  const Opening present = *goal_;
+  PlaceChoice choice = chooser_->choose({input, *found->floor, found->costs, found->open, &present});
+  if (choice.opening && choice.opening->id != present.id) {
+    go(input, std::move(choice), out);
+  }
+}
+
+void PlaceStrategy::look(const StrategyInput& input, StrategyStep& out) {
+  out.activity = "looking at " + describe(*goal_);
+  if (to_seconds(input.now - since_) < params_.viewpoints.look_s) {
+    return;
+  }
+  openings_.looked(*goal_, input.now);
+  goal_.reset();
+  state_ = State::kChoose;
+  out.step_done = true;
+}
+
+void PlaceStrategy::turn(const StrategyInput& input, StrategyStep& out) {
+  out.phase = "turn";
+  if (to_seconds(input.now - since_) > kTwoPi / kTurn_rad_s) {
+    turned_ = true;
+    state_ = State::kChoose;
+    return;
+  }
+  out.command.omega_rad_s = kTurn_rad_s;
+}
+
+void PlaceStrategy::interrupted(RobotTime now) {
+  since_ = now;
+  start_anew();
+}
+
+void PlaceStrategy::transform(const Pose2& new_T_old) {
+  openings_.transform(new_T_old);
+  start_anew();
+}
+
+void PlaceStrategy::start_anew() {
+  driver_.stop();
+  goal_.reset();
+  turned_ = false;
+  state_ = State::kChoose;
+}
+
+}  // namespace seeker::explore

@@ -1,0 +1,30 @@
+/// \file
+/// Things that sonars see and the laser does not (chair legs, mats, glass): obstacles of the floor.
+#pragma once
+
+#include <vector>
+
+#include "server/nav/planned_driver.hpp"
+
+namespace seeker::explore {
+
+/// An echo becomes an obstacle when it came from about the same place several times, and the laser shows nothing there
+/// that explains it.
+class SonarObstacles {
+ public:
+  void note(const nav::DriveInput& input);
+  void transform(const Pose2& new_T_old);
+
+ private:
+  struct Echo {
+    Point2 p_map;
+    RobotTime seen;
+    int times = 0;
+  };
+  void note_echo(const Point2& p_map, const nav::DriveInput& input);
+
+  std::vector<Echo> echoes_;
+  RobotTime stamp_;  ///< of the last scan used: one that stands still is not seen again and again
+};
+
+}  // namespace seeker::explore

@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/core/angle.hpp"
+#include "common/core/polygon.hpp"
+#include "server/explore/openings.hpp"
+
+namespace seeker::explore {
+namespace {
+
+using nav::CellState;
+
+/// So near to another wall a wall has met it.
+constexpr double kMeet_m = 0.12;
+/// So far across its line cells of a wall may lie.
+constexpr double kWallBand_m = 0.1;
+/// Where to stand: distances from the end, and directions off the wall's normal.
+constexpr std::array<double, 4> kViewDistances_m{1.2, 1.8, 2.5, 0.7};
+constexpr std::array<double, 7> kViewAngles_deg{0.0, 25.0, -25.0, 50.0, -50.0, 65.0, -65.0};
+
+struct WallEnd {
+  Point2 p_map;
+  Point2 outward_map;  ///< along the wall, away from it
+  Point2 into_map;     ///< unit vector from free space into the wall
+};
+
+WallEnd end_of(const MapSegment& segment, bool left) {
+  const double theta = segment.map_T_segment.theta_rad;
+  const Point2 along(std::cos(theta), std::sin(theta));
+  return {left ? segment.left() : segment.right(), left ? Point2(-along) : along, Point2(-along.y(), along.x())};
+}
+
+/// Segments that something within `reach_m` of p may touch.
+std::vector<const MapSegment*> segments_near(const std::vector<MapSegment>& segments, const MapSegment& self,
+                                             const Point2& p_map, double reach_m) {
+  std::vector<const MapSegment*> near;
+  for (const MapSegment& other : segments) {
+    const double limit_m = reach_m + 0.5 * other.length_m + kMeet_m;
+    if (other.id != self.id && (other.map_T_segment.translation() - p_map).squaredNorm() < limit_m * limit_m) {
+      near.push_back(&other);
+    }
+  }
+  return near;
+}
+
+/// Where a wall's line is looked at: occupied beside it means that the wall is there.
+CellState state_across(const nav::CostMap& map, const Point2& p_map, const Point2& across) {
+  const double step_m = map.frame().resolution_m;
+  for (double off = -kWallBand_m; off <= kWallBand_m + step_m / 2.0; off += step_m) {
+    if (map.state(map.frame().cell_of(p_map + off * across)) == CellState::kOccupied) {
+      return CellState::kOccupied;
+    }
+  }
+  return map.state(map.frame().cell_of(p_map));
+}
+
+/// The cheapest place from which the end is well in view.
+bool find_viewpoint(Opening& opening, const WallEnd& end, const OpeningsInput& input, const ViewpointParams& params) {
+  const Point2 target = end.p_map + params.min_extension_m * end.outward_map;
+  bool found = false;
+  for (const double distance_m : kViewDistances_m) {
+    for (const double angle_deg : kViewAngles_deg) {
+      const double a = deg_to_rad(angle_deg);
+      const Point2 place = target + distance_m * (-std::cos(a) * end.into_map + std::sin(a) * end.outward_map);
+      const auto cost = input.costs.cost_to(place);
+      if (!cost || (found && *cost >= opening.cost)) {
+        continue;
+      }
+      const Pose2 view{place.x(), place.y(), std::atan2(target.y() - place.y(), target.x() - place.x())};
+      if (well_in_view(opening, view, input.floor.occupancy, params)) {
+        opening.map_T_view = view;
+        opening.cost = *cost;
+        found = true;
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+double possible_extension_m(const nav::CostMap& map, const std::vector<MapSegment>& segments, const MapSegment& segment,
+                            bool left, double max_m) {
+  const WallEnd end = end_of(segment, left);
+  const auto near = segments_near(segments, segment, end.p_map, max_m);
+  const double step_m = map.frame().resolution_m;
+  double extension_m = 0.0;
+  for (double s = step_m; s <= max_m; s += step_m) {
+    const Point2 p = end.p_map + s * end.outward_map;
+    const bool met = std::any_of(near.begin(), near.end(), [&](const MapSegment* other) {
+      return distance_to_segment_m(other->left(), other->right(), p) < kMeet_m;
+    });
+    if (met || state_across(map, p, end.into_map) == CellState::kFree) {
+      break;
+    }
+    extension_m = s;
+  }
+  return extension_m;
+}
+
+std::vector<Opening> wall_end_openings(const OpeningsInput& input, const ViewpointParams& params) {
+  std::vector<Opening> openings;
+  for (const MapSegment& segment : input.segments) {
+    for (const bool left : {true, false}) {
+      if (left ? segment.left_real : segment.right_real) {
+        continue;
+      }
+      const WallEnd end = end_of(segment, left);
+      Opening opening;
+      opening.kind = OpeningKind::kWallEnd;
+      opening.p_map = end.p_map;
+      opening.outward_map = end.outward_map;
+      opening.segment = segment.id;
+      opening.size_m = possible_extension_m(input.floor.cost, input.segments, segment, left, params.max_extension_m);
+      if (opening.size_m >= params.min_extension_m &&
+          input.areas.allows(end.p_map + params.min_extension_m * end.outward_map) &&
+          find_viewpoint(opening, end, input, params)) {
+        openings.push_back(opening);
+      }
+    }
+  }
+  return openings;
+}
+
+}  // namespace seeker::explore

@@ -1,0 +1,311 @@
+#include <algorithm>
+#include <iostream>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/matchers.hpp"
+#include "tests/unit/server/explore/toy_explorer.hpp"
+
+namespace seeker::explore {
+namespace {
+
+using seeker::testing::Point2Near;
+
+Exploration exploration_of(const ExploreRequest& request, const ExploreParams& params = {}) {
+  auto exploration = Exploration::create(request, params);
+  EXPECT_TRUE(exploration.has_value()) << (exploration ? "" : exploration.error().message);
+  return std::move(*exploration);
+}
+
+ExploreRequest request_of(Strategy strategy) {
+  ExploreRequest request;
+  request.strategy = strategy;
+  return request;
+}
+
+/// Two rooms of 5 x 5 m joined by a door of 1.2 m.
+ToyWorld two_rooms() {
+  ToyWorld world;
+  world.walls = joined(box(0, 0, 10.2, 5), {{{5.1, 0.0}, {5.1, 1.9}}, {{5.1, 3.1}, {5.1, 5.0}}});
+  return world;
+}
+
+void print(const char* name, const ToyRun& run) {
+  std::cout << name << ": " << (run.end ? run.end->cause : "no end") << "; " << run.seconds << " s, " << run.path_m
+            << " m, clearance " << run.least_clearance_m << " m, walls " << run.wall_share << ", progress "
+            << run.progress << ", decisions " << run.decisions.size() << '\n';
+}
+
+bool has_event(const ToyRun& run, const std::string& kind) {
+  return std::any_of(run.events.begin(), run.events.end(), [&](const ExploreEvent& e) { return e.kind == kind; });
+}
+
+TEST(Exploration, FrontierExploresTwoRooms) {
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 5);
+  const ToyRun run = robot.run(exploration, 600.0);
+  print("frontier", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_GT(run.least_clearance_m, 0.2);
+  EXPECT_GT(run.wall_share, 0.9);
+  EXPECT_DOUBLE_EQ(run.progress, 1.0);
+  ASSERT_FALSE(run.decisions.empty());
+  EXPECT_EQ(run.decisions.front().rule, "frontier");
+}
+
+TEST(Exploration, ReturnsToTheStartAfterTheEnd) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.return_to_start = true;
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 6);
+  const ToyRun run = robot.run(exploration, 600.0);
+  print("return", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_TRUE(has_event(run, "return"));
+  EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
+}
+
+TEST(Exploration, AnOpenDoorToTheOutsideOfTheBoundEndsAsBoundReached) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.areas.bound = Polygon{{-0.5, -0.5}, {5.1, -0.5}, {5.1, 5.5}, {-0.5, 5.5}};
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 7);
+  const ToyRun run = robot.run(exploration, 600.0);
+  print("bound", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kBoundReached);
+  EXPECT_LT(run.pose.x_m, 5.2);
+}
+
+TEST(Exploration, FloorBehindAGapTooNarrowIsListedAsUnreachable) {
+  ToyWorld world;
+  world.walls = joined(box(0, 0, 9, 5), {{{5.1, 0.0}, {5.1, 2.35}}, {{5.1, 2.75}, {5.1, 5.0}}});
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(world, {3.0, 2.5, 0.0}, 8);
+  const ToyRun run = robot.run(exploration, 600.0);
+  print("gap", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kUnreachable);
+  ASSERT_FALSE(run.end->unreachable.empty());
+  EXPECT_GT(run.end->unreachable.front().x(), 5.1);
+  EXPECT_FALSE(run.end->remedy.empty());
+  EXPECT_TRUE(has_event(run, "unreachable"));
+}
+
+TEST(Exploration, AStartBoxedInEndsSoonWithItsReason) {
+  for (const double side_m : {0.7, 1.2}) {
+    ToyWorld world;
+    const double half = side_m / 2.0;
+    world.walls = joined(box(-5, -5, 5, 5), box(-half, -half, half, half));
+    auto exploration = exploration_of(request_of(Strategy::kFrontier));
+    ToyExplorer robot(world, {}, 9);
+    const ToyRun run = robot.run(exploration, 120.0);
+    print("closet", run);
+    ASSERT_TRUE(run.end.has_value());
+    EXPECT_TRUE(run.end->kind == EndKind::kComplete || run.end->kind == EndKind::kUnreachable);
+    EXPECT_FALSE(run.end->cause.empty());
+    EXPECT_LT(run.path_m, 2.0);
+  }
+}
+
+TEST(Exploration, AHallBeyondTheRangeOfTheLaserIsExploredToItsWalls) {
+  ToyWorld world;
+  world.walls = box(0, 0, 18, 18);
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(world, {9.0, 9.0, 0.0}, 10, 5.0);
+  const ToyRun run = robot.run(exploration, 1500.0);
+  print("hall", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_GT(run.wall_share, 0.9);
+}
+
+TEST(Exploration, AnUncertainRobotGoesBackAndExploresOnWhenItIsCertain) {
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 11);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [&](double /*t_s*/, ExploreInput& input) {
+    // Certain in the first room only.
+    const double x = input.pose.map_T_base.x_m;
+    input.pose.covariance = Matrix3::Identity() * (x > 3.0 ? 0.49 : 1e-4);
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("uncertain", run);
+  EXPECT_TRUE(has_event(run, "uncertain"));
+  EXPECT_TRUE(has_event(run, "certain"));
+  ASSERT_TRUE(run.end.has_value());
+  // It becomes uncertain at the same place again and again: that ends it too.
+  EXPECT_EQ(run.end->kind, EndKind::kUncertain);
+}
+
+TEST(Exploration, CertaintyThatDoesNotComeBackEndsIt) {
+  ExploreParams params;
+  params.guard.regain_time_s = 40.0;
+  auto exploration = exploration_of(request_of(Strategy::kFrontier), params);
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 12);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [](double t_s, ExploreInput& input) {
+    input.pose.covariance = Matrix3::Identity() * (t_s > 15.0 ? 0.49 : 1e-4);
+  };
+  const ToyRun run = robot.run(exploration, 200.0, hooks);
+  print("not regained", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kUncertain);
+  EXPECT_NEAR(run.seconds, 55.0, 1.0);
+  EXPECT_NE(std::find(run.phases.begin(), run.phases.end(), "regain"), run.phases.end());
+}
+
+TEST(Exploration, ABatteryAtItsReserveSendsTheRobotHome) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.return_to_start = true;
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 13);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [](double t_s, ExploreInput& input) {
+    const bool sag = t_s > 1.0 && t_s < 3.0;  // of accelerating motors
+    input.battery_v = sag || t_s > 6.0 ? 11.0 : 12.5;
+  };
+  const ToyRun run = robot.run(exploration, 300.0, hooks);
+  print("battery", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kBattery);
+  EXPECT_GT(run.seconds, 11.0);
+  EXPECT_EQ(std::count_if(run.events.begin(), run.events.end(), [](const auto& e) { return e.kind == "battery"; }), 1);
+  EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
+}
+
+TEST(Exploration, ALostRobotStandsAndGoesOnWhenItIsFound) {
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 14);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [&](double t_s, ExploreInput& input) {
+    if (t_s > 10.0 && t_s < 40.0) {
+      input.pose.quality = LocalisationQuality::kLost;
+    }
+  };
+  const ToyRun run = robot.run(exploration, 600.0, hooks);
+  print("lost", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_NE(std::find(run.phases.begin(), run.phases.end(), "stopped"), run.phases.end());
+}
+
+TEST(Exploration, ARobotLostForGoodEndsAsUncertain) {
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 15);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [](double t_s, ExploreInput& input) {
+    input.pose.quality = t_s > 5.0 ? LocalisationQuality::kLost : LocalisationQuality::kLocalised;
+    input.pose.cause = "test";
+  };
+  const ToyRun run = robot.run(exploration, 600.0, hooks);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kUncertain);
+  EXPECT_NE(run.end->cause.find("test"), std::string::npos);
+  EXPECT_NEAR(run.seconds, 185.0, 1.0);
+}
+
+TEST(Exploration, SameInputsGiveTheSameDecisions) {
+  std::vector<ToyRun> runs;
+  for (int k = 0; k < 2; ++k) {
+    auto exploration = exploration_of(request_of(Strategy::kFrontier));
+    ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 16);
+    runs.push_back(robot.run(exploration, 600.0));
+  }
+  EXPECT_EQ(runs[0].decisions, runs[1].decisions);
+  EXPECT_EQ(runs[0].pose, runs[1].pose);
+  ASSERT_FALSE(runs[0].decisions.empty());
+  for (std::size_t k = 0; k < runs[0].decisions.size(); ++k) {
+    EXPECT_EQ(runs[0].decisions[k].number, k + 1);
+    EXPECT_LE(runs[0].decisions[k].candidates.size(), kMaxDecisionCandidates);
+  }
+}
+
+TEST(Exploration, AMapThatMovesDoesNotDisturbIt) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.return_to_start = true;
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 17);
+  ToyExplorer::Hooks hooks;
+  hooks.exploration = [&, moved = false](double t_s, Exploration& running) mutable {
+    if (t_s > 12.0 && !std::exchange(moved, true)) {
+      const Pose2 new_T_old{2.0, -1.0, 0.5};
+      robot.move_map(new_T_old);
+      running.transform(new_T_old);
+    }
+  };
+  const ToyRun run = robot.run(exploration, 600.0, hooks);
+  print("moved", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_GT(run.wall_share, 0.9);
+  EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
+}
+
+TEST(Exploration, PausedTimeDoesNotCount) {
+  ExploreParams params;
+  params.driver.goal_time_s = 60.0;
+  auto exploration = exploration_of(request_of(Strategy::kFrontier), params);
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 18);
+  const ToyRun first = robot.run(exploration, 10.0);
+  EXPECT_FALSE(first.end.has_value());
+  exploration.resume(robot_time_s(5000.0));
+  ToyExplorer::Hooks hooks;
+  hooks.input = [](double t_s, ExploreInput& input) { input.now = robot_time_s(5000.0 + t_s); };
+  const ToyRun run = robot.run(exploration, 600.0, hooks);
+  print("paused", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+}
+
+TEST(Exploration, WhatOnlySonarsSeeIsAvoided) {
+  ToyWorld world = two_rooms();
+  world.low_things = box(2.6, 1.8, 3.4, 3.2);
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(world, {1.0, 2.5, 0.0}, 20);
+  const ToyRun run = robot.run(exploration, 900.0);
+  print("low", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_GT(run.least_clearance_m, 0.2);
+}
+
+TEST(Exploration, AfterTheEndItRepeatsTheEndStandingStill) {
+  ToyWorld world;
+  world.walls = box(0, 0, 3, 3);
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(world, {1.5, 1.5, 0.0}, 21);
+  const ToyRun run = robot.run(exploration, 300.0);
+  ASSERT_TRUE(run.end.has_value());
+  ToyExplorer again(world, {1.5, 1.5, 0.0}, 22);
+  const ToyRun after = again.run(exploration, 10.0);
+  EXPECT_EQ(after.end, run.end);
+  EXPECT_EQ(after.path_m, 0.0);
+  EXPECT_TRUE(after.events.empty());
+}
+
+TEST(Exploration, RefusesBadRequests) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.areas.bound = Polygon{{0, 0}, {1, 1}, {1, 0}, {0, 1}};  // crosses itself
+  EXPECT_FALSE(Exploration::create(request, {}).has_value());
+  request.areas.bound.reset();
+  request.areas.keep_out.push_back({{0, 0}, {1, 1}});
+  EXPECT_FALSE(Exploration::create(request, {}).has_value());
+  request.areas.keep_out.clear();
+  ExploreParams params;
+  params.guard.regain_position_sigma_m = params.guard.max_position_sigma_m;
+  EXPECT_FALSE(Exploration::create(request, params).has_value());
+  params = {};
+  params.viewpoints.horizon = 0;
+  EXPECT_FALSE(Exploration::create(request, params).has_value());
+  params = {};
+  params.one_step.v_m_s.clear();
+  EXPECT_FALSE(Exploration::create(request, params).has_value());
+  EXPECT_TRUE(Exploration::create(request, {}).has_value());
+}
+
+}  // namespace
+}  // namespace seeker::explore
