@@ -56,7 +56,11 @@ Error with_disk_remedy(const Error& error) {
 }  // namespace
 
 MapService::MapService(MapStorage storage, RobotLoop& loop, Mailbox& mailbox)
-    : storage_(std::move(storage)), loop_(loop), mailbox_(mailbox), files_(storage_.folder) {
+    : storage_(std::move(storage)),
+      loop_(loop),
+      mailbox_(mailbox),
+      files_(storage_.folder),
+      checkpoints_(storage_.folder / "checkpoints" / storage_.robot_id) {
   thread_ = std::thread([this] { work(); });
 }
 
@@ -129,8 +133,7 @@ void MapService::save(const std::string& name, bool replace, const api::Reply<ap
   }
 }
 
-void MapService::write(const LoopMap& from, const std::string& name, bool replace,
-                       const api::Reply<api::MapSummary>& reply) {
+store::MapFile MapService::file_of(const LoopMap& from, const std::string& name) const {
   store::MapFile file;
   file.map = from.map;
   file.origin.name = name;
@@ -140,6 +143,12 @@ void MapService::write(const LoopMap& from, const std::string& name, bool replac
   file.origin.saved_unix_s = wall_unix_s();
   file.origin.created_unix_s =
       from.identity.created_unix_s != 0 ? from.identity.created_unix_s : file.origin.saved_unix_s;
+  return file;
+}
+
+void MapService::write(const LoopMap& from, const std::string& name, bool replace,
+                       const api::Reply<api::MapSummary>& reply) {
+  const store::MapFile file = file_of(from, name);
   const Result<store::MapListing> written = files_.write(file, replace);
   if (!written) {
     reply(tl::unexpected<Error>(with_disk_remedy(written.error())));

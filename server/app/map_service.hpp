@@ -45,6 +45,12 @@ class MapService {
   void download(const std::string& name, const api::Reply<std::vector<std::uint8_t>>& reply);
   void upload(const api::MapUpload& upload, const api::Reply<api::MapSummary>& reply);
 
+  /// Goes on with a paused mission, or with one that a crash cut off: in the map it had built, where that was kept.
+  void resume_mission(const api::Reply<void>& reply);
+  /// Keeps the map of a running mission; the loop gets the answer. From the loop's thread.
+  void write_checkpoint(const api::MissionId& mission, LoopMap map);
+  void drop_checkpoints();
+
  private:
   using Work = std::function<void(const store::MapFiles&)>;
 
@@ -53,12 +59,15 @@ class MapService {
   template <class T>
   void on_worker(const api::Reply<T>& reply, std::function<Result<T>(const store::MapFiles&)> work);
   void write(const LoopMap& from, const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply);
+  [[nodiscard]] store::MapFile file_of(const LoopMap& from, const std::string& name) const;
+  void resume_from(const api::MissionId& mission, const api::Reply<void>& reply);
   void work();
 
   MapStorage storage_;
   RobotLoop& loop_;
   Mailbox& mailbox_;
   store::MapFiles files_;
+  store::MapFiles checkpoints_;  ///< of missions, by their ids; for the worker only
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Work> queue_;

@@ -59,6 +59,8 @@ class MissionExecutor {
 
   [[nodiscard]] bool running() const { return active_ && active_->status.state == api::MissionState::kRunning; }
   [[nodiscard]] bool present() const { return active_.has_value(); }
+  /// What the running mission was asked for; null when none runs.
+  [[nodiscard]] const api::MissionRequest* request() const { return active_ ? &active_->request : nullptr; }
   /// The running mission or the last one.
   [[nodiscard]] const std::optional<api::MissionStatus>& last() const { return last_; }
   [[nodiscard]] const std::optional<api::GridReport>& grid() const { return grid_; }

@@ -34,6 +34,10 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     ask(std::move(reply), [this, request] { return loop().start_mission(request, client_); });
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
+    if (command == api::MissionCommand::kResume) {
+      robot_.maps_.resume_mission(reply);
+      return;
+    }
     ask(std::move(reply), [this, command] { return loop().command_mission(command); });
   }
   void get_mission(api::Reply<api::MissionStatus> reply) override {
@@ -140,6 +144,12 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
       maps_({maps, identity_.robot_id, identity_.software_version}, loop_, mailbox_) {
   if (journal_) {
     keep_journal();
+  }
+  if (journal_ && !maps.empty()) {
+    loop_.on_checkpoint = [this](const api::MissionId& mission, LoopMap map) {
+      maps_.write_checkpoint(mission, std::move(map));
+    };
+    loop_.on_checkpoints_void = [this] { maps_.drop_checkpoints(); };
   }
 }
 

@@ -18,7 +18,11 @@ Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& reque
   Result<api::MissionId> id = missions_.start(request, client, situation());
   if (id) {
     authority_.arm();
+    if (!has_own_map_ || !unfinished_ || unfinished_->id != *id) {
+      drop_checkpoints();
+    }
     unfinished_.reset();
+    checkpoint_at_ = now();
     if (on_mission_started) {
       on_mission_started(request);
     }
@@ -30,6 +34,9 @@ Status RobotLoop::command_mission(api::MissionCommand command) {
   const bool resume = command == api::MissionCommand::kResume;
   if (resume && authority_.estop()) {
     return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
+  }
+  if (resume && resuming_) {
+    return fail(Errc::kBusy, "the robot is looking for its place in the map it had; the mission goes on from there");
   }
   if (resume && !missions_.present() && unfinished_) {
     const Result<api::MissionId> again = start_mission(api::MissionRequest(*unfinished_), "resumed");
@@ -43,6 +50,7 @@ Status RobotLoop::command_mission(api::MissionCommand command) {
 }
 
 void RobotLoop::stop() {
+  resuming_ = false;
   missions_.end(api::Outcome::kOperator, "stopped by the operator", "", now());
   authority_.cancel_drive();
   act({});

@@ -35,6 +35,9 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
                        if (on_mission) {
                          on_mission(status);
                        }
+                       if (status.end) {
+                         drop_checkpoints();
+                       }
                        hub_.publish(api::Topic::kMission, now(), status);
                      },
                  .detection =
@@ -98,8 +101,8 @@ bool RobotLoop::idle() const {
     return true;
   }
   // A robot that looks for its place needs scans; a map that is written anew is to be finished.
-  const bool waits = !map_.rendering() && !map_.relocalising();
-  return !realtime() && !parts_.devices.runs_without_mission && !missions_.running() && !moving() && waits;
+  const bool settled = !map_.rendering() && !map_.relocalising() && !resuming_;
+  return !realtime() && !parts_.devices.runs_without_mission && !missions_.running() && !moving() && settled;
 }
 
 bool RobotLoop::moving() const {
@@ -110,8 +113,10 @@ bool RobotLoop::moving() const {
 void RobotLoop::tick(WallTime wall_now) {
   sense();
   estimate();
+  resume_when_found();
   act(decide(wall_now));
   remember_pose();
+  keep_checkpoint();
   map_.step();
   publish();
   const Status advanced = parts_.devices.clock->advance(params_.period);

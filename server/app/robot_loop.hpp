@@ -96,6 +96,16 @@ class RobotLoop {
   void map_saved(const MapIdentity& identity);
   [[nodiscard]] Status load_map(const LineMap& map, const MapIdentity& identity);
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base);
+
+  // Checkpoints (robot_checkpoint.cpp): a mission that builds the map keeps it on disk, for its resumption after a
+  // crash.
+  /// The cut-off mission whose map may be there; nothing when there is none to resume or it needs no map.
+  [[nodiscard]] std::optional<api::MissionId> checkpoint_to_resume() const;
+  /// Loads the map of the cut-off mission and looks for the robot's place in it; then the mission goes on. Where there
+  /// is no map to load it begins anew.
+  [[nodiscard]] Status resume_in_map(const Result<LineMap>& map, const MapIdentity& identity);
+  /// The answer to on_checkpoint.
+  void checkpoint_written(const Status& written);
   void client_lost(const std::string& client, const std::string& why, WallTime wall_now);
   void client_back(const std::string& client);
   /// The client left on purpose: its lease is free, its mission goes on.
@@ -112,6 +122,10 @@ class RobotLoop {
   std::function<void(const api::MissionRequest&)> on_mission_started;
   std::function<void(const api::MissionStatus&)> on_mission;
   std::function<void(const api::Detection&)> on_detection;
+  /// Keeps the map of a mission that is building it; answer with checkpoint_written().
+  std::function<void(const api::MissionId&, LoopMap)> on_checkpoint;
+  /// No mission needs its checkpoint any more.
+  std::function<void()> on_checkpoints_void;
 
  private:
   void register_components();
@@ -126,6 +140,9 @@ class RobotLoop {
   /// Hands a finished recognition to the mission, or reports why there is none.
   void take_recognition();
   void act(const Twist2& wanted);
+  void keep_checkpoint();
+  void drop_checkpoints();
+  void resume_when_found();
   void publish();
   void publish_tiles(RobotTime stamp);
   void publish_segments(RobotTime stamp);
@@ -170,6 +187,12 @@ class RobotLoop {
   bool ended_ = false;
   bool republish_ = false;
   std::optional<api::MissionRequest> unfinished_;
+  bool resuming_ = false;          ///< unfinished_ goes on when the robot has found its place in its map
+  bool has_own_map_ = false;       ///< of unfinished_: it is loaded
+  bool checkpoint_kept_ = false;   ///< there may be one on disk
+  bool checkpoint_waits_ = false;  ///< one is being written
+  std::optional<std::uint64_t> checkpoint_revision_;
+  RobotTime checkpoint_at_;
   std::vector<api::StampedPose> trajectory_;
   std::uint64_t event_sequence_ = 0;
   std::uint64_t published_revision_ = 0;

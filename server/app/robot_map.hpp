@@ -23,6 +23,7 @@ struct RobotMapParams {
   int render_scans_per_tick = 40;                            ///< kept scans written anew after the map has moved
   Duration segment_period = std::chrono::milliseconds(500);  ///< between publications of changed segments, robot time
   Duration relocalise_limit = std::chrono::seconds(60);      ///< robot time in which a search for the place must end
+  Duration checkpoint_period = std::chrono::seconds(30);     ///< robot time between checkpoints of a mission's map
 };
 
 /// Under which name the present map is kept, and since when it exists.

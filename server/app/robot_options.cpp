@@ -72,6 +72,8 @@ void describe(config::Fields& f, RobotMapParams& params) {
   f.check("render_scans_per_tick", params.render_scans_per_tick > 0, "must be above 0");
   f.seconds("segment_period_s", params.segment_period);
   f.seconds("relocalise_limit_s", params.relocalise_limit);
+  f.seconds("checkpoint_period_s", params.checkpoint_period);
+  f.check("checkpoint_period_s", params.checkpoint_period > Duration::zero(), "must be above 0");
 }
 
 void describe(config::Fields& f, LoopParams& params) {
