@@ -1,5 +1,7 @@
 #include "common/config/fields.hpp"
 
+#include <algorithm>
+
 #include "common/core/angle.hpp"
 
 namespace seeker::config {
@@ -10,6 +12,17 @@ void Fields::angle_deg(std::string_view key, double& value_rad) {
   field(key, value_deg);
   if (value_deg != before) {
     value_rad = deg_to_rad(value_deg);
+  }
+}
+
+void Fields::angles_deg(std::string_view key, std::vector<double>& values_rad) {
+  std::vector<double> values_deg(values_rad.size());
+  std::transform(values_rad.begin(), values_rad.end(), values_deg.begin(), [](double v) { return rad_to_deg(v); });
+  const std::vector<double> before = values_deg;
+  field(key, values_deg);
+  if (values_deg != before) {
+    values_rad.resize(values_deg.size());
+    std::transform(values_deg.begin(), values_deg.end(), values_rad.begin(), [](double v) { return deg_to_rad(v); });
   }
 }
 

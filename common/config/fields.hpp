@@ -48,6 +48,7 @@ class Fields {
 
   /// An angle or angular rate that is radians in code and degrees in the file; name the key `..._deg`.
   void angle_deg(std::string_view key, double& value_rad);
+  void angles_deg(std::string_view key, std::vector<double>& values_rad);
   /// A duration, in seconds in the file; name the key `..._s`.
   void seconds(std::string_view key, Duration& value);
 

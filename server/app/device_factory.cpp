@@ -2,6 +2,7 @@
 
 #include "common/core/rng.hpp"
 #include "server/app/estimators.hpp"
+#include "server/app/explore_behaviour.hpp"
 #include "server/app/tracker_estimator.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/options/world_options.hpp"
@@ -65,9 +66,13 @@ Status make_replay(const RobotOptions& options, Assembly& assembly) {
 class Behaviours {
  public:
   Behaviours(const RobotOptions& options, std::shared_ptr<const search::ControlTable> table, bool has_camera)
-      : go_(options.go), search_(options.search), table_(std::move(table)), has_camera_(has_camera) {}
+      : go_(options.go),
+        search_(options.search),
+        explore_(options.explore),
+        table_(std::move(table)),
+        has_camera_(has_camera) {}
 
-  Result<std::unique_ptr<Behaviour>> operator()(const api::MissionTask& task, const Situation& /*situation*/) {
+  Result<std::unique_ptr<Behaviour>> operator()(const api::MissionTask& task, const Situation& situation) {
     if (const auto* go = std::get_if<api::GotoMission>(&task)) {
       return std::unique_ptr<Behaviour>(std::make_unique<GotoBehaviour>(go_, *go));
     }
@@ -77,14 +82,13 @@ class Behaviours {
       home.waypoints = {Point2::Zero()};
       return std::unique_ptr<Behaviour>(std::make_unique<GotoBehaviour>(go_, home));
     }
-    const auto* search = std::get_if<api::SearchMission>(&task);
-    if (search == nullptr) {
-      return fail(Errc::kRefused, "this robot has no behaviour for the mission '" + std::string(task_name(task)) + "'");
+    if (const auto* explore = std::get_if<api::ExploreMission>(&task)) {
+      return ExploreBehaviour::create(explore_, *explore, situation);
     }
     if (!has_camera_) {
       return fail(Errc::kRefused, "this robot has no camera to search with");
     }
-    return SearchBehaviour::create(search_, *search, table_, memory_);
+    return SearchBehaviour::create(search_, std::get<api::SearchMission>(task), table_, memory_);
   }
 
   [[nodiscard]] const EvidenceMemory& memory() const { return memory_; }
@@ -92,6 +96,7 @@ class Behaviours {
  private:
   GotoParams go_;
   SearchBehaviourParams search_;
+  explore::ExploreParams explore_;
   std::shared_ptr<const search::ControlTable> table_;
   bool has_camera_;
   EvidenceMemory memory_ = std::make_shared<std::optional<search::EvidenceGrid>>();
@@ -107,6 +112,9 @@ Result<Assembly> assemble(const RobotOptions& options) {
   }
   if (const Status ok = search::validate(options.search.search); !ok) {
     return fail_with_context("search.coverage", ok.error());
+  }
+  if (const Status ok = explore::validate(options.explore); !ok) {
+    return fail_with_context("explore", ok.error());
   }
   Result<search::ControlTable> table = search::ControlTable::create(options.control_table);
   if (!table) {

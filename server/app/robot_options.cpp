@@ -1,6 +1,7 @@
 #include "server/app/robot_options.hpp"
 
 #include "server/app/estimators.hpp"
+#include "server/options/explore_options.hpp"
 #include "server/options/line_slam_options.hpp"
 #include "server/options/nav_options.hpp"
 #include "server/options/search_options.hpp"
@@ -137,6 +138,7 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("goto", options.go);
   f.section("search", options.search);
   f.section("control_table", options.control_table);
+  f.section("explore", options.explore);
   f.section("server", options.server);
 }
 

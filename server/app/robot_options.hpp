@@ -13,6 +13,7 @@
 #include "server/app/search_behaviour.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/drivers/sim/sim_devices.hpp"
+#include "server/explore/explore_params.hpp"
 #include "server/net/server.hpp"
 #include "server/sim/robot_model.hpp"
 #include "server/slam/line_slam_params.hpp"
@@ -55,6 +56,7 @@ struct RobotOptions {
   GotoParams go;
   SearchBehaviourParams search;
   search::ControlTableParams control_table;
+  explore::ExploreParams explore;
   server_net::ServerParams server;
   std::filesystem::path folder;  ///< of the robot file; not a field
 };

@@ -62,4 +62,10 @@ void describe(config::Fields& f, FollowerParams& params) {
   f.section("clearance", params.clearance);
 }
 
+void describe(config::Fields& f, DriverParams& params) {
+  f.field("max_failures", params.max_failures);
+  f.field("goal_time_s", params.goal_time_s);
+  f.section("follower", params.follower);
+}
+
 }  // namespace seeker::nav

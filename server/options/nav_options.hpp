@@ -7,6 +7,7 @@
 #include "server/nav/cost_map.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/nav/path_follower.hpp"
+#include "server/nav/planned_driver.hpp"
 #include "server/nav/planner.hpp"
 
 namespace seeker::nav {
@@ -16,5 +17,6 @@ void describe(config::Fields& f, CostMapParams& params);
 void describe(config::Fields& f, PlannerParams& params);
 void describe(config::Fields& f, ClearanceParams& params);
 void describe(config::Fields& f, FollowerParams& params);
+void describe(config::Fields& f, DriverParams& params);
 
 }  // namespace seeker::nav

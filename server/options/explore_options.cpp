@@ -1,0 +1,94 @@
+#include "server/options/explore_options.hpp"
+
+namespace seeker::explore {
+
+void describe(config::Fields& f, SensorModel& params) {
+  f.field("range_m", params.range_m);
+  f.angle_deg("half_angle_deg", params.half_angle_rad);
+  f.angle_deg("grazing_deg", params.grazing_rad);
+  f.field("sigma_y_m", params.sigma_y_m);
+  f.angle_deg("sigma_theta_deg", params.sigma_theta_rad);
+  f.field("sigma_end_m", params.sigma_end_m);
+  f.field("nominal_points", params.nominal_points);
+  f.angle_deg("beam_step_deg", params.beam_step_rad);
+}
+
+void describe(config::Fields& f, OneStepParams& params) {
+  f.field("v_m_s", params.v_m_s);
+  f.angles_deg("omega_deg_s", params.omega_rad_s);
+  f.field("observation_period_s", params.observation_period_s);
+  f.field("stop_and_go", params.stop_and_go);
+  f.field("settle_s", params.settle_s);
+  f.field("weight_certainty", params.weight_certainty);
+  f.field("weight_extension", params.weight_extension);
+  f.field("weight_ends", params.weight_ends);
+  f.field("log_floor", params.log_floor);
+  f.field("swept_radius_m", params.swept_radius_m);
+  f.field("corner_gap_m", params.corner_gap_m);
+  f.field("trap_decisions", params.trap_decisions);
+  f.field("max_observed", params.max_observed);
+  f.field("escape_by_path", params.escape_by_path);
+  f.field("use_floor", params.use_floor);
+  f.section("sensor", params.sensor);
+  f.section("odometry", params.odometry);
+}
+
+void describe(config::Fields& f, WallParams& params) {
+  f.field("distance_m", params.distance_m);
+  f.field("switch_m", params.switch_m);
+  f.field("adjacency_m", params.adjacency_m);
+  f.field("leave_growth_m", params.leave_growth_m);
+  f.field("time_limit_s", params.time_limit_s);
+}
+
+void describe(config::Fields& f, RoamParams& params) {
+  f.field("v_m_s", params.v_m_s);
+  f.angle_deg("omega_deg_s", params.omega_rad_s);
+  f.field("clear_m", params.clear_m);
+}
+
+void describe(config::Fields& f, ViewpointParams& params) {
+  f.field("min_frontier_m", params.min_frontier_m);
+  f.field("max_frontier_m", params.max_frontier_m);
+  f.field("min_pocket_m2", params.min_pocket_m2);
+  f.field("min_extension_m", params.min_extension_m);
+  f.field("max_extension_m", params.max_extension_m);
+  f.field("view_range_m", params.view_range_m);
+  f.field("reached_m", params.reached_m);
+  f.field("same_m", params.same_m);
+  f.field("max_visits", params.max_visits);
+  f.field("look_s", params.look_s);
+  f.field("max_failures", params.max_failures);
+  f.field("retry_s", params.retry_s);
+  f.field("failed_radius_m", params.failed_radius_m);
+  f.field("min_cut_off_m2", params.min_cut_off_m2);
+  f.field("replan_period_s", params.replan_period_s);
+  f.field("gain_lambda_1_m", params.gain_lambda_1_m);
+  f.field("min_gain_m2", params.min_gain_m2);
+  f.field("horizon", params.horizon);
+  f.field("beam", params.beam);
+  f.field("max_candidates", params.max_candidates);
+  f.field("weight_floor", params.weight_floor);
+  f.field("weight_path", params.weight_path);
+}
+
+void describe(config::Fields& f, GuardParams& params) {
+  f.field("max_position_sigma_m", params.max_position_sigma_m);
+  f.field("regain_position_sigma_m", params.regain_position_sigma_m);
+  f.field("regain_time_s", params.regain_time_s);
+  f.field("battery_reserve_v", params.battery_reserve_v);
+}
+
+void describe(config::Fields& f, ExploreParams& params) {
+  f.section("one_step", params.one_step);
+  f.section("wall", params.wall);
+  f.section("roam", params.roam);
+  f.section("viewpoints", params.viewpoints);
+  f.section("guard", params.guard);
+  f.section("cost", params.cost);
+  f.section("driver", params.driver);
+  f.field("floor_cell_m", params.floor_cell_m);
+  f.field("map_period_s", params.map_period_s);
+}
+
+}  // namespace seeker::explore
