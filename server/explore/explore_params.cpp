@@ -44,9 +44,10 @@ Status check_controls(const OneStepParams& p) {
       return fail(Errc::kInvalidArgument, "one_step.omega_rad_s: turning speeds must be finite");
     }
   }
-  if (p.trap_decisions < 1 || p.max_observed < 1 || p.sensor.nominal_points < 1) {
-    return fail(Errc::kInvalidArgument,
-                "one_step: trap_decisions, max_observed and sensor.nominal_points must be 1 or more");
+  if (p.trap_decisions < 1 || p.fruitless_decisions < 1 || p.max_observed < 1 || p.sensor.nominal_points < 1) {
+    return fail(
+        Errc::kInvalidArgument,
+        "one_step: trap_decisions, fruitless_decisions, max_observed and sensor.nominal_points must be 1 or more");
   }
   return {};
 }
@@ -60,6 +61,9 @@ Status check_one_step(const OneStepParams& p) {
                                             {"one_step.weight_extension", p.weight_extension},
                                             {"one_step.weight_ends", p.weight_ends},
                                             {"one_step.corner_gap_m", p.corner_gap_m},
+                                            {"one_step.least_growth_m", p.least_growth_m},
+                                            {"one_step.least_growth_m2", p.least_growth_m2},
+                                            {"one_step.closed_radius_m", p.closed_radius_m},
                                             {"one_step.sensor.grazing_rad", p.sensor.grazing_rad}});
       !weights) {
     return weights;

@@ -33,9 +33,14 @@ struct OneStepParams {
   double log_floor = 1e-3;            ///< lg max(J, this)
   double swept_radius_m = 0.30;
   double corner_gap_m = 0.3;  ///< virtual ends so near to a crossing will meet there
-  int trap_decisions = 3;
-  int max_observed = 32;       ///< segments that a prediction updates, the nearest: bounds the cost of a decision
-  bool escape_by_path = true;  ///< when no wall leads on, drive to what is left by planned paths; false: as printed
+  int trap_decisions = 3;     ///< in a row without anything to gain: a local trap
+  /// Also a trap: so many in a row that promised something and brought neither of the growths below.
+  int fruitless_decisions = 6;
+  double least_growth_m = 0.3;   ///< of the walls
+  double least_growth_m2 = 0.5;  ///< of the floor known to be free
+  double closed_radius_m = 0.4;  ///< ends of walls so near to one that led nowhere are taken for real
+  int max_observed = 32;         ///< segments that a prediction updates, the nearest: bounds the cost of a decision
+  bool escape_by_path = true;    ///< when no wall leads on, drive to what is left by planned paths; false: as printed
   /// What is known of the floor counts too: walls do not go on where the floor was seen to be free, and obstacles that
   /// are no walls hide what is behind them. false: as printed, mapped segments only.
   bool use_floor = true;

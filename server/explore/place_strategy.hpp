@@ -88,6 +88,8 @@ class PlaceStrategy final : public ExploreStrategy {
 };
 
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_frontier_chooser(const ExploreParams& params);
+/// The nearest opening of either kind: where the one-step rule goes when no wall leads on.
+[[nodiscard]] std::unique_ptr<PlaceChooser> make_opening_chooser();
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_gain_chooser(const ExploreParams& params);
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_horizon_chooser(const ExploreParams& params);
 

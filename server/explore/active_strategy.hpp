@@ -1,0 +1,51 @@
+/// \file
+/// Exploration as the active-SLAM paper has it: by the objective, out of traps along the walls (spec S1.11, S1.12), and
+/// beyond the paper by planned paths to what is left when no wall leads on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "server/explore/control_hold.hpp"
+#include "server/explore/one_step.hpp"
+#include "server/explore/place_strategy.hpp"
+#include "server/explore/trap_watch.hpp"
+#include "server/explore/wall_follower.hpp"
+
+namespace seeker::explore {
+
+class ActiveStrategy final : public ExploreStrategy {
+ public:
+  explicit ActiveStrategy(const ExploreParams& params);
+
+  [[nodiscard]] StrategyStep step(const StrategyInput& input) override;
+  void interrupted(RobotTime now) override;
+  void transform(const Pose2& new_T_old) override;
+
+ private:
+  enum class Mode : std::uint8_t { kExplore, kWall, kPath, kDone };
+
+  void decide(const StrategyInput& input, StrategyStep& out);
+  void explore(const StrategyInput& input, const MapSize& size, StrategyStep& out);
+  void begin_wall(const StrategyInput& input, const MapSize& size, StrategyStep& out);
+  void follow_wall(const StrategyInput& input, const MapSize& size, StrategyStep& out);
+  void begin_path(const StrategyInput& input, StrategyStep& out);
+  void follow_path(const StrategyInput& input, StrategyStep& out);
+  void give_end_up(const std::optional<Point2>& p_map);
+  /// The segments, those ends real that were found to lead nowhere.
+  [[nodiscard]] std::vector<MapSegment> believed(const std::vector<MapSegment>& segments) const;
+
+  ExploreParams params_;
+  ControlHold hold_;
+  TrapWatch watch_;
+  WallFollower follower_;
+  PlaceStrategy path_;
+  Mode mode_ = Mode::kExplore;
+  std::string why_;
+  std::vector<Point2> closed_map_;  ///< ends that led nowhere
+  std::optional<Point2> wall_goal_map_;
+  RobotTime wall_since_;
+  MapSize wall_size_;  ///< the largest map so far while following walls
+};
+
+}  // namespace seeker::explore

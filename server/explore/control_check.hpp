@@ -1,0 +1,35 @@
+/// \file
+/// Whether the robot may hold a control for a while: the disc it sweeps must not touch anything known or seen now.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/explore/segment_sight.hpp"
+#include "server/explore/strategy.hpp"
+
+namespace seeker::explore {
+
+/// Made for one decision.
+class ControlCheck {
+ public:
+  /// Checks against the walls of the scene, the present readings, the floor map and the forbidden areas.
+  ControlCheck(const StrategyInput& input, const SightScene& scene, double radius_m, double longest_way_m);
+
+  /// Why the control must not be held for `tau_s`; empty: it may. A robot that is too near to something may still move
+  /// as long as it does not come nearer; turning on the spot meets nothing.
+  [[nodiscard]] std::string refusal(const Twist2& control, double tau_s) const;
+
+ private:
+  [[nodiscard]] double distance_m(const Point2& p_map) const;
+
+  Pose2 map_T_base_;
+  double radius_m_;
+  const nav::ForbiddenAreas& areas_;
+  std::shared_ptr<const nav::FloorView> floor_;   ///< null: there is no map of the floor yet
+  std::vector<std::pair<Point2, Point2>> walls_;  ///< those near enough
+  std::vector<Point2> points_map_;
+};
+
+}  // namespace seeker::explore
