@@ -26,6 +26,10 @@ void describe(config::Fields& f, OneStepParams& params) {
   f.field("swept_radius_m", params.swept_radius_m);
   f.field("corner_gap_m", params.corner_gap_m);
   f.field("trap_decisions", params.trap_decisions);
+  f.field("fruitless_decisions", params.fruitless_decisions);
+  f.field("least_growth_m", params.least_growth_m);
+  f.field("least_growth_m2", params.least_growth_m2);
+  f.field("closed_radius_m", params.closed_radius_m);
   f.field("max_observed", params.max_observed);
   f.field("escape_by_path", params.escape_by_path);
   f.field("use_floor", params.use_floor);
