@@ -31,11 +31,7 @@ Result<Exploration> Exploration::create(const ExploreRequest& request, const Exp
   if (const Status valid = validate(request.areas); !valid) {
     return tl::unexpected(valid.error());
   }
-  auto strategy = make_strategy(request.strategy, params);
-  if (!strategy) {
-    return tl::unexpected(strategy.error());
-  }
-  return Exploration(std::make_unique<Impl>(request, params, std::move(*strategy)));
+  return Exploration(std::make_unique<Impl>(request, params, make_strategy(request.strategy, params)));
 }
 
 Exploration::Exploration(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -1,23 +1,22 @@
 #include "server/explore/make_strategy.hpp"
 
-#include <string>
-
+#include "common/core/assert.hpp"
 #include "server/explore/active_strategy.hpp"
 #include "server/explore/place_strategy.hpp"
 #include "server/explore/roam.hpp"
 
 namespace seeker::explore {
 
-Result<std::unique_ptr<ExploreStrategy>> make_strategy(Strategy strategy, const ExploreParams& params) {
+std::unique_ptr<ExploreStrategy> make_strategy(Strategy strategy, const ExploreParams& params) {
   switch (strategy) {
     case Strategy::kActive: return std::make_unique<ActiveStrategy>(params);
     case Strategy::kRoam: return std::make_unique<RoamStrategy>(params.roam, params.driver.follower.clearance);
     case Strategy::kFrontier: return std::make_unique<PlaceStrategy>(params, make_frontier_chooser(params));
-    case Strategy::kGain:
-    case Strategy::kHorizon: break;
+    case Strategy::kGain: return std::make_unique<PlaceStrategy>(params, make_gain_chooser(params));
+    case Strategy::kHorizon: return std::make_unique<PlaceStrategy>(params, make_horizon_chooser(params));
   }
-  return fail(Errc::kNotReady, "this program has no strategy '" + std::string(to_string(strategy)) +
-                                   "'; choose 'active', 'roam' or 'frontier'");
+  SEEKER_ASSERT(false);
+  return nullptr;
 }
 
 }  // namespace seeker::explore

@@ -4,12 +4,12 @@
 
 #include <memory>
 
-#include "common/core/result.hpp"
 #include "server/explore/explore_params.hpp"
 #include "server/explore/strategy.hpp"
 
 namespace seeker::explore {
 
-[[nodiscard]] Result<std::unique_ptr<ExploreStrategy>> make_strategy(Strategy strategy, const ExploreParams& params);
+/// Never null.
+[[nodiscard]] std::unique_ptr<ExploreStrategy> make_strategy(Strategy strategy, const ExploreParams& params);
 
 }  // namespace seeker::explore

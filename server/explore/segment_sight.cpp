@@ -323,7 +323,7 @@ Growth SightView::growth() const {
   Growth growth;
   for (std::size_t k = 0; k < forecasts.size(); ++k) {
     growth.extension_m += forecasts[k].extension_m;
-    growth.new_ends += forecasts[k].becomes_real ? 1 : 0;
+    growth.new_ends += forecasts[k].becomes_real ? 1.0 : 0.0;
     if (in_view[k]) {
       growth.ends.push_back(forecasts[k]);
     }

@@ -46,7 +46,7 @@ struct EndForecast {
 /// V and N of spec S1.11 from one pose.
 struct Growth {
   double extension_m = 0.0;  ///< sum of V-
-  int new_ends = 0;          ///< sum of N- minus sum of N
+  double new_ends = 0.0;     ///< sum of N- minus sum of N; whole, unless discounted by a planner
   std::vector<EndForecast> ends;
 };
 

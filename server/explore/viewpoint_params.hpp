@@ -30,8 +30,8 @@ struct ViewpointParams {
   int horizon = 3;            ///< drives that the planner thinks ahead
   int beam = 6;               ///< sequences it keeps
   int max_candidates = 32;    ///< openings it considers
-  double weight_floor = 1.0;  ///< of lg(unknown floor in sight, over that known)
-  double weight_path = 1.0;   ///< of lg(path) in the score
+  double weight_floor = 1.0;  ///< of lg(unknown floor in sight)
+  double weight_path = 2.0;   ///< a gain counts by the way until it is got to the power of minus this
 };
 
 }  // namespace seeker::explore

@@ -1,0 +1,125 @@
+#include "server/explore/horizon_views.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/angle.hpp"
+#include "server/explore/view_gain.hpp"
+
+namespace seeker::explore {
+namespace {
+
+/// Two views so near to each other show the same unknown floor.
+constexpr double kSameFloor_m = 3.0;
+/// More unknown floor than this is a guess, not a reason.
+constexpr double kMostFloor_m2 = 8.0;
+/// What stopping and turning costs, as a way.
+constexpr double kStop_m = 0.5;
+/// Every opening has to be looked at some time: worth as much as so much unknown floor, however little it shows.
+constexpr double kSettled_m2 = 2.0;
+/// Looks along a path: so far apart, and no more than so many.
+constexpr double kLookEvery_m = 1.0;
+constexpr std::size_t kMaxLooks = 8;
+/// Speeds of the predicted drive: what counts is the noise by distance and angle.
+constexpr double kSpeed_m_s = 0.3;
+constexpr double kTurn_rad_s = 0.5;
+
+/// Poses along a path, each looking where it leads; the last one as the view wants it.
+std::vector<Pose2> looks_along(const nav::Path& path, const Pose2& last) {
+  const double step_m = std::max(kLookEvery_m, path.length_m / static_cast<double>(kMaxLooks));
+  std::vector<Pose2> looks;
+  double to_go_m = step_m;
+  for (std::size_t k = 1; k < path.waypoints.size(); ++k) {
+    const Point2 from = path.waypoints[k - 1];
+    const Point2 leg = path.waypoints[k] - from;
+    const double length_m = leg.norm();
+    for (; to_go_m < length_m; to_go_m += step_m) {
+      const Point2 p = from + to_go_m / length_m * leg;
+      looks.push_back({p.x(), p.y(), std::atan2(leg.y(), leg.x())});
+    }
+    to_go_m -= length_m;
+  }
+  looks.push_back(last);
+  return looks;
+}
+
+void move_to(PredictedBelief& belief, const Pose2& from, const Pose2& to, const slam::OdometryParams& odometry) {
+  const double turn_rad = wrap_angle(to.theta_rad - from.theta_rad);
+  belief.move(predict_motion({0.0, std::copysign(kTurn_rad_s, turn_rad)}, std::abs(turn_rad) / kTurn_rad_s, odometry));
+  belief.move(predict_motion({kSpeed_m_s, 0.0}, distance_m(from, to) / kSpeed_m_s, odometry));
+}
+
+}  // namespace
+
+bool HorizonSequence::has(std::size_t view) const { return std::find(stops.begin(), stops.end(), view) != stops.end(); }
+
+std::vector<HorizonView> horizon_views(const PlaceInput& input, const SightScene& scene, const ExploreParams& params) {
+  const auto count = std::min(input.openings.size(), static_cast<std::size_t>(params.viewpoints.max_candidates));
+  std::vector<HorizonView> views;
+  views.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Opening& opening = input.openings[k];
+    HorizonView view;
+    view.opening = opening;
+    view.way_m = opening.cost;
+    const ViewGain gain = view_gain(input.floor.cost, opening.map_T_view.translation(), params.one_step.sensor);
+    view.floor_m2 = std::min(gain.area_m2, kMostFloor_m2);
+    view.growth = scene.look(opening.map_T_view).growth();
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
+HorizonSequence extended(const HorizonSequence& sequence, const std::vector<HorizonView>& views, std::size_t view,
+                         double way_m, double weight_path) {
+  HorizonSequence longer = sequence;
+  const HorizonView& added = views[view];
+  double share = 1.0;
+  for (const std::size_t stop : sequence.stops) {
+    const double apart_m = distance_m(views[stop].opening.map_T_view, added.opening.map_T_view);
+    share = std::min(share, apart_m / kSameFloor_m);
+  }
+  longer.stops.push_back(view);
+  longer.way_m += way_m + kStop_m;
+  const double discount = std::pow(longer.way_m, -weight_path);
+  longer.floor_m2 += discount * (kSettled_m2 + share * added.floor_m2);
+  for (const EndForecast& end : added.growth.ends) {
+    const auto known = std::find_if(longer.ends.begin(), longer.ends.end(),
+                                    [&](const ExpectedEnd& other) { return other.end == end.end; });
+    const ExpectedEnd expected{end.end, discount * end.extension_m, end.becomes_real ? discount : 0.0};
+    if (known == longer.ends.end()) {
+      longer.ends.push_back(expected);
+    } else {
+      known->extension_m = std::max(known->extension_m, expected.extension_m);
+      known->becomes_real = std::max(known->becomes_real, expected.becomes_real);
+    }
+  }
+  return longer;
+}
+
+double uncertainty_after(const PlaceInput& input, const Opening& opening, const SightScene& scene, const Belief& belief,
+                         const OneStepParams& params) {
+  const Pose2& start = input.robot.map_T_base;
+  const auto path = input.costs.path_to(input.floor.cost, opening.map_T_view.translation());
+  const std::vector<Pose2> looks = looks_along(path ? *path : nav::Path{}, opening.map_T_view);
+  std::vector<std::vector<PredictedSight>> sights;
+  std::vector<std::size_t> walls;
+  sights.reserve(looks.size());
+  for (const Pose2& look : looks) {
+    sights.push_back(predict_sights(belief, scene.look(look), params.max_observed));
+    for (const PredictedSight& sight : sights.back()) {
+      const bool room = walls.size() < static_cast<std::size_t>(params.max_observed);
+      if (room && std::find(walls.begin(), walls.end(), sight.wall) == walls.end()) {
+        walls.push_back(sight.wall);
+      }
+    }
+  }
+  PredictedBelief then = belief.joint(walls);
+  for (std::size_t k = 0; k < looks.size(); ++k) {
+    move_to(then, k == 0 ? start : looks[k - 1], looks[k], params.odometry);
+    then.observe(belief, looks[k], sights[k], params.sensor);
+  }
+  return then.uncertainty();
+}
+
+}  // namespace seeker::explore
