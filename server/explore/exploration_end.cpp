@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/core/text.hpp"
@@ -17,6 +18,8 @@ constexpr double kDepthBehindBorder_m = 2.0;
 constexpr double kProgressPeriod_s = 3.0;
 /// So far beyond the border of the unknown lies what it leads to.
 constexpr double kBeyond_m = 0.3;
+/// From so near one sees whether somebody still stands in the way.
+constexpr double kLookOut_m = 1.5;
 /// The floor grew by so much: waiting had a use.
 constexpr double kNewFloor_m2 = 2.0;
 
@@ -74,13 +77,50 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
   if (const auto costs = nav::DistanceField::build((*floor)->cost, here)) {
     left.cut_off = cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2);
   }
-  for (const Point2& p : left.cut_off) {
-    if (known_floor_.contains(p)) {
-      left.blocked.push_back(p);
-    }
-  }
+  left.blocked = known_floor_.occupied_now((*floor)->cost);
+  left.blocked.insert(left.blocked.end(), left.cut_off.begin(), left.cut_off.end());
   left.beyond_limits = more_beyond_limits(**floor, request_.areas, here, params_);
   return left;
+}
+
+/// Goes to where it sees the place, and stands there.
+void Exploration::Impl::begin_wait(const Point2& place_map, const StrategyInput& input, ExploreStep& out) {
+  ++waits_;
+  floor_at_wait_m2_ = known_floor_.present_area_m2();
+  waiting_since_ = input.now;
+  out.phase = "wait";
+  out.activity = "waiting for the way to " + text(place_map) + " to become free again";
+  Point2 lookout = input.map_T_base.translation();
+  if (const auto floor = floors_.view()) {
+    const nav::CostMap& map = (*floor)->cost;
+    const auto costs = nav::DistanceField::build(map, lookout);
+    const auto cell = costs ? costs->cheapest_near(place_map, kLookOut_m) : std::nullopt;
+    lookout = cell ? map.frame().centre_of(*cell) : lookout;
+  }
+  const Point2 to = place_map - lookout;
+  if (!lookout_.start(input, lookout, std::atan2(to.y(), to.x()))) {
+    out.activity += "; no way to where one would see it: " + lookout_.reason();
+  }
+}
+
+/// False: there is nothing to wait for, or no longer.
+bool Exploration::Impl::waits(const StrategyInput& input, ExploreStep& out) {
+  if (!waiting_since_) {
+    return false;
+  }
+  const nav::DriveStep driven = lookout_.step(input);
+  if (driven.state == nav::DriveState::kDriving) {
+    waiting_since_ = input.now;
+  } else if (to_seconds(input.now - *waiting_since_) >= params_.viewpoints.retry_s) {
+    waiting_since_.reset();
+    strategy_->interrupted(input.now);
+    return false;
+  }
+  out.command = driven.command;
+  out.planned_path = lookout_.path();
+  out.phase = "wait";
+  out.activity = "waiting for the way to become free again";
+  return true;
 }
 
 /// Somebody who stands in the way is given some time to go on.
@@ -90,11 +130,7 @@ void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyIn
     waits_ = 0;
   }
   if (!left.blocked.empty() && waits_ < params_.viewpoints.max_failures) {
-    ++waits_;
-    floor_at_wait_m2_ = known_floor_.present_area_m2();
-    waiting_since_ = input.now;
-    out.phase = "wait";
-    out.activity = "waiting for the way to " + text(left.blocked.front()) + " to become free again";
+    begin_wait(left.blocked.front(), input, out);
     return;
   }
   conclude(end_for(left, last, input.map_T_base.translation()), input.now, out);

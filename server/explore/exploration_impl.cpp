@@ -19,7 +19,8 @@ Exploration::Impl::Impl(const ExploreRequest& request, const ExploreParams& para
       strategy_(std::move(strategy)),
       floors_(params.cost, request.areas, params.floor_cell_m, params.map_period_s),
       home_(params.driver, kHomeAttempts, kRetry_s),
-      back_(params.driver, kBackAttempts, kRetry_s) {}
+      back_(params.driver, kBackAttempts, kRetry_s),
+      lookout_(params.driver) {}
 
 StrategyInput Exploration::Impl::strategy_input(const ExploreInput& input) {
   return {{input.now - paused_, input.pose.map_T_base, input.sonar, input.laser, floors_},
@@ -36,9 +37,9 @@ ExploreStep Exploration::Impl::step(const ExploreInput& input) {
   const RobotTime before = last_now_.value_or(input.now);
   last_now_ = input.now;
   if (!end_) {
-    if (std::string why = cause_to_stand(input); !why.empty()) {
+    if (const std::string why = cause_to_stand(input); !why.empty()) {
       paused_ += standing_ ? input.now - before : Duration{0};
-      stand(input, std::move(why), out);
+      stand(input, why, out);
     } else {
       act(input, out);
     }
@@ -72,7 +73,7 @@ std::string Exploration::Impl::cause_to_stand(const ExploreInput& input) const {
 }
 
 /// Time of standing does not count for drives; too long of it ends the exploration.
-void Exploration::Impl::stand(const ExploreInput& input, std::string why, ExploreStep& out) {
+void Exploration::Impl::stand(const ExploreInput& input, const std::string& why, ExploreStep& out) {
   if (!std::exchange(standing_, true)) {
     lost_since_ = input.now;
   }
@@ -94,6 +95,7 @@ void Exploration::Impl::begin(const ExploreInput& input) {
     strategy_->interrupted(input.now - paused_);
     home_.interrupted();
     back_.interrupted();
+    lookout_.stop();
   }
 }
 
@@ -120,14 +122,8 @@ void Exploration::Impl::act(const ExploreInput& input, ExploreStep& out) {
 }
 
 void Exploration::Impl::explore(const StrategyInput& input, ExploreStep& out) {
-  if (waiting_since_) {
-    if (to_seconds(input.now - *waiting_since_) < params_.viewpoints.retry_s) {
-      out.phase = "wait";
-      out.activity = "waiting for the way to become free again";
-      return;
-    }
-    waiting_since_.reset();
-    strategy_->interrupted(input.now);
+  if (waits(input, out)) {
+    return;
   }
   StrategyStep step = strategy_->step(input);
   if (step.done) {
@@ -170,6 +166,7 @@ void Exploration::Impl::resume(RobotTime now) {
   strategy_->interrupted(now - paused_);
   home_.interrupted();
   back_.interrupted();
+  lookout_.stop();
 }
 
 void Exploration::Impl::transform(const Pose2& new_T_old) {
@@ -180,6 +177,7 @@ void Exploration::Impl::transform(const Pose2& new_T_old) {
   known_floor_.clear();
   home_.transform(new_T_old);
   back_.transform(new_T_old);
+  lookout_.stop();
   if (start_) {
     start_ = new_T_old * *start_;
   }

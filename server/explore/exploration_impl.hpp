@@ -29,11 +29,13 @@ class Exploration::Impl {
 
   [[nodiscard]] StrategyInput strategy_input(const ExploreInput& input);
   [[nodiscard]] std::string cause_to_stand(const ExploreInput& input) const;
-  void stand(const ExploreInput& input, std::string why, ExploreStep& out);
+  void stand(const ExploreInput& input, const std::string& why, ExploreStep& out);
   void begin(const ExploreInput& input);
   void act(const ExploreInput& input, ExploreStep& out);
 
   void explore(const StrategyInput& input, ExploreStep& out);
+  void begin_wait(const Point2& place_map, const StrategyInput& input, ExploreStep& out);
+  [[nodiscard]] bool waits(const StrategyInput& input, ExploreStep& out);
   void strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out);
   void hand_over(StrategyStep&& from, ExploreStep& out);
   void note_traps(const std::string& phase, const std::string& activity, ExploreStep& out);
@@ -50,7 +52,7 @@ class Exploration::Impl {
   struct Left {
     std::optional<Error> no_floor;  ///< the robot stands walled in, or there is no map
     std::vector<Point2> cut_off;    ///< floor that was seen, but no way leads there
-    std::vector<Point2> blocked;    ///< of these, what could be reached earlier: somebody may stand in the way
+    std::vector<Point2> blocked;    ///< somebody may stand in the way there: cut off, or occupied and once free
     bool beyond_limits = false;
   };
   [[nodiscard]] Left what_is_left(const StrategyInput& input);
@@ -79,6 +81,7 @@ class Exploration::Impl {
   double floor_at_regain_m2_ = 0.0;
 
   KnownFloor known_floor_;
+  nav::PlannedDriver lookout_;              ///< to where one sees whether the way is free again
   std::optional<RobotTime> waiting_since_;  ///< for somebody to move out of the way
   int waits_ = 0;                           ///< in a row, without new floor in between
   double floor_at_wait_m2_ = 0.0;

@@ -6,6 +6,10 @@
 namespace seeker::explore {
 namespace {
 
+/// Occupied cells so near to each other are one thing; fewer cells are noise.
+constexpr double kSameThing_m = 1.0;
+constexpr int kThingCells = 3;
+
 /// A grid as fine as `like` that covers both, all zero.
 Grid<std::uint8_t> covering(const Grid<std::uint8_t>& a, const Grid<std::uint8_t>& like) {
   const double cell_m = like.frame().resolution_m;
@@ -43,6 +47,38 @@ void KnownFloor::add(const Grid<std::uint8_t>& reachable) {
 bool KnownFloor::contains(const Point2& p_map) const {
   const CellIndex cell = floor_.frame().cell_of(p_map);
   return floor_.contains(cell) && floor_[cell] != 0;
+}
+
+std::vector<Point2> KnownFloor::occupied_now(const nav::CostMap& map) const {
+  struct Thing {
+    Point2 p_map;
+    int cells = 0;
+  };
+  std::vector<Thing> things;
+  const Grid<nav::CellState>& states = map.states();
+  for (std::size_t k = 0; k < states.cells().size(); ++k) {
+    if (states.cells()[k] != nav::CellState::kOccupied) {
+      continue;
+    }
+    const Point2 p = states.frame().centre_of(states.cell(k));
+    if (!contains(p)) {
+      continue;
+    }
+    const auto same = std::find_if(things.begin(), things.end(),
+                                   [&](const Thing& thing) { return (thing.p_map - p).norm() < kSameThing_m; });
+    if (same == things.end()) {
+      things.push_back({p, 1});
+    } else {
+      ++same->cells;
+    }
+  }
+  std::vector<Point2> places;
+  for (const Thing& thing : things) {
+    if (thing.cells >= kThingCells) {
+      places.push_back(thing.p_map);
+    }
+  }
+  return places;
 }
 
 void KnownFloor::clear() { floor_ = {}; }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "common/core/grid.hpp"
+#include "server/nav/cost_map.hpp"
 
 namespace seeker::explore {
 
@@ -13,6 +15,9 @@ class KnownFloor {
  public:
   void add(const Grid<std::uint8_t>& reachable);
   [[nodiscard]] bool contains(const Point2& p_map) const;
+  /// Places where something stands now on floor that the robot could reach: people, or a door that was closed. Walls
+  /// never show up there, since the robot's centre keeps its radius from them.
+  [[nodiscard]] std::vector<Point2> occupied_now(const nav::CostMap& map) const;
   /// Of the last grid added.
   [[nodiscard]] double present_area_m2() const { return present_m2_; }
   /// The map moved: what was known no longer lies on cells.

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/matchers.hpp"
-#include "tests/unit/server/explore/toy_explorer.hpp"
+#include "tests/unit/server/explore/toy_worlds.hpp"
 
 namespace seeker::explore {
 namespace {
@@ -22,13 +22,6 @@ ExploreRequest request_of(Strategy strategy) {
   ExploreRequest request;
   request.strategy = strategy;
   return request;
-}
-
-/// Two rooms of 5 x 5 m joined by a door of 1.2 m.
-ToyWorld two_rooms() {
-  ToyWorld world;
-  world.walls = joined(box(0, 0, 10.2, 5), {{{5.1, 0.0}, {5.1, 1.9}}, {{5.1, 3.1}, {5.1, 5.0}}});
-  return world;
 }
 
 void print(const char* name, const ToyRun& run) {
@@ -259,6 +252,26 @@ TEST(Exploration, PausedTimeDoesNotCount) {
   print("paused", run);
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kComplete);
+}
+
+TEST(Exploration, PeopleInTheDoorDelayItOnly) {
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 19);
+  const std::size_t walls = robot.world().walls.size();
+  ToyExplorer::Hooks hooks;
+  hooks.world = [&](double t_s, ToyWorld& world) {
+    world.walls.resize(walls);
+    if (t_s > 11.0 && t_s < 50.0) {  // when the robot is on its way
+      for (const Wall& wall : box(4.9, 2.0, 5.3, 3.0)) {
+        world.walls.push_back(wall);
+      }
+    }
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("people", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_GT(run.wall_share, 0.9);
 }
 
 TEST(Exploration, WhatOnlySonarsSeeIsAvoided) {
