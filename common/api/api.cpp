@@ -87,6 +87,9 @@ Status validate_task(const SearchMission& search) {
       return fail(Errc::kInvalidArgument, "two targets have the name '" + target.name + "'");
     }
   }
+  if (search.explore && search.mode == SearchMode::kPaper) {
+    return fail(Errc::kInvalidArgument, "the published search cannot explore as well; leave out one of the two");
+  }
   return validate_areas(search.bound, search.keep_out);
 }
 

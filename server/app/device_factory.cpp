@@ -88,12 +88,24 @@ class Behaviours {
     if (!has_camera_) {
       return fail(Errc::kRefused, "this robot has no camera to search with");
     }
-    return SearchBehaviour::create(search_, std::get<api::SearchMission>(task), table_, memory_);
+    return search(std::get<api::SearchMission>(task), situation);
   }
 
   [[nodiscard]] const EvidenceMemory& memory() const { return memory_; }
 
  private:
+  [[nodiscard]] Result<std::unique_ptr<Behaviour>> search(const api::SearchMission& mission,
+                                                          const Situation& situation) const {
+    std::unique_ptr<MapViewFinder> views;
+    if (mission.explore) {
+      if (const Status grows = check_map_grows(situation); !grows) {
+        return tl::unexpected<Error>(grows.error());
+      }
+      views = std::make_unique<MapViewFinder>(explore_, nav::ForbiddenAreas{mission.bound, mission.keep_out});
+    }
+    return SearchBehaviour::create(search_, mission, table_, memory_, std::move(views));
+  }
+
   GotoParams go_;
   SearchBehaviourParams search_;
   explore::ExploreParams explore_;

@@ -94,7 +94,8 @@ api::CoverageSummary to_api(const search::CoverageSummary& summary) {
 Result<std::unique_ptr<Behaviour>> SearchBehaviour::create(const SearchBehaviourParams& params,
                                                            const api::SearchMission& mission,
                                                            const std::shared_ptr<const search::ControlTable>& table,
-                                                           EvidenceMemory memory) {
+                                                           EvidenceMemory memory,
+                                                           std::unique_ptr<MapViewFinder> views) {
   Result<std::unique_ptr<vision::Recogniser>> recogniser =
       vision::make_recogniser(target_models(mission), params.recogniser);
   if (!recogniser) {
@@ -110,13 +111,17 @@ Result<std::unique_ptr<Behaviour>> SearchBehaviour::create(const SearchBehaviour
     }
     core->keep_evidence(**memory);
   }
-  return std::unique_ptr<Behaviour>(new SearchBehaviour(
-      std::move(*core), std::shared_ptr<const vision::Recogniser>(std::move(*recogniser)), std::move(memory)));
+  return std::unique_ptr<Behaviour>(
+      new SearchBehaviour(std::move(*core), std::shared_ptr<const vision::Recogniser>(std::move(*recogniser)),
+                          std::move(memory), std::move(views)));
 }
 
 SearchBehaviour::SearchBehaviour(search::SearchMission mission, std::shared_ptr<const vision::Recogniser> recogniser,
-                                 EvidenceMemory memory)
-    : mission_(std::move(mission)), recogniser_(std::move(recogniser)), memory_(std::move(memory)) {}
+                                 EvidenceMemory memory, std::unique_ptr<MapViewFinder> views)
+    : mission_(std::move(mission)),
+      recogniser_(std::move(recogniser)),
+      memory_(std::move(memory)),
+      views_(std::move(views)) {}
 
 SearchBehaviour::~SearchBehaviour() {
   if (stepped_) {
@@ -126,13 +131,16 @@ SearchBehaviour::~SearchBehaviour() {
 
 Decision SearchBehaviour::step(const Situation& situation) {
   stepped_ = true;
+  const search::MapViews views =
+      views_ ? search::MapViews([&] { return views_->find(situation); }) : search::MapViews();
   search::SearchStep step = mission_.step({.now = situation.now,
                                            .map_T_base = situation.pose.map_T_base,
                                            .covariance = situation.pose.covariance,
                                            .sonar = situation.sonar,
                                            .laser = situation.scan,
                                            .map = *situation.map,
-                                           .map_epoch = situation.pose.map_epoch});
+                                           .map_epoch = situation.pose.map_epoch,
+                                           .map_views = views});
   Decision decision;
   decision.command = step.command;
   decision.wants_image = step.wants_image;
@@ -154,6 +162,13 @@ void SearchBehaviour::on_recognition(const Recognition& recognition) {
   mission_.on_sightings(recognition.stamp, recognition.map_T_base, recognition.sightings,
                         recognition.scan ? &*recognition.scan : nullptr,
                         recognition.sonar ? &*recognition.sonar : nullptr);
+}
+
+void SearchBehaviour::map_moved(const Pose2& new_T_old) {
+  mission_.transform(new_T_old);
+  if (views_) {
+    views_->transform(new_T_old);
+  }
 }
 
 void SearchBehaviour::resumed(RobotTime now) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "server/app/behaviour.hpp"
+#include "server/app/map_views.hpp"
 #include "server/search/search_mission.hpp"
 #include "server/vision/multi_recogniser.hpp"
 
@@ -22,27 +23,29 @@ struct SearchBehaviourParams {
 
 class SearchBehaviour final : public Behaviour {
  public:
-  /// Refuses targets that the recogniser cannot use.
+  /// Refuses targets that the recogniser cannot use. `views` where the mission explores too, else null.
   [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(
       const SearchBehaviourParams& params, const api::SearchMission& mission,
-      const std::shared_ptr<const search::ControlTable>& table, EvidenceMemory memory);
+      const std::shared_ptr<const search::ControlTable>& table, EvidenceMemory memory,
+      std::unique_ptr<MapViewFinder> views = nullptr);
   ~SearchBehaviour() override;
 
   [[nodiscard]] Decision step(const Situation& situation) override;
   [[nodiscard]] std::shared_ptr<const vision::Recogniser> recogniser() const override { return recogniser_; }
   void on_recognition(const Recognition& recognition) override;
   void resumed(RobotTime now) override;
-  void map_moved(const Pose2& new_T_old) override { mission_.transform(new_T_old); }
+  void map_moved(const Pose2& new_T_old) override;
   [[nodiscard]] std::optional<api::GridReport> grid() const override;
   [[nodiscard]] std::vector<api::Detection> detections() const override;
 
  private:
   SearchBehaviour(search::SearchMission mission, std::shared_ptr<const vision::Recogniser> recogniser,
-                  EvidenceMemory memory);
+                  EvidenceMemory memory, std::unique_ptr<MapViewFinder> views);
 
   search::SearchMission mission_;
   std::shared_ptr<const vision::Recogniser> recogniser_;
   EvidenceMemory memory_;
+  std::unique_ptr<MapViewFinder> views_;
   bool stepped_ = false;
 };
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "server/nav/planned_driver.hpp"
-#include "server/search/search_params.hpp"
-#include "server/search/strategy.hpp"
 #include "server/nav/progress_watch.hpp"
 #include "server/search/local_planner.hpp"
+#include "server/search/search_params.hpp"
+#include "server/search/strategy.hpp"
 
 namespace seeker::search {
 

@@ -19,9 +19,10 @@ namespace seeker::search {
 /// A place to drive to.
 struct Goal {
   Point2 p_map = Point2::Zero();
-  std::string why;             ///< "unsearched cell", "frontier", "spiral", ...
-  bool is_frontier = false;    ///< it is there for the map rather than for the pictures
-  double expected_gain = 0.0;  ///< cells x probability
+  std::string why;                         ///< "unsearched cell", "frontier", "open wall", "spiral", ...
+  bool is_frontier = false;                ///< it is there for the map rather than for the pictures
+  double expected_gain = 0.0;              ///< cells x probability
+  std::optional<double> heading_rad = {};  ///< to stand in at the end
 
   friend bool operator==(const Goal&, const Goal&) = default;
 };
@@ -33,6 +34,7 @@ struct ChooseInput {
   Pose2 map_T_base;
   double target_size_m = 0.4;
   const std::vector<Point2>& unreachable;
+  const MapViews& map_views;
 };
 
 class GoalChooser {
@@ -52,7 +54,7 @@ class GoalChooser {
   virtual void transform(const Pose2& new_T_old) = 0;
 };
 
-/// Gain over cost among 0.8 m cells of the reachable floor and frontiers (the default mode).
+/// Gain over cost among 0.8 m cells of the reachable floor, frontiers and views for the map (the default mode).
 class PlanChooser final : public GoalChooser {
  public:
   explicit PlanChooser(const PlanParams& params) : params_(params) {}
@@ -70,10 +72,12 @@ class PlanChooser final : public GoalChooser {
   };
   [[nodiscard]] std::vector<Candidate> cells(const ChooseInput& input, const Grid<std::uint8_t>& wanted) const;
   void add_frontiers(const ChooseInput& input, std::vector<Candidate>& candidates) const;
+  void add_map_views(const ChooseInput& input, std::vector<Candidate>& candidates) const;
 
   PlanParams params_;
   std::map<CellIndex, int> visits_;     ///< of 0.8 m cells as goals: none is tried for ever
   std::vector<Point2> seen_frontiers_;  ///< frontiers that stayed after a visit
+  std::vector<Pose2> seen_views_;       ///< and views for the map
 };
 
 /// Backtracking spiral algorithm on 0.8 m cells: keep the visited and the blocked on the reference side, go round in a

@@ -56,8 +56,8 @@ void MapCoverage::choose(const StrategyInput& input, StrategyStep& out) {
     begin_turn(input, costs.error().message, out);
     return;
   }
-  goal_ =
-      chooser_->choose({**floor, *costs, input.evidence, input.map_T_base, input.target_size_m, lists_.unreachable});
+  goal_ = chooser_->choose(
+      {**floor, *costs, input.evidence, input.map_T_base, input.target_size_m, lists_.unreachable, input.map_views});
   if (!goal_) {
     state_ = State::kDone;
     cause_ = "no reachable gap and no frontier is left";
@@ -65,7 +65,7 @@ void MapCoverage::choose(const StrategyInput& input, StrategyStep& out) {
     return;
   }
   turns_ = 0;
-  if (!driver_.start(input, goal_->p_map)) {
+  if (!driver_.start(input, goal_->p_map, goal_->heading_rad)) {
     fail_goal(driver_.reason(), out);
     return;
   }

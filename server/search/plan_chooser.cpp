@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/angle.hpp"
 #include "server/search/goal_chooser.hpp"
 
 namespace seeker::search {
 namespace {
 
 constexpr int kMaxVisits = 3;  ///< of one cell as a goal
+/// Views from one place that differ less than this see the same.
+constexpr double kSameView_rad = 0.8;
 
 /// Reachable floor whose evidence is too weak.
 Grid<std::uint8_t> wanted_floor(const Grid<std::uint8_t>& reachable, const EvidenceGrid& evidence, double enough) {
@@ -70,7 +73,7 @@ std::vector<PlanChooser::Candidate> PlanChooser::cells(const ChooseInput& input,
       const double cost = *input.costs.cost_to(*place);
       const int most = sums.about(p, input.evidence.hit_rate().max_range_m);
       if (most >= params_.min_gain_cells) {
-        candidates.push_back({{p, "unsearched cell", false, 0.0}, cost, most / (cost + params_.travel_offset_m)});
+        candidates.push_back({{p, "unsearched cell", false, 0.0, {}}, cost, most / (cost + params_.travel_offset_m)});
       }
     }
   }
@@ -84,7 +87,26 @@ void PlanChooser::add_frontiers(const ChooseInput& input, std::vector<Candidate>
       continue;
     }
     const double score = params_.frontier_bonus_cells / (frontier.cost + params_.travel_offset_m);
-    candidates.push_back({{frontier.p_map, "frontier", true, params_.frontier_bonus_cells}, frontier.cost, score});
+    candidates.push_back({{frontier.p_map, "frontier", true, params_.frontier_bonus_cells, {}}, frontier.cost, score});
+  }
+}
+
+void PlanChooser::add_map_views(const ChooseInput& input, std::vector<Candidate>& candidates) const {
+  if (!input.map_views) {
+    return;
+  }
+  for (const Pose2& view : input.map_views()) {
+    const std::optional<double> cost = input.costs.cost_to(view.translation());
+    const bool failed = nav::near_any(view.translation(), input.unreachable, params_.failed_radius_m);
+    const bool seen = std::any_of(seen_views_.begin(), seen_views_.end(), [&](const Pose2& other) {
+      return distance_m(view, other) < params_.frontier_reach_m &&
+             std::abs(wrap_angle(view.theta_rad - other.theta_rad)) < kSameView_rad;
+    });
+    if (cost && !failed && !seen) {
+      const double score = params_.frontier_bonus_cells / (*cost + params_.travel_offset_m);
+      candidates.push_back(
+          {{view.translation(), "open wall", true, params_.frontier_bonus_cells, view.theta_rad}, *cost, score});
+    }
   }
 }
 
@@ -93,6 +115,7 @@ std::optional<Goal> PlanChooser::choose(const ChooseInput& input) {
       wanted_floor(input.floor.reachable, input.evidence, params_.cell_target_probability);
   std::vector<Candidate> candidates = cells(input, wanted);
   add_frontiers(input, candidates);
+  add_map_views(input, candidates);
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.bound > b.bound; });
   std::optional<Goal> best;
@@ -121,7 +144,9 @@ std::optional<Goal> PlanChooser::choose(const ChooseInput& input) {
 
 void PlanChooser::visited(const Goal& goal, const Pose2& /*map_T_base*/) {
   ++visits_[GridFrame{Point2::Zero(), params_.cell_m}.cell_of(goal.p_map)];
-  if (goal.is_frontier) {
+  if (goal.heading_rad) {
+    seen_views_.push_back({goal.p_map.x(), goal.p_map.y(), *goal.heading_rad});
+  } else if (goal.is_frontier) {
     seen_frontiers_.push_back(goal.p_map);
   }
 }
@@ -141,6 +166,9 @@ void PlanChooser::transform(const Pose2& new_T_old) {
   visits_.clear();
   for (Point2& p : seen_frontiers_) {
     p = new_T_old * p;
+  }
+  for (Pose2& view : seen_views_) {
+    view = new_T_old * view;
   }
 }
 

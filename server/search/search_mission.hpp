@@ -33,6 +33,7 @@ struct SearchInput {
   const LaserScan* laser = nullptr;      ///< null: none fitted
   const nav::OccupancyMap& map;
   std::uint32_t map_epoch = 0;
+  MapViews map_views = {};  ///< strategy kPlan only: the search goes on until none of them is worth a drive
 };
 
 /// The answer to one control step.

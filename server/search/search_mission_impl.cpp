@@ -53,7 +53,10 @@ SearchMission::Impl::Impl(SearchRequest request, const SearchParams& params,
       visit_(params, planner_, request_.strategy != Strategy::kPaper) {}
 
 StrategyInput SearchMission::Impl::strategy_input(const SearchInput& input) {
-  return {{input.now - paused_, input.map_T_base, input.sonar, input.laser, floors_}, evidence_, smallest_target_m()};
+  return {{input.now - paused_, input.map_T_base, input.sonar, input.laser, floors_},
+          evidence_,
+          smallest_target_m(),
+          input.map_views};
 }
 
 double SearchMission::Impl::smallest_target_m() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -71,6 +72,10 @@ struct SearchEnd {
 
   friend bool operator==(const SearchEnd&, const SearchEnd&) = default;
 };
+
+/// Tells places from which the map would grow (ends of walls that were not seen yet), facing what is to be seen. Asked
+/// when a goal is chosen. Empty: the map is not to be cared for.
+using MapViews = std::function<std::vector<Pose2>()>;
 
 /// Something worth a line in the mission's log. The text depends on the inputs only.
 struct SearchEvent {

@@ -19,6 +19,7 @@ namespace seeker::search {
 struct StrategyInput : nav::DriveInput {
   const EvidenceGrid& evidence;
   double target_size_m = 0.4;  ///< the smallest target looked for
+  const MapViews& map_views;
 };
 
 struct StrategyStep {

@@ -1,5 +1,7 @@
 // Explorations of simulated worlds: every part of the robot but the network.
 
+#include <algorithm>
+
 #include "tests/system/simulated_robot.hpp"
 
 namespace seeker::testing {
@@ -29,6 +31,20 @@ TEST(ExploreSystem, DemoWorldIsMappedToItsEndWithoutAContact) {
   for (std::size_t k = 0; k < decisions.size(); ++k) {
     EXPECT_EQ(decisions[k].number, k + 1) << "each is reported once";
   }
+}
+
+TEST(ExploreSystem, SearchThatExploresAlsoDrivesForTheMap) {
+  SimulatedRobot robot({"sim.world=../worlds/no-target.yaml"});
+  api::MissionRequest request = search_for("cross");
+  std::get<api::SearchMission>(request.task).explore = true;
+  ASSERT_TRUE(robot.loop->start_mission(request, "test"));
+  robot.run(1800.0);
+  EXPECT_EQ(robot.end().outcome, api::Outcome::kNotFoundAreaCovered) << robot.end().cause;
+  EXPECT_EQ(robot.simulation->truth().contacts, 0);
+  const auto visits = std::count_if(robot.events.begin(), robot.events.end(), [](const api::Event& event) {
+    return event.kind == "goal" && event.text.starts_with("open wall");
+  });
+  EXPECT_GT(visits, 0);
 }
 
 TEST(ExploreSystem, RobotWithoutAMapOfSegmentsRefusesWithTheRemedy) {

@@ -120,6 +120,14 @@ TEST(MissionRequest, AreasOfAnExplorationAreChecked) {
   EXPECT_TRUE(validate({"m", explore, LinkPolicy::kStop, std::nullopt}));
 }
 
+TEST(MissionRequest, PublishedSearchDoesNotExplore) {
+  MissionRequest request = search_for(target());
+  std::get<SearchMission>(request.task).explore = true;
+  EXPECT_TRUE(validate(request));
+  std::get<SearchMission>(request.task).mode = SearchMode::kPaper;
+  EXPECT_EQ(validate(request).error().code, Errc::kInvalidArgument);
+}
+
 TEST(MissionRequest, GotoNeedsFiniteWaypoints) {
   EXPECT_FALSE(validate(go_to({std::nan(""), 0.0})));
   EXPECT_FALSE(validate({"m", GotoMission{}, LinkPolicy::kStop, std::nullopt}));

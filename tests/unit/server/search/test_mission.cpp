@@ -65,6 +65,52 @@ TEST(SearchMission, PlanCoversTwoRoomsWithoutTarget) {
   EXPECT_EQ(report.summary.gaps, static_cast<int>(report.gaps.size()));
 }
 
+TEST(SearchMission, SearchThatMapsTooVisitsEachViewOnceAndEnds) {
+  auto mission = mission_of(Strategy::kPlan);
+  ToyRobot robot(one_room(), {1.0, 1.0, 0.3}, true, 5);
+  const std::vector<Pose2> views{{4.4, 0.7, -kPi / 2.0}, {4.4, 0.7, kPi / 2.0}, {0.6, 4.4, kPi}};
+  int asked = 0;
+  std::vector<double> nearest(views.size(), 10.0);
+  robot.map_views = [&] {
+    ++asked;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      if (std::abs(wrap_angle(robot.pose().theta_rad - views[k].theta_rad)) < 0.2) {
+        nearest[k] = std::min(nearest[k], distance_m(robot.pose(), views[k]));
+      }
+    }
+    return views;
+  };
+  const ToyRun run = robot.run(mission, 1200.0);
+  print("plan, views", run);
+  ASSERT_TRUE(run.end.has_value()) << "views that stay are not visited for ever";
+  EXPECT_EQ(run.end->kind, EndKind::kNotFoundAreaCovered);
+  EXPECT_GE(run.summary.covered_area_m2, 0.97 * run.summary.reachable_area_m2);
+  EXPECT_GT(asked, 3);
+  for (const double distance : nearest) {
+    EXPECT_LT(distance, 0.3) << "a goal is chosen where the last one was reached, facing what was to be seen";
+  }
+}
+
+TEST(SearchMission, EvidenceFollowsAMovedMap) {
+  auto mission = mission_of(Strategy::kPlan);
+  ToyRobot robot(one_room(), {1.0, 1.0, 0.3}, true, 5);
+  ASSERT_FALSE(robot.run(mission, 20.0).end.has_value());
+  const GridLists before = mission.lists();
+  std::vector<double> probabilities;
+  for (const Point2& p : before.searched) {
+    probabilities.push_back(mission.evidence().probability_at(p));
+  }
+  ASSERT_GT(std::count_if(probabilities.begin(), probabilities.end(), [](double p) { return p > 0.5; }), 3);
+  const Pose2 new_T_old{2.4, -1.6, 0.0};  // whole cells, so that nothing is lost to rounding
+  mission.transform(new_T_old);
+  for (std::size_t k = 0; k < before.searched.size(); ++k) {
+    const Point2 moved = new_T_old * before.searched[k];
+    EXPECT_NEAR(mission.evidence().probability_at(moved), probabilities[k], 0.05);
+    EXPECT_THAT(mission.lists().searched[k], Point2Near(moved, 1e-9));
+  }
+  EXPECT_LT(mission.evidence().probability_at(new_T_old * Point2(-2.0, -2.0)), 0.01);
+}
+
 TEST(SearchMission, PlanFindsAndApproachesATargetInTheOtherRoom) {
   ToyWorld world = two_rooms();
   world.target = Point2(9.4, 0.8);

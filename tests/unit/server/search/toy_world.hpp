@@ -64,6 +64,8 @@ class ToyRobot : public seeker::testing::ToyBase {
     return {sighting};
   }
 
+  MapViews map_views;  ///< handed to the mission
+
   ToyRun run(SearchMission& mission, double limit_s, const std::optional<Polygon>& bound = {}) {
     ToyRun out;
     nav::OccupancyMap map;
@@ -77,7 +79,8 @@ class ToyRobot : public seeker::testing::ToyBase {
         (void)map.integrate(sonar_scan, pose_);
       }
       const LaserScan* laser_or_none = laser_fitted_ ? &laser_scan : nullptr;
-      SearchStep step = mission.step({now, pose_, Matrix3::Identity() * 1e-6, &sonar_scan, laser_or_none, map, 0});
+      SearchStep step =
+          mission.step({now, pose_, Matrix3::Identity() * 1e-6, &sonar_scan, laser_or_none, map, 0, map_views});
       out.events.insert(out.events.end(), step.events.begin(), step.events.end());
       out.seconds = to_seconds(now);
       if (step.end) {

@@ -1,0 +1,40 @@
+#include "server/app/map_views.hpp"
+
+#include <utility>
+
+#include "common/core/assert.hpp"
+
+namespace seeker::app {
+
+MapViewFinder::MapViewFinder(const explore::ExploreParams& params, nav::ForbiddenAreas areas)
+    : params_(params),
+      areas_(std::move(areas)),
+      floors_(params.cost, areas_, params.floor_cell_m, params.map_period_s),
+      openings_(params.viewpoints) {}
+
+std::vector<Pose2> MapViewFinder::find(const Situation& situation) {
+  SEEKER_ASSERT(situation.tracker != nullptr);
+  const Pose2& map_T_base = situation.pose.map_T_base;
+  floors_.attend(*situation.map, map_T_base, situation.now);
+  const auto floor = floors_.view(true);
+  const auto costs = floor ? nav::DistanceField::build((*floor)->cost, map_T_base.translation())
+                           : Result<nav::DistanceField>(tl::unexpected<Error>(floor.error()));
+  std::vector<Pose2> views;
+  if (!costs) {
+    return views;  // the search itself says that it cannot move
+  }
+  for (const explore::Opening& opening :
+       openings_.find({**floor, *costs, segments_.of(*situation.tracker), areas_, map_T_base, situation.now})) {
+    if (opening.kind == explore::OpeningKind::kWallEnd) {
+      views.push_back(opening.map_T_view);
+    }
+  }
+  return views;
+}
+
+void MapViewFinder::transform(const Pose2& new_T_old) {
+  openings_.transform(new_T_old);
+  floors_.transform(new_T_old);
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,31 @@
+/// \file
+/// Where a robot would have to stand to see how the open walls of its map go on.
+#pragma once
+
+#include <vector>
+
+#include "server/app/behaviour.hpp"
+#include "server/app/segment_view.hpp"
+#include "server/explore/explore_params.hpp"
+#include "server/explore/openings.hpp"
+
+namespace seeker::app {
+
+/// Remembers what was looked at in vain, as an exploration does.
+class MapViewFinder {
+ public:
+  MapViewFinder(const explore::ExploreParams& params, nav::ForbiddenAreas areas);
+
+  /// Frame `map`, cheapest way first. Costs a plan of the whole map: for when a goal is chosen.
+  [[nodiscard]] std::vector<Pose2> find(const Situation& situation);
+  void transform(const Pose2& new_T_old);
+
+ private:
+  explore::ExploreParams params_;
+  nav::ForbiddenAreas areas_;
+  nav::FloorSource floors_;
+  explore::Openings openings_;
+  SegmentView segments_;
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,144 @@
+// Explorations over real sockets: to the end, without their client, paused, and over the death of the robot's program.
+
+#include <csignal>
+#include <future>
+#include <mutex>
+#include <sstream>
+
+#include "common/rpc/wait.hpp"
+#include "tests/integration/processes/daemon.hpp"
+
+namespace seeker::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Slow enough that something can happen in between, fast enough for a test.
+const std::vector<std::string> kSlow{"--set", "sim.speed=15", "--set", "loop.mission.link_grace_s=0.5"};
+
+/// Follows a robot's missions.
+class Watcher {
+ public:
+  explicit Watcher(const Daemon& daemon) : client_(connect(daemon, "watcher")) {
+    Result<std::unique_ptr<api::Subscription>> subscription =
+        client_->subscribe({{.topic = api::Topic::kMission}}, [this](const api::UpdatePtr& update) {
+          const auto& status = std::get<api::MissionStatus>(update->payload);
+          if (status.end) {
+            std::call_once(once_, [&] { ended_.set_value(status); });
+          }
+        });
+    EXPECT_TRUE(subscription);
+    subscription_ = std::move(*subscription);
+  }
+
+  [[nodiscard]] api::RobotStatus status() const {
+    return rpc::wait<api::RobotStatus>([&](auto reply) { client_->get_status(std::move(reply)); }, kCall).value();
+  }
+  /// Asks until the mission is as wanted.
+  template <class Wanted>
+  api::RobotStatus until(Wanted wanted) const {
+    for (;;) {
+      api::RobotStatus now = status();
+      if (now.mission && wanted(*now.mission)) {
+        return now;
+      }
+    }
+  }
+  [[nodiscard]] api::MissionStatus end() {
+    auto future = ended_.get_future();
+    EXPECT_EQ(future.wait_for(seconds(60)), std::future_status::ready) << "the mission did not end";
+    return future.get();
+  }
+
+ private:
+  std::shared_ptr<rpc::RobotClient> client_;
+  std::once_flag once_;
+  std::promise<api::MissionStatus> ended_;
+  std::unique_ptr<api::Subscription> subscription_;
+};
+
+bool under_way(const api::MissionStatus& mission) { return mission.path_length_m > 0.5; }
+
+TEST(ExploreProcesses, DemoWorldIsMappedAndEveryDecisionTold) {
+  const Daemon daemon;
+  std::string output;
+  ASSERT_EQ(seeker(daemon, {"explore", "--strategy", "frontier", "--json", "-q"}, &output), 0) << output;
+  std::istringstream lines(output);
+  std::vector<std::string> documents;
+  for (std::string line; std::getline(lines, line);) {
+    documents.push_back(line);
+  }
+  ASSERT_GT(documents.size(), 3U) << output;
+  for (std::size_t k = 0; k + 1 < documents.size(); ++k) {
+    const std::string number = "\"decision\":{\"number\":" + std::to_string(k + 1) + ",";
+    EXPECT_NE(documents[k].find(number), std::string::npos) << documents[k];
+    EXPECT_NE(documents[k].find("\"candidates\":[{\"x_m\":"), std::string::npos) << documents[k];
+  }
+  EXPECT_NE(documents.back().find("\"outcome\":\"COMPLETE\""), std::string::npos) << documents.back();
+}
+
+TEST(ExploreProcesses, RobotWithoutAMapOfSegmentsRefuses) {
+  const Daemon daemon({"--set", "estimator=odometry"});
+  std::string output;
+  EXPECT_EQ(seeker(daemon, {"explore", "--strategy", "frontier"}, &output), 3);
+  EXPECT_NE(output.find("estimator=line_slam"), std::string::npos) << output;
+}
+
+TEST(ExploreProcesses, ClientKilledOnTheWayLetsItsLinkPolicyDecide) {
+  for (const auto& [policy, outcome] :
+       {std::pair("stop", api::Outcome::kLinkLost), std::pair("continue", api::Outcome::kComplete)}) {
+    const Daemon daemon(kSlow);
+    Watcher watcher(daemon);
+    ChildProcess client(program("seeker"),
+                        {"explore", "--strategy", "frontier", "--link-policy", policy, "--robot", daemon.address()},
+                        daemon.folder() / "victim");
+    static_cast<void>(watcher.until(under_way));
+    client.send(SIGKILL);
+    const api::MissionStatus ended = watcher.end();
+    EXPECT_EQ(ended.end->outcome, outcome) << policy << ": " << ended.end->cause;
+  }
+}
+
+TEST(ExploreProcesses, PausedExplorationStandsAndGoesOn) {
+  const Daemon daemon(kSlow);
+  Watcher watcher(daemon);
+  ASSERT_EQ(seeker(daemon, {"explore", "--strategy", "frontier", "--detach"}), 0);
+  static_cast<void>(watcher.until(under_way));
+  ASSERT_EQ(seeker(daemon, {"pause"}), 0);
+  const double paused_m = watcher.status().mission->path_length_m;
+  EXPECT_EQ(watcher.status().mission->state, api::MissionState::kPaused);
+  ASSERT_EQ(seeker(daemon, {"resume"}), 0);
+  static_cast<void>(watcher.until([&](const api::MissionStatus& m) { return m.path_length_m > paused_m + 0.5; }));
+  ASSERT_EQ(seeker(daemon, {"stop"}), 0);
+  EXPECT_EQ(watcher.end().end->outcome, api::Outcome::kOperator);
+}
+
+TEST(ExploreProcesses, ExplorationGoesOnInItsMapAfterTheServerWasKilled) {
+  const fs::path folder = fresh_folder("explore_crash");
+  const fs::path kept = folder / "state" / "maps" / "checkpoints" / "sim-1" / "look-round.seekermap";
+  {
+    std::vector<std::string> options = kSlow;
+    options.insert(options.end(), {"--set", "loop.map.checkpoint_period_s=10"});
+    Daemon daemon(options, folder);
+    ASSERT_EQ(seeker(daemon, {"explore", "--strategy", "frontier", "--detach", "--id", "look-round"}), 0);
+    ASSERT_TRUE(wait_for_file(kept, seconds(60)));
+    daemon.process->send(SIGKILL);
+    EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
+  }
+  const Daemon again({}, folder);
+  Watcher watcher(again);
+  std::string output;
+  ASSERT_EQ(seeker(again, {"resume"}, &output), 0) << output;
+  const api::MissionStatus ended = watcher.end();
+  EXPECT_EQ(ended.id, "look-round");
+  EXPECT_EQ(ended.end->outcome, api::Outcome::kComplete) << ended.end->cause;
+  ASSERT_TRUE(watcher.status().line_map);
+  EXPECT_GT(watcher.status().pose.map_epoch, 0U) << "the kept map was loaded";
+  while (fs::exists(kept)) {
+    // The worker removes it; the mission's end does not wait for the disk.
+    std::this_thread::yield();
+  }
+}
+
+}  // namespace
+}  // namespace seeker::testing
