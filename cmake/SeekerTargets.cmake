@@ -38,6 +38,9 @@ function(seeker_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(SEEKER_SANITIZE)  # an instrumented test takes up to ten times as long
+    math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")
+  endif()
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE seeker_flags seeker_test_support ${ARG_DEPS} GTest::gmock GTest::gtest_main)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <unordered_set>
 
 #include <Eigen/Eigenvalues>
@@ -43,6 +44,35 @@ Status check_edges(const LineMap& map, const std::unordered_set<std::uint32_t>& 
     if (!is_finite(edge.from_T_to) || !is_covariance<3>(edge.covariance)) {
       return fail(Errc::kInvalidArgument, "the relation of local maps " + std::to_string(edge.from) + " and " +
                                               std::to_string(edge.to) + " has no valid pose or covariance");
+    }
+  }
+  return {};
+}
+
+/// Places of local maps that nothing joins would be as good as any others.
+Status check_joined(const LineMap& map) {
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> neighbours;
+  for (const MapEdge& edge : map.edges) {
+    if (edge.enabled) {
+      neighbours[edge.from].push_back(edge.to);
+      neighbours[edge.to].push_back(edge.from);
+    }
+  }
+  std::unordered_set<std::uint32_t> joined{map.nodes.front().id};
+  std::vector<std::uint32_t> open{map.nodes.front().id};
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
+    for (const std::uint32_t next : neighbours[node]) {
+      if (joined.insert(next).second) {
+        open.push_back(next);
+      }
+    }
+  }
+  for (const MapNode& node : map.nodes) {
+    if (!joined.contains(node.id)) {
+      return fail(Errc::kInvalidArgument, "no relation joins local map " + std::to_string(node.id) +
+                                              " to the first one, so that its place is unknown; save the map again");
     }
   }
   return {};
@@ -131,6 +161,9 @@ Status validate(const LineMap& map) {
     return ok;
   }
   if (Status ok = check_edges(map, nodes); !ok) {
+    return ok;
+  }
+  if (Status ok = map.nodes.empty() ? Status() : check_joined(map); !ok) {
     return ok;
   }
   if (Status ok = check_segments(map, nodes); !ok) {

@@ -88,7 +88,8 @@ struct LineMap {
 };
 
 /// Refuses what cannot be a map: ids that are 0, repeated, unknown or not below next_id; poses or covariances that are
-/// not finite or not symmetric positive semi-definite; lengths below 0; scans without beams or with too many.
+/// not finite or not symmetric positive semi-definite; local maps that no enabled relation joins to the first; lengths
+/// below 0; scans without beams or with too many.
 [[nodiscard]] Status validate(const LineMap& map);
 
 /// Names of kept maps are [a-z0-9_-]{1,64}: also safe as the name of a file.

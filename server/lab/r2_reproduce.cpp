@@ -1,9 +1,13 @@
 #include "server/lab/r2_reproduce.hpp"
 
+#include <array>
+#include <limits>
+
 #include "common/image/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/r2_tracker.hpp"
 #include "server/options/world_options.hpp"
+#include "server/slam/line_slam.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -11,9 +15,12 @@ namespace {
 struct Case {
   const char* name;
   double odometry_factor;
+  MakeTracker (*tracker)();
   const char* file;
 };
-constexpr Case kCases[] = {{"odometry", 1.0, "r2.csv"}, {"odometry-doubled", 2.0, "r2-double.csv"}};
+const std::array<Case, 3> kCases = {Case{"odometry", 1.0, &sp_tracker, "r2.csv"},
+                                    Case{"odometry-doubled", 2.0, &sp_tracker, "r2-double.csv"},
+                                    Case{"local-maps", 1.0, &local_maps_tracker, "r2-local-maps.csv"}};
 
 }  // namespace
 
@@ -31,6 +38,25 @@ MakeTracker sp_tracker() {
   };
 }
 
+MakeTracker local_maps_tracker() {
+  return [](const sim::RobotModel& model) {
+    slam::LineSlamParams params;
+    params.extractor.bearing_sigma_rad = model.lidar.sigma_bearing_rad;
+    params.odometry.along_sigma_m_per_sqrt_m = model.odometry.sigma_distance;
+    params.odometry.across_sigma_m_per_sqrt_m = 0.0;
+    params.odometry.theta_sigma_rad_per_sqrt_m = model.odometry.sigma_turn_per_distance;
+    params.odometry.theta_sigma_rad_per_sqrt_rad = model.odometry.sigma_turn;
+    params.max_odometry_scale = 1.0;
+    // Walls of the simulator are straight and its scanner is level: what real ones add would hide the filter's own.
+    params.observation = {};
+    params.local.joint_sigma_m = 0.0;
+    params.local.joint_sigma_rad = 0.0;
+    params.points.use = slam::PointUse::kNone;
+    params.loops.every_m = std::numeric_limits<double>::infinity();
+    return std::make_unique<slam::LineSlam>(params);
+  };
+}
+
 Status reproduce_r2(const ReproduceParams& params, Report& report) {
   std::error_code error;
   std::filesystem::create_directories(params.out, error);
@@ -44,7 +70,7 @@ Status reproduce_r2(const ReproduceParams& params, Report& report) {
     consistency.seeds = params.seeds;
     consistency.tour = office_tour();
     consistency.odometry_factor = one.odometry_factor;
-    Result<NeesStudy> study = study_consistency(*world, sim::RobotModel{}, sp_tracker(), consistency);
+    Result<NeesStudy> study = study_consistency(*world, sim::RobotModel{}, one.tracker(), consistency);
     if (!study) {
       return tl::unexpected<Error>(study.error());
     }

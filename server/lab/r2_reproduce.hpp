@@ -7,12 +7,16 @@
 
 namespace seeker::lab {
 
-/// r2.csv (and r2-double.csv for twice the odometry noise), r2-nees.png, a line per case to the report.
+/// r2.csv, r2-double.csv (twice the odometry noise), r2-local-maps.csv (across joins), r2-nees.png; a line per case to
+/// the report.
 [[nodiscard]] Status reproduce_r2(const ReproduceParams& params, Report& report);
 
 /// The tour of R2 through the world `office-no-target`: corridor, three rooms and back.
 [[nodiscard]] std::vector<Point2> office_tour();
 /// The SPmap alone, told what the robot's sensors are like.
 [[nodiscard]] MakeTracker sp_tracker();
+/// Line SLAM told the same: a new local map every 10 m, loops not closed, so that the covariance goes through the
+/// joins.
+[[nodiscard]] MakeTracker local_maps_tracker();
 
 }  // namespace seeker::lab

@@ -12,6 +12,25 @@ namespace {
 /// chi-square of 3 dof at 99.9 %: a match farther from the prediction says that the odometry was wrong.
 constexpr double kContradiction = 16.27;
 
+/// The scan without the beams of lines that were paired: what they say has been used.
+LaserScan without_paired_lines(LaserScan scan, const lines::ScanLines& found,
+                               const std::vector<lines::SegmentObservation>& observations,
+                               const Association& association) {
+  std::vector<bool> paired(found.lines.size(), false);
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (association.matches[k].verdict == SpVerdict::kPaired) {
+      paired[observations[k].line] = true;
+    }
+  }
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    const std::int32_t line = found.line_of_beam[beam];
+    if (line != lines::kNoLine && paired[static_cast<std::size_t>(line)]) {
+      scan.ranges_m[beam] = kNoReturn;
+    }
+  }
+  return scan;
+}
+
 }  // namespace
 
 struct LineSlam::Scan {
@@ -56,7 +75,6 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   repeats_ = 0;
   way_since_loops_m_ = 0.0;
   ++revision_;
-  poses_.clear();
   counts_ = {};
 }
 
@@ -153,9 +171,6 @@ Status LineSlam::update(const LaserScan& scan) {
   const Pose2& increment = travelled.map_T_base;
   if (stands_still(scan)) {
     ++counts_.still;
-    if (recording_) {
-      poses_.push_back({scan.stamp, backend_.newest().id, lines_->robot() * increment});
-    }
     return {};
   }
   used_ranges_ = scan.ranges_m;
@@ -185,9 +200,6 @@ Status LineSlam::update(const LaserScan& scan) {
     (void)relocalise(std::nullopt);
   } else if (backend_.apart()) {
     look_for_robot();
-  }
-  if (recording_) {
-    poses_.push_back({scan.stamp, backend_.newest().id, lines_->robot()});
   }
   return outcome;
 }
@@ -269,6 +281,18 @@ void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covarianc
   odometry_scale_ += rate * (wanted - odometry_scale_);
 }
 
+void LineSlam::use_leftover(const Scan& scan, const Association& association) {
+  const LaserScan rest = without_paired_lines(scan.scan, scan.found, scan.observations, association);
+  const std::vector<OrientedPoint> points =
+      thin_out(oriented_points(rest, params_.points.normals), params_.points.match_points);
+  const MatchResult match = matcher_.match(cloud_.around(lines_->robot()), points, lines_->robot());
+  const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
+  if (match.pairs >= params_.points.match.min_pairs &&
+      lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) < kContradiction) {
+    lines_->observe_pose(match.map_T_base, covariance, match.degenerate_direction);
+  }
+}
+
 void LineSlam::correct(Scan& scan, const MatchResult& match) {
   const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
   const bool contradicted = lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction;
@@ -282,28 +306,7 @@ void LineSlam::correct(Scan& scan, const MatchResult& match) {
   counts_.paired += static_cast<std::uint64_t>(report.paired);
   ++revision_;
   if (!points_first && params_.points.use == PointUse::kLeftover) {
-    LaserScan rest = scan.scan;
-    for (std::size_t beam = 0; beam < rest.ranges_m.size(); ++beam) {
-      const std::int32_t line = scan.found.line_of_beam[beam];
-      if (line == lines::kNoLine) {
-        continue;
-      }
-      for (std::size_t k = 0; k < scan.observations.size(); ++k) {
-        if (scan.observations[k].line == static_cast<std::size_t>(line) &&
-            association.matches[k].verdict == SpVerdict::kPaired) {
-          rest.ranges_m[beam] = kNoReturn;
-        }
-      }
-    }
-    const std::vector<OrientedPoint> points =
-        thin_out(oriented_points(rest, params_.points.normals), params_.points.match_points);
-    const MatchResult leftover = matcher_.match(cloud_.around(lines_->robot()), points, lines_->robot());
-    const Matrix3 left_covariance =
-        with_floor(leftover.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
-    if (leftover.pairs >= params_.points.match.min_pairs &&
-        lines_->pose_d2(leftover.map_T_base, left_covariance, leftover.degenerate_direction) < kContradiction) {
-      lines_->observe_pose(leftover.map_T_base, left_covariance, leftover.degenerate_direction);
-    }
+    use_leftover(scan, association);
   }
   lines_->observe_free_space(scan.scan);
 }

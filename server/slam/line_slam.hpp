@@ -14,13 +14,6 @@
 
 namespace seeker::slam {
 
-/// Where the robot was at a scan: in which local map, and where in it. The place of the local map may still move.
-struct ScanPose {
-  RobotTime stamp;
-  std::uint32_t node = 0;
-  Pose2 node_T_base;
-};
-
 /// Sums over all scans, for reports.
 struct LineSlamCounts {
   std::uint64_t scans = 0;
@@ -54,10 +47,6 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base) override;
   void for_each_scan(const std::function<void(const LaserScan&, const Pose2&)>& visit) const override;
 
-  /// Keeps every scan's pose from now on, for trajectories: grows with time.
-  void record_trajectory() { recording_ = true; }
-  /// The recorded poses, with all that was learnt since.
-  [[nodiscard]] std::vector<std::pair<RobotTime, Pose2>> trajectory() const;
   [[nodiscard]] const LineSlamCounts& counts() const { return counts_; }
   [[nodiscard]] const LoopCounts& loops() const { return backend_.loops(); }
   [[nodiscard]] const SpMap& local_map() const { return *lines_; }
@@ -74,6 +63,7 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] bool believable(const MatchResult& match, const Pose2& predicted) const;
   void correct(Scan& scan, const MatchResult& match);
   void use_points(const Scan& scan, const MatchResult& match);
+  void use_leftover(const Scan& scan, const Association& association);
   void note_failure(const Scan& scan);
   void note_quality(const MatchResult& match);
   void keep(const Scan& scan);
@@ -119,8 +109,6 @@ class LineSlam final : public MapTracker {
   Pose2 last_witness_;                      ///< node_T_base
   int witnesses_ = 0;                       ///< and how many answers in a row have said so
   std::optional<std::uint32_t> read_only_;  ///< local maps from this one on are forgotten: the map is only read
-  bool recording_ = false;
-  std::vector<ScanPose> poses_;
   LineSlamCounts counts_;
 };
 

@@ -205,13 +205,4 @@ void LineSlam::for_each_scan(const std::function<void(const LaserScan&, const Po
   }
 }
 
-std::vector<std::pair<RobotTime, Pose2>> LineSlam::trajectory() const {
-  std::vector<std::pair<RobotTime, Pose2>> poses;
-  poses.reserve(poses_.size());
-  for (const ScanPose& pose : poses_) {
-    poses.emplace_back(pose.stamp, backend_.pose(pose.node) * pose.node_T_base);
-  }
-  return poses;
-}
-
 }  // namespace seeker::slam

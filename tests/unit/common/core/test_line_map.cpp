@@ -50,6 +50,8 @@ TEST(LineMap, RefusesWhatCannotBeAMap) {
   EXPECT_TRUE(refused([](LineMap& m) { m.nodes[1].id = 0; }));
   EXPECT_TRUE(refused([](LineMap& m) { m.edges[0].to = 7; }));
   EXPECT_TRUE(refused([](LineMap& m) { m.edges[0].covariance(0, 2) = 5.0; }));
+  EXPECT_TRUE(refused([](LineMap& m) { m.edges[0].enabled = false; })) << "nothing says where the second room is";
+  EXPECT_TRUE(refused([](LineMap& m) { m.edges.clear(); }));
   EXPECT_TRUE(refused([](LineMap& m) { m.keyframes[0].ranges.clear(); }));
 }
 
