@@ -50,7 +50,9 @@ LineMap random_map(Rng& rng, const RandomMapSize& size) {
     map.nodes.push_back({k * 3 + 1, random_pose(rng), random_time(rng)});
     if (k > 0) {
       map.edges.push_back({map.nodes[k - 1].id, map.nodes[k].id, random_pose(rng), random_covariance<Matrix3>(rng),
-                           rng.below(2) == 0, rng.below(2) == 0});
+                           false, true});
+      map.edges.push_back({map.nodes[rng.below(k)].id, map.nodes[k].id, random_pose(rng),
+                           random_covariance<Matrix3>(rng), true, rng.below(2) == 0});
     }
   }
   const auto node = [&] { return map.nodes[rng.below(map.nodes.size())].id; };
