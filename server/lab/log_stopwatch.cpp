@@ -11,14 +11,6 @@
 namespace seeker::lab {
 namespace {
 
-double thread_seconds() {
-  timespec time{};
-  constexpr double kNano = 1e-9;
-  return clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0
-             ? static_cast<double>(time.tv_sec) + kNano * static_cast<double>(time.tv_nsec)
-             : 0.0;
-}
-
 double seconds_of(const timeval& time) {
   constexpr double kMicro = 1e-6;
   return static_cast<double>(time.tv_sec) + kMicro * static_cast<double>(time.tv_usec);
@@ -55,6 +47,14 @@ void Stopwatch::stop() {
 void Stopwatch::lap() {
   wall_s_.push_back(std::exchange(wall_sum_s_, 0.0));
   processor_s_.push_back(std::exchange(processor_sum_s_, 0.0));
+}
+
+double thread_seconds() {
+  timespec time{};
+  constexpr double kNano = 1e-9;
+  return clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0
+             ? static_cast<double>(time.tv_sec) + kNano * static_cast<double>(time.tv_nsec)
+             : 0.0;
 }
 
 double process_seconds() {

@@ -40,6 +40,8 @@ class Stopwatch {
   std::vector<double> processor_s_;
 };
 
+/// Processor time of this thread so far, s.
+[[nodiscard]] double thread_seconds();
 /// Processor time of the whole process so far, s.
 [[nodiscard]] double process_seconds();
 /// The largest memory this process has had so far.

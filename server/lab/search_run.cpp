@@ -6,37 +6,23 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "common/config/yaml.hpp"
 #include "common/core/angle.hpp"
 #include "server/app/device_factory.hpp"
 #include "server/app/robot_loop.hpp"
 #include "server/app/update_hub.hpp"
 #include "server/lab/cell_visits.hpp"
 #include "server/options/target_options.hpp"
-#include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
 
 namespace seeker::lab {
 namespace {
 
 constexpr const char* kClient = "seeker-lab";
-constexpr double kNearTarget_m = 1.0;        ///< a detection farther from every target is a false one
-constexpr double kNearBearing_deg = 10.0;    ///< the same for one that knows a direction only
-constexpr double kTruePathSpacing_m = 0.05;  ///< of the path kept for pictures
+constexpr double kNearTarget_m = 1.0;      ///< a detection farther from every target is a false one
+constexpr double kNearBearing_deg = 10.0;  ///< the same for one that knows a direction only
 
-/// Where the robot really was at every step.
-struct TrueStep {
-  RobotTime stamp;
-  Pose2 world_T_base;
-};
-
-const Pose2& true_pose_at(const std::vector<TrueStep>& steps, RobotTime stamp) {
-  const auto later = std::lower_bound(steps.begin(), steps.end(), stamp,
-                                      [](const TrueStep& step, RobotTime t) { return step.stamp < t; });
-  return later == steps.end() ? steps.back().world_T_base : later->world_T_base;
-}
-
-FindScore score_of(const api::Detection& detection, const sim::GroundTruth& truth, const std::vector<TrueStep>& steps) {
+FindScore score_of(const api::Detection& detection, const RunWatch& watch) {
+  const sim::GroundTruth truth = watch.truth();
   FindScore score;
   score.target = detection.target;
   score.robot_time_s = to_seconds(detection.stamp);
@@ -49,7 +35,7 @@ FindScore score_of(const api::Detection& detection, const sim::GroundTruth& trut
     const Eigen::SelfAdjointEigenSolver<Matrix2> solver(detection.position_covariance, Eigen::EigenvaluesOnly);
     score.position_sigma_m = std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
   }
-  const Pose2 map_T_base = inverse(truth.world_T_start) * true_pose_at(steps, detection.stamp);
+  const Pose2 map_T_base = inverse(truth.world_T_start) * watch.world_T_base_at(detection.stamp);
   for (const sim::TargetTruth& target : truth.targets) {
     if (target.name != detection.target) {
       continue;
@@ -71,69 +57,49 @@ bool is_true(const FindScore& score) {
                                 : score.range_m > 0.0 && score.bearing_error_deg <= kNearBearing_deg;
 }
 
-/// Watches a loop from outside while it runs.
+/// Watches a search from outside while it runs.
 class Observer {
  public:
-  Observer(app::RobotLoop& loop, const sim::Simulation& simulation) : loop_(loop), simulation_(simulation) {
-    loop.on_event = [this](const api::Event& event) { take(event); };
+  Observer(app::RobotLoop& loop, const sim::Simulation& simulation) : loop_(loop), watch_(loop, simulation) {
     loop.on_detection = [this](const api::Detection& detection) { take(detection); };
   }
 
   /// Before every pass of the loop.
   void look() {
-    const sim::GroundTruth truth = simulation_.truth();
-    steps_.push_back({loop_.now(), truth.world_T_base});
+    watch_.look();
+    const sim::GroundTruth truth = watch_.truth();
     path_length_m_ = truth.path_length_m;
     visits_.add(truth.world_T_base.translation());
-    if (path_.empty() || distance_m(path_.back(), truth.world_T_base) >= kTruePathSpacing_m) {
-      path_.push_back(truth.world_T_base);
-    }
-    const Pose2 map_T_base = inverse(truth.world_T_start) * truth.world_T_base;
-    const Pose2 believed = loop_.status().pose.map_T_base;
-    error_m_ = distance_m(map_T_base, believed);
-    error_rad_ = std::abs(wrap_angle(map_T_base.theta_rad - believed.theta_rad));
-    max_error_m_ = std::max(max_error_m_, error_m_);
   }
 
-  void fill(RunRecord& record) {
+  void fill(RunRecord& record) const {
     RunResult& result = record.result;
-    const sim::GroundTruth truth = simulation_.truth();
+    const sim::GroundTruth truth = watch_.truth();
     result.path_length_m = truth.path_length_m;
     result.target_path_m = find_path_m_.value_or(truth.path_length_m);
     result.cells_visited = visits_.visited();
     result.cells_repeated = visits_.repeated();
     result.contacts = truth.contacts;
     result.min_clearance_m = truth.min_clearance_m;
-    result.localisation_error_m = error_m_;
-    result.localisation_error_deg = rad_to_deg(error_rad_);
-    result.max_localisation_error_m = max_error_m_;
+    result.localisation_error_m = watch_.error_m();
+    result.localisation_error_deg = rad_to_deg(watch_.error_rad());
+    result.max_localisation_error_m = watch_.max_error_m();
     result.first_find = first_;
-    result.events = static_cast<int>(events_.size());
-    result.event_hash = hash_.hex();
-    record.events = std::move(events_);
-    record.true_path = std::move(path_);
+    result.events = static_cast<int>(watch_.events().size());
+    result.event_hash = watch_.event_hash();
+    record.events = watch_.events();
+    record.true_path = watch_.true_path();
     record.truth = truth;
   }
 
   [[nodiscard]] FindScore score(const api::Detection& detection) const {
-    FindScore score = score_of(detection, simulation_.truth(), steps_);
+    FindScore score = score_of(detection, watch_);
     const auto& grid = loop_.missions().grid();
     score.cells_searched = grid ? static_cast<int>(grid->lists.searched.size()) : 0;
     return score;
   }
 
  private:
-  void take(const api::Event& event) {
-    if (event.mission.empty()) {
-      return;  // links and sessions are no part of a mission's log
-    }
-    hash_.add(event.kind);
-    hash_.add(event.text);
-    hash_.add(to_string(event.severity));
-    hash_.add(event.mission_time ? std::to_string(event.mission_time->count()) : "");
-    events_.push_back(event);
-  }
-
   void take(const api::Detection& detection) {
     if (!first_) {
       first_ = score(detection);
@@ -142,18 +108,11 @@ class Observer {
   }
 
   app::RobotLoop& loop_;
-  const sim::Simulation& simulation_;
-  std::vector<TrueStep> steps_;
-  std::vector<Pose2> path_;
-  std::vector<api::Event> events_;
-  TextHash hash_;
+  RunWatch watch_;
   CellVisits visits_;
   std::optional<FindScore> first_;
   std::optional<double> find_path_m_;
   double path_length_m_ = 0.0;
-  double error_m_ = 0.0;
-  double error_rad_ = 0.0;
-  double max_error_m_ = 0.0;
 };
 
 void fill_mission(RunRecord& record, const app::RobotLoop& loop, const Observer& observer) {
@@ -214,54 +173,27 @@ Result<api::MissionRequest> request_of(const RunSpec& spec, const sim::World& wo
   return request;
 }
 
-/// The world's file and the one it is based on.
-Status add_world(TextHash& hash, const std::filesystem::path& file) {
-  const Result<std::string> text = config::read_text_file(file);
-  if (!text) {
-    return tl::unexpected<Error>(text.error());
-  }
-  const Result<options::WorldFile> world = options::parse_world(*text, file.string());
-  if (!world) {
-    return tl::unexpected<Error>(world.error());
-  }
-  hash.add(*text);
-  return world->base.empty() ? Status() : add_world(hash, file.parent_path() / world->base);
-}
-
 }  // namespace
 
 Result<app::RobotOptions> options_of(const RunSpec& spec) {
-  std::vector<std::string> overrides = spec.overrides;
-  overrides.push_back("sim.world=" + std::filesystem::absolute(spec.world_file).string());
-  overrides.push_back("sim.seed=" + std::to_string(spec.seed));
-  overrides.push_back(std::string("sim.random_target=") + (spec.random_target ? "true" : "false"));
-  overrides.emplace_back("sim.speed=0");
-  Result<app::RobotOptions> options = app::load_robot_options(spec.robot_file, overrides);
+  Result<app::RobotOptions> options = sim_options(spec);
   if (options) {
-    if (options->driver != app::DriverType::kSim) {
-      return fail(Errc::kInvalidArgument, spec.robot_file.string() + ": experiments need 'driver: sim'");
-    }
     options->search.strategy = spec.strategy;
   }
   return options;
 }
 
 Result<std::string> settings_of(const RunSpec& spec) {
-  RunSpec neutral = spec;
-  neutral.seed = 0;
-  Result<app::RobotOptions> options = options_of(neutral);
+  Result<app::RobotOptions> options = options_of(spec);
   if (!options) {
     return tl::unexpected<Error>(options.error());
   }
-  options->sim.world = spec.world_file.filename().string();
   TextHash hash;
-  hash.add(config::print(*options));
-  if (const Status ok = add_world(hash, spec.world_file); !ok) {
+  if (const Status ok = add_settings(hash, std::move(*options), spec); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   hash.add(to_string(spec.strategy));
   hash.add(to_string(spec.on_found));
-  hash.add(std::to_string(spec.time_limit_s));
   return hash.hex();
 }
 

@@ -12,22 +12,17 @@
 #include "common/api/robot_state.hpp"
 #include "server/app/robot_options.hpp"
 #include "server/lab/run_result.hpp"
+#include "server/lab/sim_run.hpp"
 #include "server/search/search_types.hpp"
 #include "server/sim/simulation.hpp"
 
 namespace seeker::lab {
 
 /// What to run.
-struct RunSpec {
-  std::filesystem::path robot_file = "config/robots/sim.yaml";
-  std::filesystem::path world_file;
+struct RunSpec : SimSpec {
   std::filesystem::path target_folder;  ///< of the target files; empty: `targets` beside the folder of the world
   search::Strategy strategy = search::Strategy::kPlan;
-  std::uint64_t seed = 1;
-  bool random_target = false;  ///< the world's first target stands at a place drawn from the seed
   api::OnFound on_found = api::OnFound::kApproach;
-  double time_limit_s = 3600.0;        ///< robot time
-  std::vector<std::string> overrides;  ///< "key.path=value" of the robot file
 };
 
 /// A run with what pictures need. Points of the robot are in its frame `map`.
