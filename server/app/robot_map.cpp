@@ -119,10 +119,6 @@ std::vector<MapSegment> RobotMap::segments() const {
   return tracker_ == nullptr ? std::vector<MapSegment>() : tracker_->segments();
 }
 
-std::optional<slam::LocalBelief> RobotMap::local_belief() const {
-  return tracker_ == nullptr ? std::nullopt : tracker_->local_belief();
-}
-
 Result<LineMap> RobotMap::map() const { return tracker_ == nullptr ? Result<LineMap>(no_map()) : tracker_->map(); }
 
 Status RobotMap::load(const LineMap& map, const MapIdentity& identity, RobotTime now) {

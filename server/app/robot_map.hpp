@@ -72,8 +72,6 @@ class RobotMap {
   [[nodiscard]] std::optional<api::LineMapStatus> status() const;
   /// Of the whole map as they are now; none where the estimator keeps no map.
   [[nodiscard]] std::vector<MapSegment> segments() const;
-  /// See slam::MapTracker::local_belief(); nothing where the estimator keeps no map.
-  [[nodiscard]] std::optional<slam::LocalBelief> local_belief() const;
 
   [[nodiscard]] Result<LineMap> map() const;
   [[nodiscard]] const MapIdentity& identity() const { return identity_; }

@@ -18,7 +18,9 @@ struct ReproduceParams {
   std::vector<std::string> overrides;
   int jobs = 1;
   bool show_progress = false;
-  bool sockets = true;  ///< false: leave out R12, the only part with processes and network
+  std::vector<std::string> worlds;      ///< of s1: only these; empty: all
+  std::vector<std::string> strategies;  ///< of s1: only these; empty: all
+  bool sockets = true;                  ///< false: leave out R12, the only part with processes and network
 };
 
 /// Limits of R5.

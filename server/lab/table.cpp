@@ -33,6 +33,23 @@ std::string Table::csv() const {
   return text;
 }
 
+std::string Table::markdown() const {
+  std::string text;
+  for (const std::vector<std::string>& row : rows_) {
+    for (const std::string& cell : row) {
+      text += "| " + cell + " ";
+    }
+    text += "|\n";
+    if (&row == &rows_.front()) {
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        text += "| --- ";
+      }
+      text += "|\n";
+    }
+  }
+  return text;
+}
+
 std::string Table::text() const {
   std::vector<std::size_t> widths(rows_.front().size(), 0);
   for (const std::vector<std::string>& row : rows_) {

@@ -14,6 +14,8 @@ class Table {
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
   /// RFC 4180, lines end in \n.
   [[nodiscard]] std::string csv() const;
+  /// A table of Markdown, as it is.
+  [[nodiscard]] std::string markdown() const;
   /// Columns padded to their width, the first two to the left, numbers to the right.
   [[nodiscard]] std::string text() const;
 

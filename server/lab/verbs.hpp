@@ -37,10 +37,14 @@ void add_common(CLI::App& verb, CommonOptions& options);
 /// Prints the error; kExitFailed.
 [[nodiscard]] int report_error(const std::string& message);
 
+/// Names of the strategies of exploration.
+[[nodiscard]] std::vector<std::string> explore_strategies();
+
 /// Set up a verb; the returned function runs it.
 using Verb = std::function<int()>;
 [[nodiscard]] Verb add_reproduce(CLI::App& app);
 [[nodiscard]] Verb add_search(CLI::App& app);
+[[nodiscard]] Verb add_explore(CLI::App& app);
 [[nodiscard]] Verb add_compare(CLI::App& app);
 [[nodiscard]] Verb add_hit_rate(CLI::App& app);
 [[nodiscard]] Verb add_template(CLI::App& app);

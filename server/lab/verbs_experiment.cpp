@@ -7,6 +7,7 @@
 #include "server/lab/experiment.hpp"
 #include "server/lab/r2_reproduce.hpp"
 #include "server/lab/reproduce.hpp"
+#include "server/lab/s1_reproduce.hpp"
 #include "server/lab/s5_reproduce.hpp"
 #include "server/lab/summary.hpp"
 #include "server/lab/verbs.hpp"
@@ -26,8 +27,10 @@ struct Reproduction {
   Status (*run)(const ReproduceParams&, Report&);
   const char* seeds;  ///< where the command line names none
 };
-const std::map<std::string, Reproduction> kReproductions = {
-    {"r2", {&reproduce_r2, "1-50"}}, {"s3", {&reproduce_s3, "1-20"}}, {"s5", {&reproduce_s5, "1-100"}}};
+const std::map<std::string, Reproduction> kReproductions = {{"r2", {&reproduce_r2, "1-50"}},
+                                                            {"s1", {&reproduce_s1, "1-20"}},
+                                                            {"s3", {&reproduce_s3, "1-20"}},
+                                                            {"s5", {&reproduce_s5, "1-100"}}};
 
 std::vector<std::string> reproduction_ids() {
   std::vector<std::string> ids;
@@ -36,6 +39,14 @@ std::vector<std::string> reproduction_ids() {
     ids.push_back(id);
   }
   return ids;
+}
+
+std::vector<std::string> explore_world_names() {
+  std::vector<std::string> names;
+  for (const ExploreWorld& world : explore_worlds()) {
+    names.push_back(world.name);
+  }
+  return names;
 }
 
 /// Options of `search` and `compare`.
@@ -140,7 +151,19 @@ int run_compare(const SearchOptions& o) {
   return kExitDone;
 }
 
-int run_reproduce(const CommonOptions& o, const std::string& id, const std::string& programs, bool sockets) {
+/// Options of `reproduce`.
+struct ReproduceOptions {
+  CommonOptions common;
+  std::string id = "s3";
+  std::string programs;
+  std::vector<std::string> worlds;
+  std::vector<std::string> strategies;
+  bool no_sockets = false;
+};
+
+int run_reproduce(const ReproduceOptions& options) {
+  const CommonOptions& o = options.common;
+  const std::string& id = options.id;
   const Result<std::vector<std::uint64_t>> seeds = parse_seeds(o.seeds.empty() ? kReproductions.at(id).seeds : o.seeds);
   if (!seeds) {
     return report_error(seeds.error().message);
@@ -148,12 +171,14 @@ int run_reproduce(const CommonOptions& o, const std::string& id, const std::stri
   ReproduceParams params;
   params.out = o.out;
   params.config = config_folder(o);
-  params.programs = programs;
+  params.programs = options.programs;
   params.seeds = *seeds;
   params.overrides = o.overrides;
   params.jobs = o.jobs;
   params.show_progress = show_progress();
-  params.sockets = sockets;
+  params.sockets = !options.no_sockets;
+  params.worlds = options.worlds;
+  params.strategies = options.strategies;
   Report report(o.json ? nullptr : &std::cout);
   const Status done = kReproductions.at(id).run(params, report);
   if (o.json) {
@@ -186,23 +211,24 @@ Verb add_compare(CLI::App& app) {
 }
 
 Verb add_reproduce(CLI::App& app) {
-  auto o = std::make_shared<CommonOptions>();
-  auto id = std::make_shared<std::string>("s3");
-  auto programs = std::make_shared<std::string>();
-  auto no_sockets = std::make_shared<bool>(false);
+  auto o = std::make_shared<ReproduceOptions>();
   CLI::App* verb =
       app.add_subcommand("reproduce", "Figures, tables and pass conditions of a paper; PASS and FAIL lines");
-  verb->add_option("paper", *id,
-                   "r2: consistency of the line filter; s3: autonomous search; s5: line detection with automatic "
-                   "thresholds")
+  verb->add_option("paper", o->id,
+                   "r2: consistency of the line filter; s1: active exploration; s3: autonomous search; s5: line "
+                   "detection with automatic thresholds")
       ->check(CLI::IsMember(reproduction_ids()))
       ->capture_default_str();
-  o->seeds.clear();
-  add_common(*verb, *o);
+  o->common.seeds.clear();
+  add_common(*verb, o->common);
   verb->get_option("--seeds")->default_str("those of the paper's conditions");
-  verb->add_option("--programs", *programs, "Folder of seekerd and seeker (default: beside this program)");
-  verb->add_flag("--no-sockets", *no_sockets, "Leave out R12, which starts server and client as processes");
-  return [o, id, programs, no_sockets] { return run_reproduce(*o, *id, *programs, !*no_sockets); };
+  verb->add_option("--world", o->worlds, "s1: only this world (repeatable)")
+      ->check(CLI::IsMember(explore_world_names()));
+  verb->add_option("--strategy", o->strategies, "s1: only this strategy (repeatable)")
+      ->check(CLI::IsMember(explore_strategies()));
+  verb->add_option("--programs", o->programs, "Folder of seekerd and seeker (default: beside this program)");
+  verb->add_flag("--no-sockets", o->no_sockets, "Leave out R12, which starts server and client as processes");
+  return [o] { return run_reproduce(*o); };
 }
 
 }  // namespace seeker::lab

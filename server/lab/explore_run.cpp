@@ -1,0 +1,197 @@
+#include "server/lab/explore_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "common/config/yaml.hpp"
+#include "server/app/device_factory.hpp"
+#include "server/app/update_hub.hpp"
+#include "server/lab/behaviour_timer.hpp"
+
+namespace seeker::lab {
+namespace {
+
+constexpr const char* kClient = "seeker-lab";
+constexpr const char* kWallPhase = "wall";
+constexpr Duration kSamplePeriod = std::chrono::seconds(1);
+constexpr double kPathSpacing_m = 0.05;
+
+/// Watches an exploration from outside while it runs.
+class Observer {
+ public:
+  Observer(app::RobotLoop& loop, const sim::Simulation& simulation, std::shared_ptr<const DecisionLog> log)
+      : loop_(loop), watch_(loop, simulation), log_(std::move(log)) {}
+
+  /// Before every pass of the loop.
+  void look() {
+    watch_.look();
+    const Point2 place = watch_.steps().back().world_T_base.translation();
+    if (path_.empty() || (path_.back().p_world - place).norm() >= kPathSpacing_m) {
+      path_.push_back({place, log_->phase == kWallPhase});
+    }
+    if (!sampled_ || loop_.now() - *sampled_ >= kSamplePeriod) {
+      sampled_ = loop_.now();
+      samples_.push_back(sample());
+    }
+  }
+
+  void fill(ExploreRecord& record) {
+    ExploreResult& result = record.result;
+    record.truth = watch_.truth();
+    result.path_length_m = record.truth.path_length_m;
+    result.contacts = record.truth.contacts;
+    result.min_clearance_m = record.truth.min_clearance_m;
+    result.decisions = log_->decisions;
+    result.decide_s = log_->processor_s;
+    result.events = static_cast<int>(watch_.events().size());
+    result.event_hash = watch_.event_hash();
+    samples_.push_back(sample());
+    add_curves(samples_, result);
+    result.max_error_m = watch_.max_error_m();
+    record.events = watch_.events();
+    record.samples = std::move(samples_);
+    record.true_path = std::move(path_);
+  }
+
+ private:
+  [[nodiscard]] ExploreSample sample() const {
+    ExploreSample sample;
+    sample.time_s = to_seconds(loop_.now());
+    sample.error_m = watch_.error_m();
+    sample.robot_trace = loop_.status().pose.covariance.trace();
+    sample.full_trace = sample.robot_trace;
+    const std::vector<MapSegment> segments = loop_.robot_map().segments();
+    for (const MapSegment& segment : segments) {
+      const double trace = segment.covariance.trace();
+      sample.feature_trace += trace / static_cast<double>(segments.size());
+      sample.full_trace += trace;
+      sample.map_wall_m += segment.length_m;
+    }
+    return sample;
+  }
+
+  app::RobotLoop& loop_;
+  RunWatch watch_;
+  std::shared_ptr<const DecisionLog> log_;
+  std::vector<PathPlace> path_;
+  std::vector<ExploreSample> samples_;
+  std::optional<RobotTime> sampled_;
+};
+
+std::optional<Polygon> in_world(const std::optional<Polygon>& bound, const Pose2& world_T_map) {
+  if (!bound) {
+    return std::nullopt;
+  }
+  Polygon moved;
+  for (const Point2& p : *bound) {
+    moved.push_back(world_T_map * p);
+  }
+  return moved;
+}
+
+/// What the robot left behind, and how it ended.
+void fill_map(ExploreRecord& record, const app::RobotLoop& loop) {
+  ExploreResult& result = record.result;
+  record.segments = loop.robot_map().segments();
+  record.believed_path = loop.trajectory();
+  result.segments = static_cast<int>(record.segments.size());
+  result.map_epoch = static_cast<int>(loop.status().pose.map_epoch);
+  const api::MissionEnd end =
+      loop.missions().last() ? loop.missions().last()->end.value_or(api::MissionEnd{}) : api::MissionEnd{};
+  result.outcome = to_string(end.outcome);
+  result.cause = end.cause;
+  result.unreachable = static_cast<int>(end.unreachable.size());
+  record.unreachable = end.unreachable;
+}
+
+void score(ExploreRecord& record, const ExploreSpec& spec, const sim::RobotModel& robot) {
+  ExploreResult& result = record.result;
+  const Pose2& world_T_start = record.truth.world_T_start;
+  record.truth_walls = true_walls(record.world, robot, in_world(spec.bound, world_T_start));
+  WallShareParams params;
+  params.near_m = spec.wall_near_m;
+  record.walls = share_of_walls(record.segments, record.truth_walls, world_T_start, params);
+  result.reachable_wall_m = record.walls.reachable_m;
+  result.mapped_wall_m = record.walls.mapped_m;
+  result.wall_share = record.walls.share();
+  result.false_wall_m = record.walls.false_m;
+  result.map_wall_m = record.walls.map_m;
+  result.aligned = record.walls.aligned;
+}
+
+api::MissionRequest request_of(const ExploreSpec& spec) {
+  api::ExploreMission explore;
+  explore.strategy = spec.strategy;
+  explore.bound = spec.bound;
+  explore.return_to_start = spec.return_to_start;
+  api::MissionRequest request;
+  request.id = "seed-" + std::to_string(spec.seed);
+  request.task = std::move(explore);
+  request.time_limit = seconds(spec.time_limit_s);
+  return request;
+}
+
+}  // namespace
+
+Result<std::string> settings_of(const ExploreSpec& spec) {
+  Result<app::RobotOptions> options = sim_options(spec);
+  if (!options) {
+    return tl::unexpected<Error>(options.error());
+  }
+  TextHash hash;
+  if (const Status ok = add_settings(hash, std::move(*options), spec); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  hash.add(to_string(spec.strategy));
+  for (const Point2& p : spec.bound.value_or(Polygon{})) {
+    hash.add(std::to_string(p.x()) + " " + std::to_string(p.y()));
+  }
+  hash.add(spec.return_to_start ? "return" : "");
+  hash.add(std::to_string(spec.wall_near_m));
+  return hash.hex();
+}
+
+Result<ExploreRecord> run_explore(const ExploreSpec& spec) {
+  const Result<app::RobotOptions> options = sim_options(spec);
+  if (!options) {
+    return tl::unexpected<Error>(options.error());
+  }
+  Result<app::Assembly> assembly = app::assemble(*options);
+  if (!assembly) {
+    return tl::unexpected<Error>(assembly.error());
+  }
+  const std::shared_ptr<sim::Simulation> simulation = assembly->simulation;
+  const auto log = std::make_shared<DecisionLog>();
+  assembly->parts.behaviours = watched(std::move(assembly->parts.behaviours), log);
+  ExploreRecord record;
+  record.world = simulation->world();
+  record.robot_radius_m = options->sim.robot.radius_m;
+
+  app::UpdateHub hub;
+  app::RobotLoop loop(options->loop, std::move(assembly->parts), hub);
+  Observer observer(loop, *simulation, log);
+  const auto started = std::chrono::steady_clock::now();
+  loop.start();
+  if (const Result<api::MissionId> id = loop.start_mission(request_of(spec), kClient); !id) {
+    return fail_with_context("the mission was refused", id.error());
+  }
+  while (loop.missions().present()) {
+    observer.look();
+    loop.tick(started);  // the wall clock decides about links only, and there is none
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+
+  ExploreResult& result = record.result;
+  result.world = record.world.name;
+  result.strategy = to_string(spec.strategy);
+  result.seed = spec.seed;
+  result.robot_time_s = to_seconds(loop.now());
+  result.wall_time_s = wall.count();
+  observer.fill(record);
+  fill_map(record, loop);
+  score(record, spec, options->sim.robot);
+  return record;
+}
+
+}  // namespace seeker::lab
