@@ -41,7 +41,8 @@ Status keep(const RunSpec& spec, const RunRecord& record, const ExperimentParams
 }  // namespace
 
 std::filesystem::path run_file(const std::filesystem::path& out, const RunSpec& spec) {
-  const std::string world = spec.world_file.stem().string() + (spec.random_target ? "-random" : "");
+  const std::string world =
+      spec.world_file.stem().string() + (spec.random_target ? "-random" : "") + (spec.explore ? "-explore" : "");
   return out / "runs" / world / std::string(to_string(spec.strategy)) / ("seed-" + std::to_string(spec.seed) + ".json");
 }
 

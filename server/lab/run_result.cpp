@@ -20,6 +20,7 @@ void describe(config::Fields& f, FindScore& score) {
   f.field("range_m", score.range_m);
   f.field("range_source", score.range_source);
   f.optional_field("position_error_m", score.position_error_m);
+  f.optional_field("aligned_error_m", score.aligned_error_m);
   f.field("position_sigma_m", score.position_sigma_m);
   f.field("cells_searched", score.cells_searched);
 }

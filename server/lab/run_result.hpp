@@ -26,6 +26,7 @@ struct FindScore {
   double range_m = 0.0;  ///< true distance robot to target at that moment
   std::string range_source;
   std::optional<double> position_error_m;  ///< absent: the robot could not say where it stands
+  std::optional<double> aligned_error_m;   ///< the same after the map was laid on the true walls, of --explore
   double position_sigma_m = 0.0;           ///< what the robot believes: root of the covariance's largest eigenvalue
   int cells_searched = 0;                  ///< up to then
 };

@@ -11,6 +11,7 @@
 #include "server/app/robot_loop.hpp"
 #include "server/app/update_hub.hpp"
 #include "server/lab/cell_visits.hpp"
+#include "server/lab/wall_share.hpp"
 #include "server/options/target_options.hpp"
 #include "server/sim/placement.hpp"
 
@@ -157,6 +158,24 @@ void fill_coverage(RunRecord& record) {
   result.gaps = summary.gaps;
 }
 
+/// How far the target is from where the map shows it, once the map is laid on the building's walls.
+void fill_aligned(RunRecord& record, const app::RobotLoop& loop, const sim::RobotModel& robot) {
+  if (!record.result.last_find) {
+    return;
+  }
+  FindScore& find = *record.result.last_find;
+  const TrueWalls walls = true_walls(record.world, robot, std::nullopt);
+  const std::optional<Pose2> world_T_map = align_walls(loop.robot_map().segments(), walls, record.truth.world_T_start);
+  for (const api::Detection& detection : record.detections) {
+    for (const sim::TargetTruth& target : record.truth.targets) {
+      if (world_T_map && detection.position && detection.target == find.target && target.name == find.target) {
+        const Point2 p_world = *world_T_map * *detection.position;
+        find.aligned_error_m = (p_world - target.world_T_target.translation()).norm();
+      }
+    }
+  }
+}
+
 Result<api::MissionRequest> request_of(const RunSpec& spec, const sim::World& world) {
   const Result<api::TargetSpec> target = target_of(world, spec);
   if (!target) {
@@ -166,6 +185,7 @@ Result<api::MissionRequest> request_of(const RunSpec& spec, const sim::World& wo
   search.targets = {*target};
   search.mode = spec.strategy == search::Strategy::kPaper ? api::SearchMode::kPaper : api::SearchMode::kPlan;
   search.on_found = spec.on_found;
+  search.explore = spec.explore;
   api::MissionRequest request;
   request.id = "seed-" + std::to_string(spec.seed);
   request.task = std::move(search);
@@ -194,6 +214,7 @@ Result<std::string> settings_of(const RunSpec& spec) {
   }
   hash.add(to_string(spec.strategy));
   hash.add(to_string(spec.on_found));
+  hash.add(spec.explore ? "explore" : "");
   return hash.hex();
 }
 
@@ -258,6 +279,9 @@ Result<RunRecord> run_search(const RunSpec& spec) {
   observer.fill(record);
   fill_mission(record, loop, observer);
   fill_coverage(record);
+  if (spec.explore) {
+    fill_aligned(record, loop, options->sim.robot);
+  }
   return record;
 }
 

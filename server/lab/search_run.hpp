@@ -23,6 +23,7 @@ struct RunSpec : SimSpec {
   std::filesystem::path target_folder;  ///< of the target files; empty: `targets` beside the folder of the world
   search::Strategy strategy = search::Strategy::kPlan;
   api::OnFound on_found = api::OnFound::kApproach;
+  bool explore = false;  ///< map the building too
 };
 
 /// A run with what pictures need. Points of the robot are in its frame `map`.

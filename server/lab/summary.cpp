@@ -43,6 +43,7 @@ GroupSummary summarise_group(const Runs& runs) {
     }
     if (run->last_find) {
       group.position_error_m = std::max(group.position_error_m, run->last_find->position_error_m.value_or(0.0));
+      group.aligned_error_m = std::max(group.aligned_error_m, run->last_find->aligned_error_m.value_or(0.0));
     }
     group.localisation_error_m = std::max(group.localisation_error_m, run->max_localisation_error_m);
     wall_s += run->wall_time_s;
@@ -88,6 +89,7 @@ const std::vector<Column>& columns() {
       {"clearance_m", [](const GroupSummary& g) { return fixed(g.min_clearance_m, 2); }},
       {"bearing_max_deg", [](const GroupSummary& g) { return fixed(g.bearing_error_deg, 1); }},
       {"position_max_m", [](const GroupSummary& g) { return fixed(g.position_error_m, 2); }},
+      {"aligned_max_m", [](const GroupSummary& g) { return fixed(g.aligned_error_m, 2); }},
       {"pose_max_m", [](const GroupSummary& g) { return fixed(g.localisation_error_m, 2); }},
       {"x_real_time", [](const GroupSummary& g) { return fixed(g.speed, 0); }},
   };

@@ -32,6 +32,7 @@ struct GroupSummary {
   double min_clearance_m = 0.0;       ///< smallest
   double bearing_error_deg = 0.0;     ///< largest, first reports
   double position_error_m = 0.0;      ///< largest, last reports
+  double aligned_error_m = 0.0;       ///< largest, of searches that map the building too
   double localisation_error_m = 0.0;  ///< largest at any time
   double speed = 0.0;                 ///< robot seconds per wall second, of all runs together
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "server/sim/placement.hpp"
 
@@ -35,13 +36,13 @@ class Sight {
   Sight(const sim::Scene& scene, std::vector<Point2> places, const sim::LidarModel& lidar)
       : scene_(scene), places_(std::move(places)), lidar_(lidar), least_cosine_(std::cos(lidar.grazing_rad)) {}
 
-  /// From any of the places.
-  [[nodiscard]] bool sees(const WallPiece& piece) {
-    if (sees_from(places_[last_], piece)) {
+  /// All of them from one place: a line is found in one scan.
+  [[nodiscard]] bool sees(std::span<const WallPiece> pieces) {
+    if (sees_from(places_[last_], pieces)) {
       return true;  // neighbouring pieces are mostly seen from the same place
     }
     for (std::size_t n = 0; n < places_.size(); ++n) {
-      if (sees_from(places_[n], piece)) {
+      if (sees_from(places_[n], pieces)) {
         last_ = n;
         return true;
       }
@@ -50,7 +51,10 @@ class Sight {
   }
 
  private:
-  [[nodiscard]] bool sees_from(const Point2& place, const WallPiece& piece) const {
+  [[nodiscard]] bool sees_from(const Point2& place, std::span<const WallPiece> pieces) const {
+    return std::all_of(pieces.begin(), pieces.end(), [&](const WallPiece& piece) { return sees_piece(place, piece); });
+  }
+  [[nodiscard]] bool sees_piece(const Point2& place, const WallPiece& piece) const {
     const Point2 way = piece.p_world - place;
     const double distance_m = way.norm();
     if (distance_m > lidar_.range_max_m || distance_m < lidar_.range_min_m ||
@@ -68,27 +72,29 @@ class Sight {
   std::size_t last_ = 0;
 };
 
-/// Adds the stretches of a face that are seen from the side of `normal` and long enough.
+/// Adds the pieces of a face that belong to a stretch which is long enough and seen at once from the side of `normal`.
 void add_seen(const sim::Segment& face, const Point2& normal, Sight& sight, const TrueWallParams& params,
               std::vector<WallPiece>& seen) {
   const int count = std::max(1, static_cast<int>(std::lround(face.length_m / params.piece_m)));
   const double length_m = face.length_m / count;
-  std::vector<WallPiece> stretch;
-  const auto end_stretch = [&] {
-    if (static_cast<double>(stretch.size()) * length_m >= params.shortest_m) {
-      seen.insert(seen.end(), stretch.begin(), stretch.end());
-    }
-    stretch.clear();
-  };
+  std::vector<WallPiece> pieces;
+  pieces.reserve(static_cast<std::size_t>(count));
   for (int n = 0; n < count; ++n) {
-    const WallPiece piece{face.a + (n + 0.5) * length_m * face.direction, normal, length_m};
-    if (sight.sees(piece)) {
-      stretch.push_back(piece);
-    } else {
-      end_stretch();
+    pieces.push_back({face.a + (n + 0.5) * length_m * face.direction, normal, length_m});
+  }
+  constexpr double kRounding = 1e-6;
+  const auto stretch = static_cast<std::size_t>(std::ceil(params.shortest_m / length_m - kRounding));
+  std::vector<bool> counts(pieces.size(), false);
+  for (std::size_t first = 0; first + stretch <= pieces.size(); ++first) {
+    if (sight.sees(std::span(pieces).subspan(first, stretch))) {
+      std::fill_n(counts.begin() + static_cast<std::ptrdiff_t>(first), stretch, true);
     }
   }
-  end_stretch();
+  for (std::size_t n = 0; n < pieces.size(); ++n) {
+    if (counts[n]) {
+      seen.push_back(pieces[n]);
+    }
+  }
 }
 
 }  // namespace

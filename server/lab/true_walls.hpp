@@ -16,7 +16,7 @@ namespace seeker::lab {
 struct TrueWallParams {
   double piece_m = 0.1;      ///< walls are judged in pieces of this length
   double view_step_m = 0.3;  ///< raster of the places that walls are looked at from
-  double shortest_m = 0.3;   ///< a shorter visible stretch holds no line: the detector's own limit
+  double shortest_m = 0.3;   ///< a stretch that is not seen from one place over this length holds no line
 };
 
 /// One side of a short piece of wall.

@@ -58,6 +58,7 @@ struct SearchOptions {
   double time_limit_s = 3600.0;
   bool random_target = false;
   bool no_target = false;
+  bool explore = false;
   bool pictures = false;
 };
 
@@ -73,6 +74,7 @@ void add_search_options(CLI::App& verb, SearchOptions& o) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb.add_flag("--pictures", o.pictures, "A picture of the map beside every new run");
+  verb.add_flag("--explore", o.explore, "Map the building too; targets are scored after laying the map on its walls");
   CLI::Option* random =
       verb.add_flag("--random-target", o.random_target, "The target stands at a place drawn from the seed");
   verb.add_flag("--no-target", o.no_target, "The same world without anything to be found")->excludes(random);
@@ -98,6 +100,7 @@ Result<std::vector<RunSpec>> specs_of(const SearchOptions& o) {
     }
     spec.random_target = o.random_target;
     spec.on_found = kOnFound.at(o.on_found);
+    spec.explore = o.explore;
     spec.time_limit_s = o.time_limit_s;
     spec.overrides = o.common.overrides;
     for (const std::string& strategy : o.strategies) {
