@@ -65,7 +65,9 @@ void Exploration::Impl::begin_regain(const StrategyInput& input, double sigma_m,
 void Exploration::Impl::regain(const StrategyInput& input, double sigma_m, ExploreStep& out) {
   out.phase = "regain";
   out.activity = "going back to where the robot was certain of its position, now " + text(sigma_m) + " m";
-  if (sigma_m < params_.guard.regain_position_sigma_m) {
+  // Where it was most certain it will not become more certain by waiting: below the limit, that is good enough.
+  const bool back = back_way_.empty() && sigma_m < params_.guard.max_position_sigma_m;
+  if (back || sigma_m < params_.guard.regain_position_sigma_m) {
     out.events.push_back({"certain", "the robot's position is certain to " + text(sigma_m) + " m again"});
     mode_ = Mode::kExplore;
     trail_.cut_after(input.map_T_base.translation());
