@@ -25,7 +25,7 @@ std::vector<Pose2> MapViewFinder::find(const Situation& situation) {
   }
   for (const explore::Opening& opening :
        openings_.find({**floor, *costs, segments_.of(*situation.tracker), areas_, map_T_base, situation.now})) {
-    if (opening.kind == explore::OpeningKind::kWallEnd) {
+    if (opening.kind != explore::OpeningKind::kFrontier) {
       views.push_back(opening.map_T_view);
     }
   }

@@ -97,6 +97,7 @@ Status check_viewpoints(const ViewpointParams& p) {
   }
   return all_positive({{"viewpoints.min_frontier_m", p.min_frontier_m},
                        {"viewpoints.max_frontier_m", p.max_frontier_m},
+                       {"viewpoints.min_face_m", p.min_face_m},
                        {"viewpoints.min_extension_m", p.min_extension_m},
                        {"viewpoints.max_extension_m", p.max_extension_m},
                        {"viewpoints.view_range_m", p.view_range_m},

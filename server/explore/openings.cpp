@@ -23,8 +23,12 @@ Openings::Openings(const ViewpointParams& params) : params_(params) {}
 
 std::vector<Opening> Openings::find(const OpeningsInput& input) {
   std::vector<Opening> all = frontier_openings(input, params_);
-  const std::vector<Opening> ends = wall_end_openings(input, params_);
-  all.insert(all.end(), ends.begin(), ends.end());
+  if (input.walls) {
+    const std::vector<Opening> ends = wall_end_openings(input, params_);
+    all.insert(all.end(), ends.begin(), ends.end());
+    const std::vector<Opening> faces = wall_face_openings(input, params_);
+    all.insert(all.end(), faces.begin(), faces.end());
+  }
   std::vector<Opening> open;
   open.reserve(all.size());
   for (Opening& opening : all) {
@@ -38,7 +42,7 @@ std::vector<Opening> Openings::find(const OpeningsInput& input) {
 
 bool Openings::is_open(Opening& opening, const OpeningsInput& input) {
   Memory& memory = memory_of(opening);
-  const bool near_enough = opening.kind == OpeningKind::kWallEnd ||
+  const bool near_enough = opening.kind != OpeningKind::kFrontier ||
                            (opening.p_map - input.map_T_base.translation()).norm() < params_.reached_m;
   if (near_enough && well_in_view(opening, input.map_T_base, input.floor.occupancy, params_)) {
     count_look(memory, input.now);
@@ -104,8 +108,10 @@ void Openings::transform(const Pose2& new_T_old) {
 }
 
 std::string describe(const Opening& opening) {
-  if (opening.kind == OpeningKind::kFrontier) {
-    return "the border of unknown floor (" + text(opening.size_m) + " m)";
+  switch (opening.kind) {
+    case OpeningKind::kFrontier: return "the border of unknown floor (" + text(opening.size_m) + " m)";
+    case OpeningKind::kWallFace: return "the unseen side of a wall (" + text(opening.size_m) + " m)";
+    case OpeningKind::kWallEnd: break;
   }
   return "the end of wall " + std::to_string(opening.segment);
 }
@@ -124,6 +130,10 @@ bool well_in_view(const Opening& opening, const Pose2& map_T_base, const Grid<st
   }
   nav::VisibilityParams sight;
   sight.unknown_blocks = false;
+  const double steepness = opening.outward_map.dot((opening.p_map - eye).normalized());
+  if (opening.kind == OpeningKind::kWallFace && steepness < std::sin(kFlat_rad)) {
+    return false;
+  }
   if (!wall) {
     return nav::line_of_sight(occupancy, eye, opening.p_map, sight);
   }

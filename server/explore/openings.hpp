@@ -1,6 +1,6 @@
 /// \file
-/// What is left to explore: borders of unknown floor, and ends of mapped walls that may go on; each with a place from
-/// which it would be seen.
+/// What is left to explore: borders of unknown floor, ends of mapped walls that may go on, and sides of walls that
+/// nobody has seen; each with a place from which it would be seen.
 #pragma once
 
 #include <array>
@@ -19,6 +19,8 @@ namespace seeker::explore {
 enum class OpeningKind : std::uint8_t {
   kFrontier,  ///< border between free floor that the robot can reach and the unknown (Yamauchi 1997)
   kWallEnd,   ///< virtual end of a segment, beyond which the wall may go on (spec S1.11: it would add to V)
+  /// Border of free floor that the robot sees but is too wide for, as before the back of a wall whose front is mapped.
+  kWallFace,
 };
 
 struct Opening {
@@ -44,7 +46,8 @@ struct OpeningsInput {
   const std::vector<MapSegment>& segments;
   const nav::ForbiddenAreas& areas;
   Pose2 map_T_base;
-  RobotTime now;  ///< stands still while the exploration is paused
+  RobotTime now;      ///< stands still while the exploration is paused
+  bool walls = true;  ///< ends and faces of walls too; false: borders of unknown floor alone
 };
 
 /// Remembers what was looked at and what could not be reached, so that an exploration always ends: an opening that
@@ -88,6 +91,9 @@ class Openings {
 [[nodiscard]] std::vector<Opening> frontier_openings(const OpeningsInput& input, const ViewpointParams& params);
 /// Ends of walls that may go on, without those that cannot be looked at from anywhere.
 [[nodiscard]] std::vector<Opening> wall_end_openings(const OpeningsInput& input, const ViewpointParams& params);
+
+/// Faces of walls that nobody has seen, without those that cannot be looked at from anywhere.
+[[nodiscard]] std::vector<Opening> wall_face_openings(const OpeningsInput& input, const ViewpointParams& params);
 
 /// How far the wall may go on beyond its virtual end: up to the next segment, or to where the floor is known to be
 /// free.

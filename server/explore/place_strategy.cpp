@@ -53,10 +53,9 @@ Result<PlaceStrategy::Survey> PlaceStrategy::survey(const StrategyInput& input) 
   if (!costs) {
     return tl::unexpected(costs.error());
   }
-  static const std::vector<MapSegment> kNoWalls;
   Survey found{*floor, std::move(*costs), {}, false};
-  for (Opening& opening : openings_.find({**floor, found.costs, chooser_->wants_wall_ends() ? input.segments : kNoWalls,
-                                          input.floors.areas(), input.map_T_base, input.now})) {
+  for (Opening& opening : openings_.find({**floor, found.costs, input.segments, input.floors.areas(), input.map_T_base,
+                                          input.now, chooser_->wants_wall_ends()})) {
     if (opening.resting) {
       found.resting = true;
     } else {

@@ -9,6 +9,7 @@ struct ViewpointParams {
   double min_frontier_m = 0.4;   ///< shorter borders are noise
   double max_frontier_m = 3.0;   ///< longer ones are cut into pieces
   double min_pocket_m2 = 0.1;    ///< unknown floor smaller than this is noise
+  double min_face_m = 0.5;       ///< shorter sides of walls that nobody has seen are noise
   double min_extension_m = 0.3;  ///< ends of walls that can grow by less are left as they are
   double max_extension_m = 2.0;  ///< farther beyond its end a wall is not followed in thought
   double view_range_m = 3.0;     ///< an end so near, not seen too flat, has been looked at well

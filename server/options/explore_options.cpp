@@ -55,6 +55,7 @@ void describe(config::Fields& f, ViewpointParams& params) {
   f.field("min_frontier_m", params.min_frontier_m);
   f.field("max_frontier_m", params.max_frontier_m);
   f.field("min_pocket_m2", params.min_pocket_m2);
+  f.field("min_face_m", params.min_face_m);
   f.field("min_extension_m", params.min_extension_m);
   f.field("max_extension_m", params.max_extension_m);
   f.field("view_range_m", params.view_range_m);

@@ -25,8 +25,9 @@ struct Scene {
   }
 };
 
-Scene scene_of(const std::vector<std::string>& rows, const Pose2& robot, const nav::ForbiddenAreas& areas = {}) {
-  const auto occupancy = nav::ascii_map(rows, 0.25);
+Scene scene_of(const std::vector<std::string>& rows, const Pose2& robot, const nav::ForbiddenAreas& areas = {},
+               double resolution_m = 0.25) {
+  const auto occupancy = nav::ascii_map(rows, resolution_m);
   nav::CostMapLimits limits;
   limits.bound = areas.bound;
   limits.keep_out = areas.keep_out;
@@ -149,6 +150,41 @@ TEST(Openings, BeyondTheBoundNothingIsOpen) {
   const Scene scene = scene_of(half_seen(), {1.0, 2.0, 0.0}, areas);
   Openings openings{ViewpointParams{}};
   EXPECT_TRUE(openings.find(scene.at(0.0)).empty());
+}
+
+/// A room seen through nothing but its door: the floor beside the wall on the right is known, the wall's near side is
+/// not. Its far side is: the column of '#'.
+Scene back_of_a_wall(const Pose2& robot) {
+  std::vector<std::string> rows(16, "#............................ #");
+  rows.front() = rows.back() = std::string(rows.front().size(), '#');
+  return scene_of(rows, robot, {}, 0.1);
+}
+
+TEST(Openings, FindTheUnseenSideOfAThinWallAndLookAtItSquarely) {
+  const Scene scene = back_of_a_wall({1.0, 0.8, kPi});
+  Openings openings{ViewpointParams{}};
+  const auto found = openings.find(scene.at(0.0));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().kind, OpeningKind::kWallFace);
+  EXPECT_NEAR(found.front().p_map.x(), 2.85, 0.1);
+  EXPECT_NEAR(found.front().map_T_view.theta_rad, 0.0, 0.3);
+  EXPECT_TRUE(scene.costs.cost_to(found.front().map_T_view.translation())) << "a place that the robot can reach";
+}
+
+TEST(Openings, BordersAloneLeaveWallsOut) {
+  const Scene scene = back_of_a_wall({1.0, 0.8, kPi});
+  OpeningsInput input = scene.at(0.0);
+  input.walls = false;
+  EXPECT_TRUE(Openings{ViewpointParams{}}.find(input).empty()) << "the floor before the wall is too narrow to enter";
+}
+
+TEST(Openings, AnUnseenSideThatStaysUnseenIsSettled) {
+  const Scene scene = back_of_a_wall({2.0, 0.8, 0.0});
+  Openings openings{ViewpointParams{}};
+  for (int k = 0; k < ViewpointParams{}.max_visits; ++k) {
+    (void)openings.find(scene.at(2.0 * k));
+  }
+  EXPECT_TRUE(openings.find(scene.at(10.0)).empty());
 }
 
 TEST(Openings, ASmallPocketOfUnknownIsNoise) {
