@@ -66,7 +66,8 @@ struct SearchMission {
   friend bool operator==(const SearchMission&, const SearchMission&) = default;
 };
 
-/// How an exploration chooses its way: the first two build the map actively, the others are what they are compared with.
+/// How an exploration chooses its way: the first two build the map actively, the others are what they are compared
+/// with.
 enum class ExploreStrategy : std::uint8_t {
   kActive,    ///< one step of the objective of spec S1.11, out of traps along walls
   kHorizon,   ///< the same objective over several drives to reachable viewpoints

@@ -49,8 +49,8 @@ LineMap random_map(Rng& rng, const RandomMapSize& size) {
   for (std::uint32_t k = 0; k < size.nodes; ++k) {
     map.nodes.push_back({k * 3 + 1, random_pose(rng), random_time(rng)});
     if (k > 0) {
-      map.edges.push_back({map.nodes[k - 1].id, map.nodes[k].id, random_pose(rng), random_covariance<Matrix3>(rng),
-                           false, true});
+      map.edges.push_back(
+          {map.nodes[k - 1].id, map.nodes[k].id, random_pose(rng), random_covariance<Matrix3>(rng), false, true});
       map.edges.push_back({map.nodes[rng.below(k)].id, map.nodes[k].id, random_pose(rng),
                            random_covariance<Matrix3>(rng), true, rng.below(2) == 0});
     }
