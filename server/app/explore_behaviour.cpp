@@ -80,20 +80,26 @@ Result<std::unique_ptr<Behaviour>> ExploreBehaviour::create(const explore::Explo
   if (!core) {
     return tl::unexpected<Error>(core.error());
   }
-  return std::unique_ptr<Behaviour>(new ExploreBehaviour(std::move(*core)));
+  return std::unique_ptr<Behaviour>(new ExploreBehaviour(std::move(*core), seconds(params.segments_period_s)));
+}
+
+void ExploreBehaviour::map_moved(const Pose2& new_T_old) {
+  exploration_.transform(new_T_old);
+  segments_.forget();
 }
 
 Decision ExploreBehaviour::step(const Situation& situation) {
   SEEKER_ASSERT(situation.tracker != nullptr);
   const slam::MapTracker& tracker = *situation.tracker;
+  const std::vector<MapSegment>& segments = segments_.of(tracker, situation.now);
   explore::ExploreStep step = exploration_.step({.now = situation.now,
                                                  .pose = situation.pose,
                                                  .velocity = situation.velocity,
                                                  .sonar = situation.sonar,
                                                  .laser = situation.scan,
                                                  .map = *situation.map,
-                                                 .segments = segments_.of(tracker),
-                                                 .segments_revision = tracker.revision(),
+                                                 .segments = segments,
+                                                 .segments_revision = segments_.revision(),
                                                  .belief = tracker.local_belief(),
                                                  .battery_v = situation.battery_v});
   Decision decision;

@@ -25,10 +25,11 @@ class ExploreBehaviour final : public Behaviour {
 
   [[nodiscard]] Decision step(const Situation& situation) override;
   void resumed(RobotTime now) override { exploration_.resume(now); }
-  void map_moved(const Pose2& new_T_old) override { exploration_.transform(new_T_old); }
+  void map_moved(const Pose2& new_T_old) override;
 
  private:
-  explicit ExploreBehaviour(explore::Exploration exploration) : exploration_(std::move(exploration)) {}
+  ExploreBehaviour(explore::Exploration exploration, Duration segments_period)
+      : exploration_(std::move(exploration)), segments_(segments_period) {}
 
   explore::Exploration exploration_;
   SegmentView segments_;

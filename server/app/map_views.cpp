@@ -10,7 +10,8 @@ MapViewFinder::MapViewFinder(const explore::ExploreParams& params, nav::Forbidde
     : params_(params),
       areas_(std::move(areas)),
       floors_(params.cost, areas_, params.floor_cell_m, params.map_period_s),
-      openings_(params.viewpoints) {}
+      openings_(params.viewpoints),
+      segments_(seconds(params.segments_period_s)) {}
 
 std::vector<Pose2> MapViewFinder::find(const Situation& situation) {
   SEEKER_ASSERT(situation.tracker != nullptr);
@@ -23,8 +24,8 @@ std::vector<Pose2> MapViewFinder::find(const Situation& situation) {
   if (!costs) {
     return views;  // the search itself says that it cannot move
   }
-  for (const explore::Opening& opening :
-       openings_.find({**floor, *costs, segments_.of(*situation.tracker), areas_, map_T_base, situation.now})) {
+  for (const explore::Opening& opening : openings_.find(
+           {**floor, *costs, segments_.of(*situation.tracker, situation.now), areas_, map_T_base, situation.now})) {
     if (opening.kind != explore::OpeningKind::kFrontier) {
       views.push_back(opening.map_T_view);
     }
@@ -35,6 +36,7 @@ std::vector<Pose2> MapViewFinder::find(const Situation& situation) {
 void MapViewFinder::transform(const Pose2& new_T_old) {
   openings_.transform(new_T_old);
   floors_.transform(new_T_old);
+  segments_.forget();
 }
 
 }  // namespace seeker::app

@@ -144,7 +144,8 @@ Status validate(const ExploreParams& params) {
                        {"roam.clear_m", params.roam.clear_m},
                        {"cost.robot_radius_m", params.cost.robot_radius_m},
                        {"driver.goal_time_s", params.driver.goal_time_s},
-                       {"map_period_s", params.map_period_s}});
+                       {"map_period_s", params.map_period_s},
+                       {"segments_period_s", params.segments_period_s}});
 }
 
 }  // namespace seeker::explore

@@ -27,7 +27,8 @@ struct ExploreParams {
   nav::CostMapParams cost;
   nav::DriverParams driver;
   double floor_cell_m = 0.2;
-  double map_period_s = 1.0;  ///< shortest time between two cost maps
+  double map_period_s = 1.0;       ///< shortest time between two cost maps
+  double segments_period_s = 0.5;  ///< shortest time between two looks at the whole map of segments
 };
 
 /// Refuses values that make no sense.

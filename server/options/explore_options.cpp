@@ -94,6 +94,7 @@ void describe(config::Fields& f, ExploreParams& params) {
   f.section("driver", params.driver);
   f.field("floor_cell_m", params.floor_cell_m);
   f.field("map_period_s", params.map_period_s);
+  f.field("segments_period_s", params.segments_period_s);
 }
 
 }  // namespace seeker::explore
