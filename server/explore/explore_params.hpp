@@ -12,8 +12,10 @@ namespace seeker::explore {
 
 /// What ends an exploration, or sends the robot back to a place it knows.
 struct GuardParams {
-  double max_position_sigma_m = 0.5;     ///< beyond it the robot goes back to where it was certain
-  double regain_position_sigma_m = 0.2;  ///< and explores on below this
+  /// Beyond it the robot goes back to where it was certain. As much as a metre, for the estimator allows for bent
+  /// floors and scanners that are not level: on a floor of 1100 m2 it says 0.35 m on average where it is 0.04 m off.
+  double max_position_sigma_m = 1.0;
+  double regain_position_sigma_m = 0.5;  ///< and explores on below this
   double regain_time_s = 180.0;          ///< not regained in so long: the exploration ends as uncertain
   double battery_reserve_v = 11.5;       ///< below it the robot goes home; Pioneer 3-DX: 12 V lead accumulators
 };
