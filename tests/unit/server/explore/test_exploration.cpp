@@ -116,6 +116,9 @@ TEST(Exploration, AHallBeyondTheRangeOfTheLaserIsExploredToItsWalls) {
   EXPECT_GT(run.wall_share, 0.9);
 }
 
+/// Twice the variance that an exploration goes on with.
+constexpr double kUncertain_m2 = 2.0 * GuardParams{}.max_position_sigma_m * GuardParams{}.max_position_sigma_m;
+
 TEST(Exploration, AnUncertainRobotGoesBackAndExploresOnWhenItIsCertain) {
   auto exploration = exploration_of(request_of(Strategy::kFrontier));
   ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 11);
@@ -123,7 +126,7 @@ TEST(Exploration, AnUncertainRobotGoesBackAndExploresOnWhenItIsCertain) {
   hooks.input = [&](double /*t_s*/, ExploreInput& input) {
     // Certain in the first room only.
     const double x = input.pose.map_T_base.x_m;
-    input.pose.covariance = Matrix3::Identity() * (x > 3.0 ? 0.49 : 1e-4);
+    input.pose.covariance = Matrix3::Identity() * (x > 3.0 ? kUncertain_m2 : 1e-4);
   };
   const ToyRun run = robot.run(exploration, 900.0, hooks);
   print("uncertain", run);
@@ -141,7 +144,7 @@ TEST(Exploration, CertaintyThatDoesNotComeBackEndsIt) {
   ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 12);
   ToyExplorer::Hooks hooks;
   hooks.input = [](double t_s, ExploreInput& input) {
-    input.pose.covariance = Matrix3::Identity() * (t_s > 15.0 ? 0.49 : 1e-4);
+    input.pose.covariance = Matrix3::Identity() * (t_s > 15.0 ? kUncertain_m2 : 1e-4);
   };
   const ToyRun run = robot.run(exploration, 200.0, hooks);
   print("not regained", run);
