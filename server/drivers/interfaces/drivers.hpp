@@ -12,6 +12,7 @@
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
+#include "common/core/stereo.hpp"
 #include "common/core/time.hpp"
 
 namespace seeker::drivers {
@@ -68,6 +69,14 @@ class CameraDriver : public Driver {
  public:
   /// Exposes and returns one picture. In lockstep it is rendered here, inline.
   [[nodiscard]] virtual Result<CameraFrame> grab() = 0;
+};
+
+class StereoDriver : public Driver {
+ public:
+  /// Exposes both eyes at one moment and returns the rectified pictures.
+  [[nodiscard]] virtual Result<StereoFrame> grab() = 0;
+  /// Of the pictures that grab() returns.
+  [[nodiscard]] virtual const StereoGeometry& geometry() const = 0;
 };
 
 /// What makes robot time advance.

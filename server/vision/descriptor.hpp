@@ -1,0 +1,76 @@
+/// \file
+/// Key points with byte descriptors, and how alike two of them are: what stereo matching, the landmark database and
+/// place recognition share (spec S2.1, S2.5).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace seeker::vision {
+
+inline constexpr std::size_t kDescriptorSize = 128;
+
+/// 4x4 cells x 8 bins of gradient directions. A byte is 512 times the value of a descriptor of length 1, at most 255;
+/// the paper's SIFT and RootSIFT are both kept so.
+using Descriptor = std::array<std::uint8_t, kDescriptorSize>;
+/// Byte value of 1 in a descriptor of length 1: distances of bytes divided by it are those of spec S2.1.
+inline constexpr double kDescriptorUnit = 512.0;
+
+enum class DescriptorKind : std::uint8_t {
+  kSift,      ///< unit length, clipped at 0.2: the paper's
+  kRootSift,  ///< square root of the L1-normalised SIFT descriptor: L2 between them is the Hellinger distance
+};
+
+enum class Metric : std::uint8_t {
+  kL1,  ///< spec S2.1, eq (1) as printed
+  kL2,
+};
+
+/// A place in a picture that can be found again.
+struct Keypoint {
+  float u_px = 0.0F;  ///< sub-pixel; (0, 0) is the centre of the first pixel
+  float v_px = 0.0F;
+  float scale_px = 0.0F;         ///< sigma of the blur at which it was found
+  float orientation_rad = 0.0F;  ///< main direction of the gradient, counter-clockwise as seen, (-pi, pi]
+
+  friend bool operator==(const Keypoint&, const Keypoint&) = default;
+};
+
+/// keypoints[i] is described by descriptors[i].
+struct FeatureList {
+  std::vector<Keypoint> keypoints;
+  std::vector<Descriptor> descriptors;
+
+  [[nodiscard]] std::size_t size() const { return keypoints.size(); }
+};
+
+/// A key point of the left picture that the right one shows too. One per place.
+struct StereoFeature {
+  Keypoint left;
+  double disparity_px = 0.0;  ///< above 0, sub-pixel
+  Descriptor descriptor;      ///< of the left picture
+
+  friend bool operator==(const StereoFeature&, const StereoFeature&) = default;
+};
+
+/// The two most alike candidates of one query. Distances are those of bytes: L1 sums, or L2 squared sums.
+struct NearestTwo {
+  static constexpr std::int32_t kNone = -1;
+  static constexpr std::uint32_t kFar = 0xFFFFFFFFU;
+  std::int32_t best = kNone;
+  std::uint32_t best_distance = kFar;
+  std::int32_t second = kNone;
+  std::uint32_t second_distance = kFar;
+
+  friend bool operator==(const NearestTwo&, const NearestTwo&) = default;
+};
+
+/// Exact nearest two of `candidates` for every query. Ties go to the lower index. The widest vector instructions of
+/// the processor at hand are used; all give the same numbers.
+[[nodiscard]] std::vector<NearestTwo> nearest_two(std::span<const Descriptor> queries,
+                                                  std::span<const Descriptor> candidates, Metric metric);
+
+}  // namespace seeker::vision

@@ -1,0 +1,94 @@
+/// \file
+/// From a pair of pictures to places with a depth: SIFT in both eyes, matched under the five constraints of spec S2.1.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/core/angle.hpp"
+#include "common/core/result.hpp"
+#include "common/core/stereo.hpp"
+#include "server/vision/descriptor.hpp"
+
+namespace seeker::vision {
+
+/// Key points of one picture.
+struct DetectorParams {
+  DescriptorKind kind = DescriptorKind::kRootSift;
+  int wanted = 500;                  ///< kept, spread over the picture; the contrast threshold adapts to find as many
+  double contrast_threshold = 0.04;  ///< to begin with; halved up to `contrast_halvings` times
+  int contrast_halvings = 2;
+  double edge_threshold = 10.0;
+  int grid_columns = 8;  ///< the strongest of each cell are kept first
+  int grid_rows = 6;
+  bool half_resolution = false;  ///< detect in a picture of half the size; places are still told in full pixels
+
+  friend bool operator==(const DetectorParams&, const DetectorParams&) = default;
+};
+
+/// How alike the scales of two matching key points must be, spec S2.1 constraint (4).
+enum class ScaleGate : std::uint8_t {
+  kDifference,  ///< |sigma_l - sigma_r| < scale_gate, in pixels: as printed
+  kRatio,       ///< the larger at most scale_gate times the smaller
+};
+
+/// The five constraints of spec S2.1.
+struct StereoMatchParams {
+  double max_row_offset_px = 1.0;          ///< (1)
+  double min_disparity_px = 4.0;           ///< (2), exclusive
+  double max_disparity_px = 200.0;         ///< (2), exclusive: 20 in the paper
+  double max_turn_rad = deg_to_rad(20.0);  ///< (3)
+  ScaleGate scale_gate_kind = ScaleGate::kRatio;
+  double scale_gate = 1.5;  ///< (4)
+  Metric metric = Metric::kL2;
+  double max_distance = 0.7;  ///< of unit descriptors; pairs further apart do not match
+  bool paper_uniqueness =
+      false;               ///< (5): drop a left point with more than one right point that passes (1)-(4) and the gate
+  double max_ratio = 0.8;  ///< else: best over second best distance, either way
+  bool refine_disparity = true;  ///< to a fraction of a pixel, by correlation around the match
+
+  friend bool operator==(const StereoMatchParams&, const StereoMatchParams&) = default;
+};
+
+struct StereoFeatureParams {
+  DetectorParams detector;
+  StereoMatchParams match;
+
+  friend bool operator==(const StereoFeatureParams&, const StereoFeatureParams&) = default;
+};
+
+/// The gates and the descriptor of the paper (spec S2.1): SIFT, L1, scale as a difference, uniqueness by counting.
+[[nodiscard]] StereoFeatureParams paper_stereo_params();
+/// kInvalidArgument with the field's name.
+[[nodiscard]] Status validate(const StereoFeatureParams& params);
+
+/// Features of one pair, and what became of the candidates.
+struct StereoFeatures {
+  std::vector<StereoFeature> features;
+  int left_keypoints = 0;
+  int right_keypoints = 0;
+  int matches_before_constraints = 0;  ///< best matches by descriptor alone, spec S2.11 Table 1
+  int inliers_of_rows = 0;             ///< pairs that pass (1) alone: few of many tell of a wrong calibration
+};
+
+/// Finds and matches. Not for two threads at once; the eyes are worked on with as many threads as OpenCV is given.
+class StereoExtractor {
+ public:
+  StereoExtractor() = default;
+  StereoExtractor(const StereoExtractor&) = delete;
+  StereoExtractor& operator=(const StereoExtractor&) = delete;
+  virtual ~StereoExtractor() = default;
+
+  /// kInvalidArgument, with the cause and its remedy: pictures of another size than the geometry's; black, saturated or
+  /// blurred pictures (which eye); left and right swapped; pictures that are not of one moment or one calibration.
+  [[nodiscard]] virtual Result<StereoFeatures> extract(const StereoFrame& frame) const = 0;
+  /// Key points of one picture with the same detector: what place recognition uses.
+  [[nodiscard]] virtual Result<FeatureList> detect(const Image& picture) const = 0;
+};
+
+/// Asserts that both arguments are valid.
+[[nodiscard]] std::unique_ptr<StereoExtractor> make_stereo_extractor(const StereoGeometry& geometry,
+                                                                     const StereoFeatureParams& params);
+
+}  // namespace seeker::vision
