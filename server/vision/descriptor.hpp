@@ -68,6 +68,9 @@ struct NearestTwo {
   friend bool operator==(const NearestTwo&, const NearestTwo&) = default;
 };
 
+/// As in NearestTwo: the L1 sum, or the L2 squared sum, of bytes.
+[[nodiscard]] std::uint32_t descriptor_distance(const Descriptor& a, const Descriptor& b, Metric metric);
+
 /// Exact nearest two of `candidates` for every query. Ties go to the lower index. The widest vector instructions of
 /// the processor at hand are used; all give the same numbers.
 [[nodiscard]] std::vector<NearestTwo> nearest_two(std::span<const Descriptor> queries,

@@ -1,0 +1,144 @@
+#include "server/localize/association.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include <Eigen/Cholesky>
+
+namespace seeker::localize {
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+/// Keeps of each landmark's suitors the most alike; pairs come in by rising index of the point.
+std::vector<Pairing> one_each(const std::vector<Pairing>& forward) {
+  std::unordered_map<std::size_t, std::size_t> best;
+  for (std::size_t i = 0; i < forward.size(); ++i) {
+    const auto [found, is_new] = best.emplace(forward[i].landmark, i);
+    if (!is_new && forward[i].distance < forward[found->second].distance) {
+      found->second = i;
+    }
+  }
+  std::vector<Pairing> pairs;
+  for (std::size_t i = 0; i < forward.size(); ++i) {
+    if (best.at(forward[i].landmark) == i) {
+      pairs.push_back(forward[i]);
+    }
+  }
+  return pairs;
+}
+
+/// The most alike of the landmarks whose place agrees with the point's.
+Pairing best_near(const LandmarkDatabase& database, const SeenPoint& point, const vision::Descriptor& descriptor,
+                  const AssociationParams& params) {
+  // A landmark is not much less certain than twice what sees it now: beyond that radius nothing is missed.
+  const double reach_m = std::clamp(std::sqrt(3.0 * params.gate_chi2 * point.map.covariance.trace()),
+                                    params.min_offset_m, params.max_offset_m);
+  Pairing best{0, kNone, params.max_distance};
+  database.for_near(point.map.p, reach_m, [&](std::size_t index) {
+    const Landmark& landmark = database.at(index);
+    const Point3 offset = point.map.p - landmark.p_map;
+    const double chi2 = offset.dot((point.map.covariance + landmark.covariance()).ldlt().solve(offset));
+    if (chi2 > params.gate_chi2 && offset.norm() > params.min_offset_m) {
+      return;
+    }
+    const double distance = landmark_distance(landmark, descriptor, params.metric);
+    if (distance < best.distance || (distance == best.distance && index < best.landmark)) {
+      best.landmark = index;
+      best.distance = distance;
+    }
+  });
+  return best;
+}
+
+}  // namespace
+
+double unit_distance(std::uint32_t byte_distance, vision::Metric metric) {
+  const auto bytes = static_cast<double>(byte_distance);
+  return (metric == vision::Metric::kL1 ? bytes : std::sqrt(bytes)) / vision::kDescriptorUnit;
+}
+
+double landmark_distance(const Landmark& landmark, const vision::Descriptor& descriptor, vision::Metric metric) {
+  std::uint32_t least = vision::NearestTwo::kFar;
+  for (const LandmarkView& view : landmark.views) {
+    least = std::min(least, vision::descriptor_distance(view.descriptor, descriptor, metric));
+  }
+  return unit_distance(least, metric);
+}
+
+DescriptorTable::DescriptorTable(const LandmarkDatabase& database) {
+  rows.reserve(database.size());
+  owners.reserve(database.size());
+  for (std::size_t i = 0; i < database.size(); ++i) {
+    for (const LandmarkView& view : database.at(i).views) {
+      rows.push_back(view.descriptor);
+      owners.push_back(i);
+    }
+  }
+}
+
+std::vector<Pairing> associate_anywhere(const DescriptorTable& known, const Sighting& sighting,
+                                        std::span<const SeenPoint> points, const AssociationParams& params) {
+  std::vector<vision::Descriptor> queries;
+  queries.reserve(points.size());
+  for (const SeenPoint& point : points) {
+    queries.push_back(sighting.features[point.feature].descriptor);
+  }
+  const auto nearest = vision::nearest_two(queries, known.rows, params.metric);
+  std::vector<Pairing> forward;
+  std::vector<vision::Descriptor> chosen;
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    const double distance = unit_distance(nearest[i].best_distance, params.metric);
+    if (nearest[i].best >= 0 && distance <= params.max_distance) {
+      const auto row = static_cast<std::size_t>(nearest[i].best);
+      forward.push_back({i, known.owners[row], distance});
+      chosen.push_back(known.rows[row]);
+    }
+  }
+  // Backward: the feature most alike to the chosen descriptor must be the one that chose it.
+  const auto back = vision::nearest_two(chosen, queries, params.metric);
+  std::vector<Pairing> both_ways;
+  for (std::size_t k = 0; k < forward.size(); ++k) {
+    if (back[k].best == static_cast<std::int32_t>(forward[k].point)) {
+      both_ways.push_back(forward[k]);
+    }
+  }
+  return one_each(both_ways);
+}
+
+std::vector<Pairing> associate(const LandmarkDatabase& database, const Sighting& sighting,
+                               std::span<const SeenPoint> points, const AssociationParams& params) {
+  if (database.empty() || points.empty()) {
+    return {};
+  }
+  if (params.anywhere) {
+    return associate_anywhere(DescriptorTable(database), sighting, points, params);
+  }
+  std::vector<Pairing> forward;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Pairing best = best_near(database, points[i], sighting.features[points[i].feature].descriptor, params);
+    if (best.landmark != kNone) {
+      best.point = i;
+      forward.push_back(best);
+    }
+  }
+  return one_each(forward);
+}
+
+bool may_insert(const LandmarkDatabase& database, const SeenPoint& point, const vision::Descriptor& descriptor,
+                const SparsityParams& params, vision::Metric metric) {
+  if (!params.on) {
+    return true;
+  }
+  bool allowed = true;
+  database.for_near(point.map.p, params.outer_radius_m, [&](std::size_t index) {
+    const Landmark& landmark = database.at(index);
+    allowed = allowed && (landmark.p_map - point.map.p).norm() > params.inner_radius_m &&
+              landmark_distance(landmark, descriptor, metric) > params.min_distance;
+  });
+  return allowed;
+}
+
+}  // namespace seeker::localize

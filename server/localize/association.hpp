@@ -1,0 +1,75 @@
+/// \file
+/// Which feature of a sighting is which landmark (spec S2.5), and which of the rest may become one (S2.6).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "server/localize/landmark_database.hpp"
+
+namespace seeker::localize {
+
+/// A feature taken for a landmark.
+struct Pairing {
+  std::size_t point = 0;     ///< index of the SeenPoint
+  std::size_t landmark = 0;  ///< index in the database
+  double distance = 0.0;     ///< of descriptors, of unit length
+
+  friend bool operator==(const Pairing&, const Pairing&) = default;
+};
+
+struct AssociationParams {
+  vision::Metric metric = vision::Metric::kL2;
+  double max_distance = 0.7;  ///< d_a of descriptors of unit length: 2.5 in the paper, by L1
+  /// Spec S2.5 as printed: the most alike of the whole database, both ways, wherever it lies. Else only landmarks whose
+  /// place agrees are asked.
+  bool anywhere = false;
+  double gate_chi2 = 11.345;   ///< of the places' difference, 3 degrees of freedom, 99 %
+  double max_offset_m = 1.5;   ///< and never farther than this
+  double min_offset_m = 0.05;  ///< and always as near as this, whatever the covariances say
+
+  friend bool operator==(const AssociationParams&, const AssociationParams&) = default;
+};
+
+/// Spec S2.6.
+struct SparsityParams {
+  bool on = true;
+  double inner_radius_m = 0.10;  ///< R_A: nothing new nearer than this to a landmark
+  double outer_radius_m = 0.50;  ///< R_B: up to here only what looks different
+  double min_distance = 0.7;     ///< d_f0 of descriptors: 2.5 in the paper, by L1
+
+  friend bool operator==(const SparsityParams&, const SparsityParams&) = default;
+};
+
+/// Distance of descriptors of unit length, eq (1) or Euclidean.
+[[nodiscard]] double unit_distance(std::uint32_t byte_distance, vision::Metric metric);
+/// Of the most alike of a landmark's views.
+[[nodiscard]] double landmark_distance(const Landmark& landmark, const vision::Descriptor& descriptor,
+                                       vision::Metric metric);
+
+/// All descriptors of a database in one row, as vision::nearest_two() takes them.
+struct DescriptorTable {
+  std::vector<vision::Descriptor> rows;
+  std::vector<std::size_t> owners;  ///< index of each row's landmark
+
+  DescriptorTable() = default;
+  explicit DescriptorTable(const LandmarkDatabase& database);
+};
+
+/// Spec S2.5 as printed, over all of `known`: the most alike both ways, within params.max_distance.
+[[nodiscard]] std::vector<Pairing> associate_anywhere(const DescriptorTable& known, const Sighting& sighting,
+                                                      std::span<const SeenPoint> points,
+                                                      const AssociationParams& params);
+
+/// One landmark a point and one point a landmark, each the other's most alike, by rising index of the point:
+/// anywhere, or only where the places agree.
+[[nodiscard]] std::vector<Pairing> associate(const LandmarkDatabase& database, const Sighting& sighting,
+                                             std::span<const SeenPoint> points, const AssociationParams& params);
+
+/// Eqs (8)-(9) for a point that no landmark was paired with.
+[[nodiscard]] bool may_insert(const LandmarkDatabase& database, const SeenPoint& point,
+                              const vision::Descriptor& descriptor, const SparsityParams& params,
+                              vision::Metric metric);
+
+}  // namespace seeker::localize

@@ -1,0 +1,88 @@
+/// \file
+/// From a stereo feature to a place with its uncertainty (spec S2.2, S2.3).
+///
+/// Points in the frame `eye` are written (forward, left, up): the camera's z, x, y of spec S2.2 in the order of a
+/// planar pose, so that `map_T_eye` is a Pose2 whose heading is that of the camera's z axis. Points in the frame `map`
+/// are (x, y, height): the u, v, w of spec S2.3.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "common/core/stereo.hpp"
+#include "common/core/time.hpp"
+#include "server/vision/descriptor.hpp"
+
+namespace seeker::localize {
+
+using Point3 = Eigen::Vector3d;
+
+/// How far features lie from where they belong in the pictures.
+struct PixelNoise {
+  double sigma_px = 0.5;            ///< of the left picture's place, in each direction
+  double sigma_disparity_px = 0.3;  ///< independent of the left place: it is measured by correlation around it
+  bool separate_eyes = false;       ///< spec S2.9: both eyes' places err by sigma_px, and disparity is their difference
+
+  friend bool operator==(const PixelNoise&, const PixelNoise&) = default;
+};
+
+/// A point with the covariance of its place.
+struct UncertainPoint {
+  Point3 p = Point3::Zero();
+  Matrix3 covariance = Matrix3::Zero();
+};
+
+/// Eqs (2)-(4) with offsets from the principal point, and the covariance that the pixels' noise gives, to first order.
+/// Nothing where the disparity is not above zero.
+[[nodiscard]] std::optional<UncertainPoint> triangulate(const StereoGeometry& geometry,
+                                                        const vision::StereoFeature& feature, const PixelNoise& noise);
+
+/// Eqs (5)-(7).
+[[nodiscard]] Point3 to_map(const Pose2& map_T_eye, double eye_height_m, const Point3& p_eye);
+[[nodiscard]] Point3 to_eye(const Pose2& map_T_eye, double eye_height_m, const Point3& p_map);
+/// d(to_map)/d(x, y, theta).
+[[nodiscard]] Matrix3 to_map_jacobian(const Pose2& map_T_eye, const Point3& p_eye);
+/// Turns a covariance of the frame `eye` into one of the frame `map`.
+[[nodiscard]] Matrix3 rotate_covariance(const Pose2& map_T_eye, const Matrix3& covariance_eye);
+
+/// Where a point of the frame `eye` shows in the left picture.
+struct Pixel {
+  double u_px = 0.0;
+  double v_px = 0.0;
+  double disparity_px = 0.0;
+};
+/// Nothing for what is behind the eye or outside the picture.
+[[nodiscard]] std::optional<Pixel> project(const StereoGeometry& geometry, const Point3& p_eye);
+
+/// What one stereo frame showed, and from where.
+struct Sighting {
+  RobotTime stamp;
+  Pose2 map_T_eye;
+  Matrix3 pose_covariance = Matrix3::Zero();  ///< of (x, y, theta), in the frame map
+  double eye_height_m = 0.0;
+  std::vector<vision::StereoFeature> features;
+};
+
+/// A feature of a sighting in the frame `map`.
+struct SeenPoint {
+  std::size_t feature = 0;         ///< its index in the sighting
+  UncertainPoint map;              ///< with the uncertainty of the eye's pose
+  Point3 to_eye = Point3::Zero();  ///< unit vector from the point to the eye, in the frame map
+  double scale_m = 0.0;            ///< size of the feature: sigma of its blur at its distance
+  double range_m = 0.0;            ///< over the floor
+};
+
+/// Distances between which features are made use of; horizontal, spec S2.10.
+struct RangeLimits {
+  double min_m = 0.6;
+  double max_m = 8.0;
+
+  friend bool operator==(const RangeLimits&, const RangeLimits&) = default;
+};
+
+/// Features outside the limits are left out.
+[[nodiscard]] std::vector<SeenPoint> see(const StereoGeometry& geometry, const Sighting& sighting,
+                                         const PixelNoise& noise, const RangeLimits& limits);
+
+}  // namespace seeker::localize

@@ -1,0 +1,72 @@
+/// \file
+/// Building a database from sightings whose poses are known (spec S2.4-S2.7).
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/core/result.hpp"
+#include "server/localize/association.hpp"
+
+namespace seeker::localize {
+
+struct DatabaseParams {
+  PixelNoise noise;
+  RangeLimits range;
+  AssociationParams association;
+  SparsityParams sparsity;
+  FusionParams fusion;
+  int salient_seen = 3;  ///< spec S2.7: landmarks seen less often are dropped at the end; 1 keeps all
+
+  friend bool operator==(const DatabaseParams&, const DatabaseParams&) = default;
+};
+
+/// The gates of the paper: L1, 2.5, whole database, running mean, first descriptor.
+[[nodiscard]] DatabaseParams paper_database_params();
+/// kInvalidArgument with the field's name.
+[[nodiscard]] Status validate(const DatabaseParams& params);
+
+/// What became of the features of one sighting (spec S2.11, Table 2 and Fig 7).
+struct SightingCounts {
+  int features = 0;
+  int in_range = 0;
+  int matched = 0;     ///< taken for a landmark that was there
+  int sparsified = 0;  ///< refused by the sparsity rule
+  int inserted = 0;    ///< new landmarks
+
+  friend bool operator==(const SightingCounts&, const SightingCounts&) = default;
+};
+
+/// What became of one feature.
+enum class FeatureFate : std::uint8_t { kOutOfRange, kMatched, kSparsified, kInserted };
+[[nodiscard]] std::string_view to_string(FeatureFate fate);
+
+/// Grows a database by one sighting after another, in the order in which they were taken.
+class SurveyBuilder {
+ public:
+  /// Asserts that both arguments are valid.
+  SurveyBuilder(const StereoGeometry& geometry, const DatabaseParams& params);
+
+  /// kInvalidArgument: a pose that is not finite or out of range, a covariance that is none. Nothing is changed then.
+  [[nodiscard]] Result<SightingCounts> add(const Sighting& sighting);
+  /// Of each feature of the newest sighting.
+  [[nodiscard]] const std::vector<FeatureFate>& fates() const { return fates_; }
+  /// All so far, salient or not.
+  [[nodiscard]] const LandmarkDatabase& database() const { return database_; }
+  /// Spec S2.7: those that were seen often enough.
+  [[nodiscard]] LandmarkDatabase salient() const;
+  /// Begins anew; ids go on rising.
+  void clear();
+
+ private:
+  StereoGeometry geometry_;
+  DatabaseParams params_;
+  LandmarkDatabase database_;
+  std::vector<FeatureFate> fates_;
+};
+
+/// kInvalidArgument for a sighting whose pose cannot be one.
+[[nodiscard]] Status check_pose(const Sighting& sighting);
+
+}  // namespace seeker::localize
