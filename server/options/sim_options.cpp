@@ -1,5 +1,7 @@
 #include "server/options/sim_options.hpp"
 
+#include "server/options/camera_options.hpp"
+
 namespace seeker::sim {
 namespace {
 
@@ -77,6 +79,28 @@ void describe(config::Fields& f, OmniModel& model) {
   f.field("vignetting", model.vignetting);
 }
 
+void describe(config::Fields& f, EyeErrors& errors) {
+  f.field("shift_u_px", errors.shift_u_px);
+  f.field("shift_v_px", errors.shift_v_px);
+  f.angle_deg("roll_deg", errors.roll_rad);
+  f.field("distortion_px", errors.distortion_px);
+  f.field("gain", errors.gain);
+  f.field("gamma", errors.gamma);
+  f.field("vignetting", errors.vignetting);
+}
+
+void describe(config::Fields& f, StereoModel& model) {
+  f.section("geometry", model.geometry);
+  f.field("base_T_left_eye", model.base_T_left_eye);
+  f.field("height_m", model.height_m);
+  f.field("noise_sigma", model.noise_sigma);
+  f.field("shot_noise", model.shot_noise);
+  f.field("blur_sigma_px", model.blur_sigma_px);
+  f.field("exposure_jitter", model.exposure_jitter);
+  f.section("left", model.left);
+  f.section("right", model.right);
+}
+
 void describe(config::Fields& f, RobotModel& model) {
   f.field("radius_m", model.radius_m);
   f.field("body_height_m", model.body_height_m);
@@ -92,6 +116,7 @@ void describe(config::Fields& f, RobotModel& model) {
   f.section("lidar", model.lidar);
   f.section("sonar", model.sonar);
   f.section("omni", model.omni);
+  f.section("stereo", model.stereo);
 }
 
 }  // namespace seeker::sim

@@ -40,6 +40,20 @@ void describe(config::Fields& f, TableShape& shape) {
           "the table must be larger than its legs and higher than its top is thick");
 }
 
+void describe(config::Fields& f, BookcaseShape& shape) {
+  f.field("length_m", shape.length_m);
+  f.field("depth_m", shape.depth_m);
+  f.field("shelves", shape.shelves);
+  f.field("shelf_m", shape.shelf_m);
+  f.field("empty_share", shape.empty_share);
+  constexpr int kMaxShelves = 20;
+  constexpr double kSmallest_m = 0.1;
+  f.check("shelves", shape.shelves >= 1 && shape.shelves <= kMaxShelves, "must be from 1 to 20");
+  f.check("length_m", shape.length_m >= kSmallest_m && shape.depth_m >= kSmallest_m && shape.shelf_m >= kSmallest_m,
+          "a bookcase needs a length, a depth and shelves of at least 0.1 m");
+  f.check("empty_share", shape.empty_share >= 0.0 && shape.empty_share <= 1.0, "must be from 0 to 1");
+}
+
 }  // namespace seeker::sim
 
 namespace seeker::options {
@@ -72,6 +86,7 @@ void describe(config::Fields& f, BoxFile& box) {
   f.field("size_m", box.size_m);
   f.field("z_m", box.z_m);
   f.section("surface", box.surface);
+  f.field("object", box.object);
 }
 
 void describe(config::Fields& f, TableFile& table) {
@@ -79,6 +94,22 @@ void describe(config::Fields& f, TableFile& table) {
   f.field("pose", table.pose);
   f.section("shape", table.shape);
   f.section("surface", table.surface);
+  f.field("object", table.object);
+}
+
+void describe(config::Fields& f, BookcaseFile& bookcase) {
+  f.require("pose");
+  f.field("pose", bookcase.pose);
+  f.section("shape", bookcase.shape);
+  f.section("surface", bookcase.surface);
+  f.field("object", bookcase.object);
+}
+
+void describe(config::Fields& f, ChairFile& chair) {
+  f.require("pose");
+  f.field("pose", chair.pose);
+  f.section("surface", chair.surface);
+  f.field("object", chair.object);
 }
 
 void describe(config::Fields& f, CylinderFile& cylinder) {
@@ -120,10 +151,13 @@ void describe(config::Fields& f, WorldFile& world) {
   f.list("walls", world.walls);
   f.list("boxes", world.boxes);
   f.list("tables", world.tables);
+  f.list("bookcases", world.bookcases);
+  f.list("chairs", world.chairs);
   f.list("cylinders", world.cylinders);
   f.list("targets", world.targets);
   f.list("people", world.people);
   f.field("people_walk", world.people_walk);
+  f.field("pattern_seed", world.pattern_seed);
 }
 
 namespace {
@@ -178,14 +212,29 @@ Status add_walls(const WorldFile& file, sim::World& world) {
   return {};
 }
 
-void add_furniture(const WorldFile& file, sim::World& world) {
-  for (const BoxFile& box : file.boxes) {
-    world.boxes.push_back({box.pose, box.size_m.x(), box.size_m.y(), box.z_m.x(), box.z_m.y(), box.surface});
-  }
-  for (const TableFile& table : file.tables) {
-    const std::vector<sim::Box> parts = sim::make_table(table.pose, table.shape, table.surface);
+/// Adds the parts of pieces that consist of several; a piece without a name gets one of its own.
+template <class Files, class Make>
+void add_pieces(const Files& files, const char* kind, sim::World& world, const Make& make) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string own = std::string(kind) + " " + std::to_string(i);
+    const std::vector<sim::Box> parts = make(files[i], files[i].object.empty() ? own : files[i].object);
     world.boxes.insert(world.boxes.end(), parts.begin(), parts.end());
   }
+}
+
+void add_furniture(const WorldFile& file, sim::World& world) {
+  for (const BoxFile& box : file.boxes) {
+    world.boxes.push_back(
+        {box.pose, box.size_m.x(), box.size_m.y(), box.z_m.x(), box.z_m.y(), box.surface, box.object});
+  }
+  add_pieces(file.tables, "table", world, [](const TableFile& t, const std::string& object) {
+    return sim::make_table(t.pose, t.shape, t.surface, object);
+  });
+  add_pieces(file.bookcases, "bookcase", world, [](const BookcaseFile& b, const std::string& object) {
+    return sim::make_bookcase(b.pose, b.shape, b.surface, object);
+  });
+  add_pieces(file.chairs, "chair", world,
+             [](const ChairFile& c, const std::string& object) { return sim::make_chair(c.pose, c.surface, object); });
   for (const CylinderFile& c : file.cylinders) {
     world.cylinders.push_back({c.centre, c.radius_m, c.z_m.x(), c.z_m.y(), c.surface});
   }
@@ -239,6 +288,7 @@ Result<sim::World> build_world(const WorldFile& file, const TargetLoader& load_t
   world.lighting = file.lighting;
   world.floor = file.floor;
   world.people_walk = file.people_walk;
+  world.pattern_seed = file.pattern_seed;
   for (const StartFile& start : file.starts) {
     world.starts.push_back(start.pose);
   }

@@ -11,6 +11,7 @@
 #include "common/config/fields.hpp"
 #include "common/core/result.hpp"
 #include "server/options/target_options.hpp"
+#include "server/sim/furniture.hpp"
 #include "server/sim/world.hpp"
 
 namespace seeker::sim {
@@ -19,6 +20,7 @@ namespace seeker::sim {
 void describe(config::Fields& f, Lighting& lighting);
 void describe(config::Fields& f, Surface& surface);
 void describe(config::Fields& f, TableShape& shape);
+void describe(config::Fields& f, BookcaseShape& shape);
 
 }  // namespace seeker::sim
 
@@ -50,6 +52,7 @@ struct BoxFile {
   Point2 size_m = Point2(1.0, 1.0);
   Point2 z_m = Point2(0.0, 1.0);  ///< lower and upper height
   sim::Surface surface;
+  std::string object;  ///< parts of one piece of furniture share a name
 };
 void describe(config::Fields& f, BoxFile& box);
 
@@ -57,8 +60,24 @@ struct TableFile {
   Pose2 pose;
   sim::TableShape shape;
   sim::Surface surface;
+  std::string object;  ///< empty: the table is a piece of its own
 };
 void describe(config::Fields& f, TableFile& table);
+
+struct BookcaseFile {
+  Pose2 pose;  ///< the books look along its y axis
+  sim::BookcaseShape shape;
+  sim::Surface surface;
+  std::string object;  ///< empty: a piece of its own
+};
+void describe(config::Fields& f, BookcaseFile& bookcase);
+
+struct ChairFile {
+  Pose2 pose;
+  sim::Surface surface;
+  std::string object;  ///< empty: a piece of its own
+};
+void describe(config::Fields& f, ChairFile& chair);
 
 struct CylinderFile {
   Point2 centre = Point2::Zero();
@@ -99,10 +118,13 @@ struct WorldFile {
   std::vector<WallFile> walls;
   std::vector<BoxFile> boxes;
   std::vector<TableFile> tables;
+  std::vector<BookcaseFile> bookcases;
+  std::vector<ChairFile> chairs;
   std::vector<CylinderFile> cylinders;
   std::vector<PlacedTargetFile> targets;
   std::vector<PersonFile> people;
   bool people_walk = false;
+  std::uint64_t pattern_seed = 0;  ///< the same building in other textures
 };
 void describe(config::Fields& f, WorldFile& world);
 

@@ -9,6 +9,7 @@ namespace {
 constexpr std::size_t kNoiseTable = 1U << 16U;
 constexpr std::uint64_t kNoiseSeed = 77003;
 constexpr float kWhite = 255.0F;
+constexpr float kTonesPerGrey = 4.0F;
 
 /// Weight of a neighbour so that a 3-tap kernel has the variance sigma^2.
 float side_weight(double sigma_px) {
@@ -18,7 +19,7 @@ float side_weight(double sigma_px) {
 
 }  // namespace
 
-ImageChain::ImageChain(const OmniModel& model)
+ImageChain::ImageChain(const SensorModel& model)
     : width_px_(model.width_px), height_px_(model.height_px), side_weight_(side_weight(model.blur_sigma_px)) {
   Rng rng(kNoiseSeed);
   unit_noise_.resize(kNoiseTable);
@@ -27,6 +28,14 @@ ImageChain::ImageChain(const OmniModel& model)
   }
   for (std::size_t grey = 0; grey < sigma_of_.size(); ++grey) {
     sigma_of_[grey] = static_cast<float>(model.noise_sigma + model.shot_noise * std::sqrt(static_cast<double>(grey)));
+  }
+  if (model.gamma != 1.0) {
+    const auto tones = static_cast<std::size_t>(kWhite * kTonesPerGrey) + 2;
+    tone_.reserve(tones);
+    for (std::size_t i = 0; i < tones; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(kTonesPerGrey * kWhite);
+      tone_.push_back(kWhite * static_cast<float>(std::pow(share, model.gamma)));
+    }
   }
   const std::size_t size = static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_);
   rows_.resize(size);
@@ -58,6 +67,15 @@ void ImageChain::blur(const std::vector<float>& light) {
   }
 }
 
+float ImageChain::tone(float light) const {
+  if (tone_.empty()) {
+    return light;
+  }
+  const float at = std::clamp(light, 0.0F, kWhite) * kTonesPerGrey;
+  const auto i = static_cast<std::size_t>(at);
+  return tone_[i] + (at - static_cast<float>(i)) * (tone_[i + 1] - tone_[i]);
+}
+
 Image ImageChain::expose(const std::vector<float>& light, Rng& rng) {
   blur(light);
   Image image(width_px_, height_px_, 1);
@@ -65,7 +83,7 @@ Image ImageChain::expose(const std::vector<float>& light, Rng& rng) {
   for (std::size_t v = 0; v < static_cast<std::size_t>(height_px_); ++v) {
     std::size_t at = static_cast<std::size_t>(rng.below(kNoiseTable));
     for (std::size_t u = 0; u < width; ++u) {
-      const float value = blurred_[v * width + u];
+      const float value = tone(blurred_[v * width + u]);
       const float sigma = sigma_of_[static_cast<std::size_t>(std::min(value, kWhite))];
       const float grey = value + sigma * unit_noise_[at];
       at = (at + 1) & (kNoiseTable - 1);

@@ -8,11 +8,9 @@
 namespace seeker::sim {
 namespace {
 
-constexpr double kView_m = 40.0;        ///< farther things are too small to matter
-constexpr double kPixel_rad = 0.0062;   ///< what a pixel sees at the horizon
-constexpr double kFullHeight_m = 2.0;   ///< nothing is seen over a wall from the floor to here or higher
-constexpr double kDarkestPlace = 0.35;  ///< limits of the gradient of the lamps
-constexpr double kBrightestPlace = 1.65;
+constexpr double kView_m = 40.0;       ///< farther things are too small to matter
+constexpr double kPixel_rad = 0.0062;  ///< what a pixel sees at the horizon
+constexpr double kFullHeight_m = 2.0;  ///< nothing is seen over a wall from the floor to here or higher
 
 }  // namespace
 
@@ -21,10 +19,6 @@ double OmniColumns::azimuth_rad(int c) { return -kPi + (c + 0.5) * kTwoPi / kAzi
 int OmniColumns::column_of(double azimuth_rad) {
   const int c = static_cast<int>(std::floor((azimuth_rad + kPi) * kAzimuths / kTwoPi));
   return ((c % kAzimuths) + kAzimuths) % kAzimuths;
-}
-
-double light_at(const Lighting& lighting, const Point2& p_world) {
-  return lighting.gain * std::clamp(1.0 + lighting.gradient_per_m.dot(p_world), kDarkestPlace, kBrightestPlace);
 }
 
 void OmniColumns::build(const Scene& scene, const Lighting& lighting, const CameraPose& camera) {

@@ -65,7 +65,4 @@ class OmniColumns {
   std::vector<Meeting> meetings_;
 };
 
-/// Relative brightness of a place.
-[[nodiscard]] double light_at(const Lighting& lighting, const Point2& p_world);
-
 }  // namespace seeker::sim

@@ -23,6 +23,10 @@ double textured_at(const Paint& paint, const Point2& p, int level) {
                   level);
 }
 
+SensorModel sensor_of(const OmniModel& o) {
+  return {o.width_px, o.height_px, o.noise_sigma, o.shot_noise, o.blur_sigma_px};
+}
+
 /// Brightness of the front of an item at height z.
 double front(const ColumnItem& item, double z_m) {
   if (item.picture != nullptr) {
@@ -41,7 +45,7 @@ double mirror_elevation_rad(const OmniModel& model, double radius_px) {
   return std::atan2(radius_px, model.gain_px) - std::acos(std::min(1.0, radius_px * model.shape / length));
 }
 
-OmniRenderer::OmniRenderer(const RobotModel& model) : model_(model), chain_(model.omni) {
+OmniRenderer::OmniRenderer(const RobotModel& model) : model_(model), chain_(sensor_of(model.omni)) {
   const OmniModel& o = model.omni;
   for (int v = 0; v < o.height_px; ++v) {
     for (int u = 0; u < o.width_px; ++u) {

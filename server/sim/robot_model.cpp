@@ -96,6 +96,29 @@ Status check_omni(const OmniModel& o) {
   return {};
 }
 
+bool valid_eye(const EyeErrors& e) {
+  constexpr double kLargestShift_px = 100.0;
+  for (const double v : {e.shift_u_px, e.shift_v_px, e.distortion_px}) {
+    if (!(std::abs(v) <= kLargestShift_px)) {
+      return false;
+    }
+  }
+  return positive({e.gain, e.gamma}) && not_negative({e.vignetting}) && e.vignetting <= 1.0 &&
+         std::abs(e.roll_rad) <= deg_to_rad(10.0);
+}
+
+Status check_stereo(const StereoModel& s) {
+  if (const Status valid = seeker::validate(s.geometry); !valid) {
+    return fail_with_context("robot model: stereo camera", valid.error());
+  }
+  if (!is_finite(s.base_T_left_eye) || !positive({s.height_m}) ||
+      !not_negative({s.noise_sigma, s.shot_noise, s.blur_sigma_px, s.exposure_jitter}) || !valid_eye(s.left) ||
+      !valid_eye(s.right)) {
+    return refuse("stereo camera", "has a value outside its range");
+  }
+  return {};
+}
+
 }  // namespace
 
 Status validate(const RobotModel& model) {
@@ -108,7 +131,10 @@ Status validate(const RobotModel& model) {
   if (const Status sonar = check_sonar(model.sonar); !sonar) {
     return sonar;
   }
-  return check_omni(model.omni);
+  if (const Status omni = check_omni(model.omni); !omni) {
+    return omni;
+  }
+  return check_stereo(model.stereo);
 }
 
 RobotModel without_errors(RobotModel model) {
@@ -121,6 +147,9 @@ RobotModel without_errors(RobotModel model) {
   OmniModel& omni = model.omni;
   omni.base_T_camera.theta_rad = 0.0;
   omni.noise_sigma = omni.shot_noise = omni.blur_sigma_px = omni.vignetting = 0.0;
+  StereoModel& stereo = model.stereo;
+  stereo.noise_sigma = stereo.shot_noise = stereo.blur_sigma_px = stereo.exposure_jitter = 0.0;
+  stereo.left = stereo.right = EyeErrors{0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0};
   return model;
 }
 

@@ -9,6 +9,7 @@
 #include "common/core/angle.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
+#include "common/core/stereo.hpp"
 
 namespace seeker::sim {
 
@@ -78,6 +79,31 @@ struct OmniModel {
   double vignetting = 0.22;  ///< loss of light at the rim
 };
 
+/// What is wrong with one eye after calibration and rectification: no estimator is told (vision.md 4.5).
+struct EyeErrors {
+  double shift_u_px = 0.0;     ///< the picture lies this far to the right ...
+  double shift_v_px = 0.0;     ///< ... and below of where it should
+  double roll_rad = 0.0;       ///< turned about the optical axis
+  double distortion_px = 0.0;  ///< radial residual in the picture's corner
+  double gain = 1.0;           ///< of the exposure
+  double gamma = 1.0;
+  double vignetting = 0.15;  ///< loss of light in the corner
+};
+
+/// A forward-looking stereo camera with level optical axes, spec S2.2. The pictures come rectified, with what a
+/// calibration leaves behind.
+struct StereoModel {
+  StereoGeometry geometry;
+  Pose2 base_T_left_eye{0.15, 0.06, 0.0};  ///< spec S2.8: b ahead and a to the left of the turning centre
+  double height_m = 0.90;
+  double noise_sigma = 2.0;  ///< grey values
+  double shot_noise = 0.05;  ///< grey values per sqrt(grey value)
+  double blur_sigma_px = 0.5;
+  double exposure_jitter = 0.02;  ///< relative sigma from picture to picture, of each eye on its own
+  EyeErrors left{0.05, -0.05, deg_to_rad(0.004), 0.12, 1.0, 0.95, 0.15};
+  EyeErrors right{-0.04, 0.10, deg_to_rad(-0.008), -0.10, 1.06, 1.0, 0.19};
+};
+
 struct RobotModel {
   double radius_m = 0.26;  ///< spec S3.3
   double body_height_m = 0.65;
@@ -93,6 +119,7 @@ struct RobotModel {
   LidarModel lidar;
   SonarModel sonar;
   OmniModel omni;
+  StereoModel stereo;
 };
 
 /// Refuses what cannot be simulated: not finite, not positive, more than kMaxScanBeams beams.

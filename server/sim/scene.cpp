@@ -5,18 +5,14 @@
 
 #include "common/core/angle.hpp"
 #include "common/core/polygon.hpp"
+#include "server/sim/mix.hpp"
 
 namespace seeker::sim {
 namespace {
 
 constexpr int kCylinderSides = 24;
-
-std::uint64_t mix(std::uint64_t x) {  // splitmix64
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31U);
-}
+constexpr double kDarkestPlace = 0.35;  ///< limits of the gradient of the lamps
+constexpr double kBrightestPlace = 1.65;
 
 /// Brightness of a vertical face by where it looks to.
 double side_light(const Lighting& lighting, const Point2& normal) {
@@ -45,17 +41,40 @@ std::optional<double> meet_disc(const Disc& disc, const Point2& origin, const Po
 
 }  // namespace
 
-Paint make_paint(const Surface& surface, std::uint64_t serial) {
-  const std::uint64_t bits = mix(mix(surface.pattern) ^ serial);
+double light_at(const Lighting& lighting, const Point2& p_world) {
+  return lighting.gain * std::clamp(1.0 + lighting.gradient_per_m.dot(p_world), kDarkestPlace, kBrightestPlace);
+}
+
+std::vector<Point2> cylinder_corners(const Point2& centre, double radius_m) {
+  std::vector<Point2> corners;
+  corners.reserve(kCylinderSides);
+  for (int i = 0; i < kCylinderSides; ++i) {
+    const double angle = kTwoPi * i / kCylinderSides;
+    corners.emplace_back(centre + radius_m * Point2(std::cos(angle), std::sin(angle)));
+  }
+  return corners;
+}
+
+Paint make_paint(const Surface& surface, std::uint64_t serial, std::uint64_t pattern_seed) {
+  const std::uint64_t world = pattern_seed == 0 ? 0 : mix(pattern_seed);
+  const std::uint64_t bits = mix(mix(surface.pattern) ^ serial ^ world);
   constexpr double kSide = NoiseTexture::kSide_texels;
   // Coordinates are used along +-500 m: start far enough from zero.
   const double texels_per_m = NoiseTexture::kCoarsest_texels / surface.feature_size_m;
   const double base = std::ceil(2.0 * kMaxWorldSide_m * texels_per_m / kSide) * kSide;
-  return {surface.albedo, surface.contrast, texels_per_m, base + static_cast<double>(bits % NoiseTexture::kSide_texels),
-          base + static_cast<double>((bits >> 20U) % NoiseTexture::kSide_texels)};
+  return {surface.albedo,
+          surface.contrast,
+          texels_per_m,
+          base + static_cast<double>(bits % NoiseTexture::kSide_texels),
+          base + static_cast<double>((bits >> 20U) % NoiseTexture::kSide_texels),
+          mix(bits),
+          surface.feature_size_m};
 }
 
-Scene::Scene(const World& world) : lighting_(world.lighting), floor_(make_paint(world.floor, 0)) {
+Scene::Scene(const World& world)
+    : lighting_(world.lighting),
+      pattern_seed_(world.pattern_seed),
+      floor_(make_paint(world.floor, 0, world.pattern_seed)) {
   for (const Wall& wall : world.walls) {
     add_wall(wall);
   }
@@ -63,12 +82,8 @@ Scene::Scene(const World& world) : lighting_(world.lighting), floor_(make_paint(
     add_prism(rectangle(box.world_T_box, box.length_m, box.width_m), box.z_min_m, box.z_max_m, box.surface);
   }
   for (const Cylinder& cylinder : world.cylinders) {
-    std::vector<Point2> corners;
-    for (int i = 0; i < kCylinderSides; ++i) {
-      const double angle = kTwoPi * i / kCylinderSides;
-      corners.emplace_back(cylinder.centre + cylinder.radius_m * Point2(std::cos(angle), std::sin(angle)));
-    }
-    add_prism(corners, cylinder.z_min_m, cylinder.z_max_m, cylinder.surface);
+    add_prism(cylinder_corners(cylinder.centre, cylinder.radius_m), cylinder.z_min_m, cylinder.z_max_m,
+              cylinder.surface);
   }
   for (const Target& target : world.targets) {
     add_target(target);
@@ -77,20 +92,23 @@ Scene::Scene(const World& world) : lighting_(world.lighting), floor_(make_paint(
   segments.reserve(faces_.size());
   for (const Face& face : faces_) {
     segments.push_back(face.segment);
+    ceiling_m_ = std::max(ceiling_m_, face.z_max_m);
   }
   grid_ = FaceGrid(world.min_corner, world.max_corner, std::move(segments));
 }
 
 void Scene::add_prism(const std::vector<Point2>& corners, double z_min, double z_max, const Surface& surface) {
   const int solid = static_cast<int>(solids_.size());
-  solids_.push_back({z_min, z_max, faces_.size(), corners.size(), make_paint(surface, mix(faces_.size()))});
+  solids_.push_back(
+      {z_min, z_max, faces_.size(), corners.size(), make_paint(surface, mix(faces_.size()), pattern_seed_)});
   double way_m = 0.0;
-  const Paint first = make_paint(surface, faces_.size());
+  const Paint first = make_paint(surface, faces_.size(), pattern_seed_);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Segment segment = Segment::between(corners[i], corners[(i + 1) % corners.size()]);
     Face face{segment, Point2(segment.direction.y(), -segment.direction.x()), z_min, z_max, solid, kNoPicture, first};
     face.paint.albedo *= side_light(lighting_, face.normal);
     face.paint.u0_texel += way_m * first.texels_per_m;  // the texture goes on around the corner
+    face.paint.along0_m = way_m;
     way_m += segment.length_m;
     faces_.push_back(face);
   }
@@ -105,7 +123,7 @@ void Scene::add_wall(const Wall& wall) {
     return;
   }
   const int solid = static_cast<int>(solids_.size());
-  const Paint paint = make_paint(wall.surface, faces_.size());
+  const Paint paint = make_paint(wall.surface, faces_.size(), pattern_seed_);
   solids_.push_back({wall.z_min_m, wall.z_max_m, faces_.size(), 1, paint});
   Face face{
       segment, Point2(-segment.direction.y(), segment.direction.x()), wall.z_min_m, wall.z_max_m, solid, kNoPicture,

@@ -22,6 +22,9 @@ struct Paint {
   double texels_per_m = 100.0;
   double u0_texel = 0.0;  ///< where its cut of the noise picture begins; large enough that no coordinate is negative
   double v0_texel = 0.0;
+  std::uint64_t pattern = 0;  ///< of the stereo camera's pattern (see Pattern): no two surfaces share one
+  double feature_m = 0.12;    ///< size of the pattern's coarsest blotch
+  double along0_m = 0.0;      ///< where along the pattern a face begins
 };
 
 /// A vertical rectangle over the segment `segment` between two heights.
@@ -76,6 +79,7 @@ class Scene {
   [[nodiscard]] const std::vector<PictureTexture>& pictures() const { return pictures_; }
   [[nodiscard]] const FaceGrid& grid() const { return grid_; }
   [[nodiscard]] const Paint& floor() const { return floor_; }
+  [[nodiscard]] double ceiling_m() const { return ceiling_m_; }  ///< nothing reaches higher
   [[nodiscard]] const std::vector<Disc>& people() const { return people_; }
   void set_people(std::vector<Disc> people) { people_ = std::move(people); }
 
@@ -93,6 +97,8 @@ class Scene {
   [[nodiscard]] bool inside(const Solid& solid, const Point2& p) const;
 
   Lighting lighting_;
+  std::uint64_t pattern_seed_ = 0;
+  double ceiling_m_ = 0.0;
   std::vector<Face> faces_;
   std::vector<Solid> solids_;
   std::vector<PictureTexture> pictures_;
@@ -101,7 +107,13 @@ class Scene {
   FaceGrid grid_;
 };
 
-/// Texture numbers of a surface; `serial` makes the cut of each face its own.
-[[nodiscard]] Paint make_paint(const Surface& surface, std::uint64_t serial);
+/// Texture numbers of a surface; `serial` makes the cut of each face its own, `pattern_seed` is World::pattern_seed.
+[[nodiscard]] Paint make_paint(const Surface& surface, std::uint64_t serial, std::uint64_t pattern_seed = 0);
+
+/// Corners of a standing cylinder as a prism, counter-clockwise.
+[[nodiscard]] std::vector<Point2> cylinder_corners(const Point2& centre, double radius_m);
+
+/// Relative brightness of a place.
+[[nodiscard]] double light_at(const Lighting& lighting, const Point2& p_world);
 
 }  // namespace seeker::sim

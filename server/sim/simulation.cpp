@@ -10,6 +10,7 @@
 #include "server/sim/omni_renderer.hpp"
 #include "server/sim/range_sensors.hpp"
 #include "server/sim/scene.hpp"
+#include "server/sim/stereo_renderer.hpp"
 
 namespace seeker::sim {
 namespace {
@@ -30,7 +31,8 @@ struct Simulation::State {
         odometry_rng(root.fork("odometry")),
         lidar_rng(root.fork("lidar")),
         sonar_rng(root.fork("sonar")),
-        camera_rng(root.fork("omni")) {
+        camera_rng(root.fork("omni")),
+        stereo_rng(root.fork("stereo")) {
     if (world.people_walk) {
       for (std::size_t i = 0; i < world.people.size(); ++i) {
         walkers.emplace_back(world.people[i], i);
@@ -60,6 +62,13 @@ struct Simulation::State {
     now += period;
   }
 
+  /// Of one picture: the lamps swing, and the camera does not set itself the same twice.
+  double exposure(Rng& rng) const {
+    const Lighting& light = world.lighting;
+    const double swing = std::sin(kTwoPi * to_seconds(now) / light.flicker_period_s);
+    return std::max(0.0, 1.0 + light.flicker * swing + rng.normal(light.exposure_jitter));
+  }
+
   World world;
   RobotModel model;
   Scene scene;
@@ -74,7 +83,9 @@ struct Simulation::State {
   Rng lidar_rng;
   Rng sonar_rng;
   Rng camera_rng;
+  Rng stereo_rng;
   std::unique_ptr<OmniRenderer> omni;  ///< made with the first picture: its tables are large
+  std::unique_ptr<StereoRenderer> stereo;
 };
 
 Simulation::Simulation(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -139,10 +150,19 @@ Image Simulation::omni_image() {
   if (!s.omni) {
     s.omni = std::make_unique<OmniRenderer>(s.model);
   }
-  const Lighting& light = s.world.lighting;
-  const double swing = std::sin(kTwoPi * to_seconds(s.now) / light.flicker_period_s);
-  const double exposure = std::max(0.0, 1.0 + light.flicker * swing + s.camera_rng.normal(light.exposure_jitter));
-  return s.omni->render(s.scene, light, s.body.world_T_base(), exposure, s.camera_rng);
+  const double exposure = s.exposure(s.camera_rng);
+  return s.omni->render(s.scene, s.world.lighting, s.body.world_T_base(), exposure, s.camera_rng);
+}
+
+StereoFrame Simulation::stereo_pair() {
+  State& s = *state_;
+  if (!s.stereo) {
+    s.stereo = std::make_unique<StereoRenderer>(s.model.stereo);
+  }
+  const double exposure = s.exposure(s.stereo_rng);
+  StereoFrame frame = s.stereo->render(s.scene, s.world.lighting, s.body.world_T_base(), exposure, s.stereo_rng);
+  frame.stamp = s.now;
+  return frame;
 }
 
 GroundTruth Simulation::truth() const {

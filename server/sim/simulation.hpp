@@ -11,6 +11,7 @@
 #include "common/core/image.hpp"
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
+#include "common/core/stereo.hpp"
 #include "common/core/time.hpp"
 #include "server/sim/robot_model.hpp"
 #include "server/sim/world.hpp"
@@ -63,6 +64,9 @@ class Simulation {
   [[nodiscard]] SonarScan sonar();
   /// Grey picture of the mirror: image up = forward, image left = +90 deg, centre as in the model.
   [[nodiscard]] Image omni_image();
+
+  /// Both eyes of the stereo camera at this moment, grey, rectified up to the errors of the model.
+  [[nodiscard]] StereoFrame stereo_pair();
 
   [[nodiscard]] GroundTruth truth() const;
   [[nodiscard]] const World& world() const;

@@ -1,6 +1,5 @@
 #include "server/sim/world.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace seeker::sim {
@@ -134,18 +133,6 @@ Status validate(const World& world) {
   check_targets(world, checker);
   check_people(world, checker);
   return checker.status();
-}
-
-std::vector<Box> make_table(const Pose2& world_T_table, const TableShape& shape, const Surface& surface) {
-  std::vector<Box> boxes;
-  const double z_top = shape.height_m - shape.thickness_m;
-  boxes.push_back({world_T_table, shape.length_m, shape.width_m, z_top, shape.height_m, surface});
-  const double dx = (shape.length_m - shape.leg_m) / 2.0;
-  const double dy = (shape.width_m - shape.leg_m) / 2.0;
-  for (const auto& [sx, sy] : std::array<std::array<double, 2>, 4>{{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}}) {
-    boxes.push_back({world_T_table * Pose2{sx * dx, sy * dy, 0.0}, shape.leg_m, shape.leg_m, 0.0, z_top, surface});
-  }
-  return boxes;
 }
 
 }  // namespace seeker::sim

@@ -41,6 +41,7 @@ struct Box {
   double z_min_m = 0.0;
   double z_max_m = 1.0;
   Surface surface;
+  std::string object{};  ///< parts of one piece of furniture share a name; empty: a piece of its own
 };
 
 struct Cylinder {
@@ -97,7 +98,8 @@ struct World {
   bool people_walk = false;  ///< people exist only when this is on
   Lighting lighting;
   Surface floor{0.55, 0.10, 0.25, 1};
-  std::vector<Pose2> starts;  ///< at least one; the first is the default
+  std::uint64_t pattern_seed = 0;  ///< the same building in other textures; 0: those of the surfaces alone
+  std::vector<Pose2> starts;       ///< at least one; the first is the default
 };
 
 inline constexpr double kMaxWorldSide_m = 500.0;
@@ -106,15 +108,5 @@ inline constexpr std::size_t kMaxWorldItems = 20000;
 /// Refuses what cannot be simulated: not finite, empty bounds, things outside them or without size, no start pose,
 /// a target without a picture. The sentence names the item.
 [[nodiscard]] Status validate(const World& world);
-
-/// A table: a top of `thickness_m` under `height_m` and four square legs.
-struct TableShape {
-  double length_m = 1.4;
-  double width_m = 0.7;
-  double height_m = 0.76;
-  double thickness_m = 0.04;
-  double leg_m = 0.06;
-};
-[[nodiscard]] std::vector<Box> make_table(const Pose2& world_T_table, const TableShape& shape, const Surface& surface);
 
 }  // namespace seeker::sim

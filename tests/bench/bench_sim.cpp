@@ -1,6 +1,7 @@
 // What one tick of the simulated robot costs on the office floor.
 #include <benchmark/benchmark.h>
 
+#include "server/sim/furniture.hpp"
 #include "server/sim/simulation.hpp"
 
 namespace seeker::sim {

@@ -1,9 +1,11 @@
 #include "server/drivers/sim/sim_devices.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace seeker::drivers {
 namespace {
@@ -19,6 +21,61 @@ bool due(std::optional<RobotTime>& last_sample, RobotTime now, Duration period) 
 
 tl::unexpected<Error> not_active(const char* device) {
   return fail(Errc::kNotReady, std::string("the simulated ") + device + " is not active; activate it first");
+}
+
+constexpr const char* kStereoDead = "the simulated stereo camera does not answer; check its cable";
+constexpr std::uint8_t kWhite = 255;
+
+Image half_size(const Image& image) {
+  Image half(image.width_px() / 2, image.height_px() / 2, 1);
+  for (int v = 0; v < half.height_px(); ++v) {
+    for (int u = 0; u < half.width_px(); ++u) {
+      *half.at(u, v) = *image.at(2 * u, 2 * v);
+    }
+  }
+  return half;
+}
+
+/// Mean over a square around each pixel, cut at the border: by sums along rows, then along columns.
+Image blurred(const Image& image) {
+  constexpr int kRadius_px = 12;
+  Image out = image;
+  const auto pass = [&](int length, int count, const auto& at) {
+    std::vector<int> sums(static_cast<std::size_t>(length) + 1, 0);
+    for (int line = 0; line < count; ++line) {
+      for (int i = 0; i < length; ++i) {
+        sums[static_cast<std::size_t>(i) + 1] = sums[static_cast<std::size_t>(i)] + *at(i, line);
+      }
+      for (int i = 0; i < length; ++i) {
+        const int low = std::max(0, i - kRadius_px);
+        const int high = std::min(length, i + kRadius_px + 1);
+        const int sum = sums[static_cast<std::size_t>(high)] - sums[static_cast<std::size_t>(low)];
+        *at(i, line) = static_cast<std::uint8_t>(sum / (high - low));
+      }
+    }
+  };
+  pass(image.width_px(), image.height_px(), [&out](int u, int v) { return out.at(u, v); });
+  pass(image.height_px(), image.width_px(), [&out](int v, int u) { return out.at(u, v); });
+  return out;
+}
+
+void spoil(StereoFrame& frame, StereoFault fault, const Image& last_right) {
+  switch (fault) {
+    case StereoFault::kNone: return;
+    case StereoFault::kSwapped: std::swap(frame.left, frame.right); return;
+    case StereoFault::kBlack: std::fill(frame.left.data().begin(), frame.left.data().end(), std::uint8_t{0}); return;
+    case StereoFault::kSaturated: std::fill(frame.right.data().begin(), frame.right.data().end(), kWhite); return;
+    case StereoFault::kBlurred: frame.left = blurred(frame.left); return;
+    case StereoFault::kHalfSize:
+      frame.left = half_size(frame.left);
+      frame.right = half_size(frame.right);
+      return;
+    case StereoFault::kStale:
+      if (!last_right.empty()) {
+        frame.right = last_right;
+      }
+      return;
+  }
 }
 
 }  // namespace
@@ -173,6 +230,35 @@ Result<CameraFrame> SimCamera::grab() {
   return CameraFrame{simulation_->now(), simulation_->omni_image()};
 }
 
+SimStereo::SimStereo(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults)
+    : simulation_(std::move(simulation)), faults_(std::move(faults)) {}
+
+Status SimStereo::activate() {
+  if (faults_->stereo_dead) {
+    return fail(Errc::kIo, kStereoDead);
+  }
+  active_ = true;
+  return {};
+}
+
+void SimStereo::deactivate() { active_ = false; }
+
+Result<StereoFrame> SimStereo::grab() {
+  if (!active_) {
+    return not_active("stereo camera");
+  }
+  if (faults_->stereo_dead) {
+    return fail(Errc::kIo, kStereoDead);
+  }
+  StereoFrame frame = simulation_->stereo_pair();
+  const Image right = frame.right;
+  spoil(frame, faults_->stereo, last_right_);
+  last_right_ = right;
+  return frame;
+}
+
+const StereoGeometry& SimStereo::geometry() const { return simulation_->model().stereo.geometry; }
+
 LockstepClock::LockstepClock(std::shared_ptr<sim::Simulation> simulation, SimBase* base, double speed)
     : simulation_(std::move(simulation)), base_(base), speed_(speed) {}
 
@@ -216,6 +302,7 @@ Result<SimDevices> make_sim_devices(sim::World world, sim::RobotModel model, std
   devices.lidar = std::make_unique<SimLidar>(devices.simulation, devices.faults, params);
   devices.sonar = std::make_unique<SimSonar>(devices.simulation, devices.faults, params);
   devices.camera = std::make_unique<SimCamera>(devices.simulation, devices.faults);
+  devices.stereo = std::make_unique<SimStereo>(devices.simulation, devices.faults);
   devices.clock = std::make_unique<LockstepClock>(devices.simulation, devices.base.get(), speed);
   return devices;
 }

@@ -2,6 +2,7 @@
 /// The simulated robot behind the driver interfaces: the loop cannot tell it from hardware.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -10,6 +11,17 @@
 
 namespace seeker::drivers {
 
+/// What can be wrong with a stereo pair that still arrives.
+enum class StereoFault : std::uint8_t {
+  kNone,
+  kSwapped,    ///< left is right
+  kBlack,      ///< the left eye is covered
+  kSaturated,  ///< the right eye looks into a lamp
+  kBlurred,    ///< the left lens is fogged
+  kHalfSize,   ///< pictures of another size
+  kStale,      ///< the right picture is that of the pair before
+};
+
 /// Faults that can be switched on and off while the robot runs, to test what it does about them.
 struct SimFaults {
   bool base_silent = false;
@@ -17,6 +29,8 @@ struct SimFaults {
   bool sonar_silent = false;  ///< no sonar scan any more
   int sonar_nan = -1;         ///< this transducer reads NaN; -1: none
   bool camera_dead = false;   ///< grab() fails
+  bool stereo_dead = false;   ///< the stereo camera's grab() fails
+  StereoFault stereo = StereoFault::kNone;
 };
 
 /// Periods of the devices and the base's own safety.
@@ -99,6 +113,22 @@ class SimCamera final : public CameraDriver {
   bool active_ = false;
 };
 
+/// The stereo camera.
+class SimStereo final : public StereoDriver {
+ public:
+  SimStereo(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults);
+  [[nodiscard]] Status activate() override;
+  void deactivate() override;
+  [[nodiscard]] Result<StereoFrame> grab() override;
+  [[nodiscard]] const StereoGeometry& geometry() const override;
+
+ private:
+  std::shared_ptr<sim::Simulation> simulation_;
+  std::shared_ptr<const SimFaults> faults_;
+  bool active_ = false;
+  Image last_right_;
+};
+
 /// Robot time of the simulated world. Speed 0: as fast as the machine can; otherwise paced by the wall clock.
 class LockstepClock final : public Clock {
  public:
@@ -124,6 +154,7 @@ struct SimDevices {
   std::unique_ptr<SimLidar> lidar;
   std::unique_ptr<SimSonar> sonar;
   std::unique_ptr<SimCamera> camera;
+  std::unique_ptr<SimStereo> stereo;
   std::unique_ptr<LockstepClock> clock;
 };
 

@@ -41,14 +41,15 @@ TEST_P(ShippedWorld, LoadsAndHasRoomForTheRobotAtEveryStart) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedWorld,
                          ::testing::Values("paper-a", "paper-b", "no-target", "office", "office-no-target", "demo",
-                                           "corridor", "hospital", "hall", "closet", "closet-gap", "open-door"));
+                                           "corridor", "hospital", "hall", "closet", "closet-gap", "open-door",
+                                           "laboratory"));
 
 TEST(ShippedWorlds, AreAllInTheTestAbove) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/worlds"))) {
     files += entry.path().extension() == ".yaml" ? 1 : 0;
   }
-  EXPECT_EQ(files, 12U);
+  EXPECT_EQ(files, 13U);
 }
 
 TEST(ShippedWorlds, AreAsLargeAsTheyShouldBe) {
@@ -129,7 +130,7 @@ TEST(ShippedWorlds, NothingOfTheHallIsInReachOfTheLidarFromItsMiddle) {
 
 TEST(WorldFile, UnknownKeyNamesFileLineAndPath) {
   EXPECT_EQ(error_of("name: x\nboxes:\n  - {pose: [0, 0, 0], siz_m: [1, 1]}\n"),
-            "test.yaml:3: boxes[0].siz_m: unknown key; allowed here: pose, size_m, z_m, surface");
+            "test.yaml:3: boxes[0].siz_m: unknown key; allowed here: pose, size_m, z_m, surface, object");
   const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "bad_world.yaml";
   std::ofstream(path) << "name: x\nlightning: {gain: 1}\n";
   const auto world = load_world(path);

@@ -102,6 +102,47 @@ TEST(SimFaults, SilenceNanAndADeadCameraCanBeSwitched) {
   EXPECT_TRUE(d.camera->grab());
 }
 
+TEST(SimStereo, GivesPicturesOfItsGeometryOnlyWhileActive) {
+  SimDevices d = make_devices();
+  EXPECT_EQ(d.stereo->grab().error().code, Errc::kNotReady);
+  ASSERT_TRUE(d.stereo->activate());
+  ASSERT_TRUE(d.clock->advance(300ms));
+  const auto frame = d.stereo->grab();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamp, d.clock->now());
+  for (const Image* image : {&frame->left, &frame->right}) {
+    EXPECT_EQ(image->width_px(), d.stereo->geometry().width_px);
+    EXPECT_EQ(image->height_px(), d.stereo->geometry().height_px);
+  }
+  d.faults->stereo_dead = true;
+  EXPECT_EQ(d.stereo->grab().error().code, Errc::kIo);
+  EXPECT_FALSE(d.stereo->activate());
+}
+
+TEST(SimStereo, FaultsSpoilThePictures) {
+  SimDevices d = make_devices();
+  ASSERT_TRUE(d.stereo->activate());
+  const StereoFrame good = *d.stereo->grab();
+  const auto spoilt = [&d](StereoFault fault) {
+    d.faults->stereo = fault;
+    return *d.stereo->grab();
+  };
+  const auto mean_step = [](const Image& image) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < image.data().size(); ++i) {
+      sum += std::abs(image.data()[i] - image.data()[i - 1]);
+    }
+    return sum / static_cast<double>(image.data().size());
+  };
+  EXPECT_EQ(spoilt(StereoFault::kStale).right, good.right);
+  const StereoFrame black = spoilt(StereoFault::kBlack);
+  EXPECT_TRUE(std::all_of(black.left.data().begin(), black.left.data().end(), [](auto v) { return v == 0; }));
+  const StereoFrame white = spoilt(StereoFault::kSaturated);
+  EXPECT_TRUE(std::all_of(white.right.data().begin(), white.right.data().end(), [](auto v) { return v == 255; }));
+  EXPECT_EQ(spoilt(StereoFault::kHalfSize).left.width_px(), d.stereo->geometry().width_px / 2);
+  EXPECT_LT(mean_step(spoilt(StereoFault::kBlurred).left), 0.3 * mean_step(good.left));
+}
+
 TEST(LockstepClock, PacesByTheWallOnlyWhenAsked) {
   SimDevices fast = make_devices(0.0);
   EXPECT_TRUE(fast.clock->lockstep());
