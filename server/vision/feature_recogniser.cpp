@@ -1,13 +1,34 @@
 #include "server/vision/feature_recogniser.hpp"
 
+#include <algorithm>
 #include <string>
 
+#include "server/vision/feature_match.hpp"
 #include "server/vision/homography.hpp"
 #include "server/vision/overlap.hpp"
 #include "server/vision/picture.hpp"
 #include "server/vision/stage_pictures.hpp"
 
 namespace seeker::vision {
+namespace {
+
+DetectorParams detector_of(const FeatureParams& params) {
+  DetectorParams detector;
+  detector.wanted = params.wanted_features;
+  detector.at_most = params.max_features;
+  detector.contrast_threshold = params.contrast_threshold;
+  return detector;
+}
+
+cv::Point2f point_of(const Keypoint& key) { return {key.u_px, key.v_px}; }
+
+std::vector<cv::Point2f> points_of(const FeatureList& features) {
+  std::vector<cv::Point2f> points(features.size());
+  std::transform(features.keypoints.begin(), features.keypoints.end(), points.begin(), point_of);
+  return points;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<FeatureRecogniser>> FeatureRecogniser::make(const std::vector<TargetModel>& targets,
                                                                    const RecogniserParams& params) {
@@ -17,12 +38,11 @@ Result<std::unique_ptr<FeatureRecogniser>> FeatureRecogniser::make(const std::ve
       continue;
     }
     const cv::Mat grey = to_grey_mat(targets[i].picture);
-    Known known{static_cast<int>(i), targets[i].height_m, grey.size(), detect_sift(grey, params.features)};
-    if (static_cast<int>(known.features.points.size()) < params.features.min_inliers) {
+    Known known{static_cast<int>(i), targets[i].height_m, grey.size(), detect_sift(grey, detector_of(params.features))};
+    if (static_cast<int>(known.features.size()) < params.features.min_inliers) {
       return fail(Errc::kInvalidArgument,
-                  "target '" + targets[i].name + "': its picture has only " +
-                      std::to_string(known.features.points.size()) + " key points, at least " +
-                      std::to_string(params.features.min_inliers) +
+                  "target '" + targets[i].name + "': its picture has only " + std::to_string(known.features.size()) +
+                      " key points, at least " + std::to_string(params.features.min_inliers) +
                       " are needed: give a larger or more textured picture, or recognise it as a template");
     }
     made->targets_.push_back(std::move(known));
@@ -30,16 +50,17 @@ Result<std::unique_ptr<FeatureRecogniser>> FeatureRecogniser::make(const std::ve
   return made;
 }
 
-void FeatureRecogniser::match_target(const Known& known, const SiftFeatures& scene, const cv::Size& working,
+void FeatureRecogniser::match_target(const Known& known, const FeatureList& scene, const cv::Size& working,
                                      RecognitionReport& report) const {
-  const std::vector<FeatureMatch> matches = match_mutually(known.features, scene, params_.features.ratio);
+  const std::vector<FeatureMatch> matches =
+      match_mutually(known.features.descriptors, scene.descriptors, {.max_ratio = params_.features.ratio});
   report.stages.matches += static_cast<int>(matches.size());
   ++report.stages.candidates;
   std::vector<cv::Point2f> from;
   std::vector<cv::Point2f> to;
   for (const FeatureMatch& match : matches) {
-    from.push_back(known.features.points[static_cast<std::size_t>(match.target)]);
-    to.push_back(scene.points[static_cast<std::size_t>(match.scene)]);
+    from.push_back(point_of(known.features.keypoints[static_cast<std::size_t>(match.first)]));
+    to.push_back(point_of(scene.keypoints[static_cast<std::size_t>(match.second)]));
   }
   const auto fit = fit_planar(from, to, known.size, params_.features);
   if (!fit) {
@@ -60,8 +81,8 @@ Result<RecognitionReport> FeatureRecogniser::recognise(const Image& picture) con
     return tl::unexpected<Error>(grey.error());
   }
   RecognitionReport report;
-  const SiftFeatures scene = detect_sift(*grey, params_.features);
-  report.stages.features = static_cast<int>(scene.points.size());
+  const FeatureList scene = detect_sift(*grey, detector_of(params_.features));
+  report.stages.features = static_cast<int>(scene.size());
   for (const Known& known : targets_) {
     match_target(known, scene, grey->size(), report);
   }
@@ -77,7 +98,7 @@ Result<std::vector<StageImage>> FeatureRecogniser::explain(const Image& picture)
   }
   const cv::Mat grey = *view_.working_picture(picture);
   std::vector<StageImage> out;
-  out.push_back({"feature_points", draw_points(grey, detect_sift(grey, params_.features).points)});
+  out.push_back({"feature_points", draw_points(grey, points_of(detect_sift(grey, detector_of(params_.features))))});
   out.push_back({"feature_sightings", draw_sightings(picture, report->sightings)});
   return out;
 }

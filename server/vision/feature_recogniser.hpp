@@ -29,11 +29,11 @@ class FeatureRecogniser : public Recogniser {
     int target = 0;
     double height_m = 0.0;
     cv::Size size;
-    SiftFeatures features;
+    FeatureList features;
   };
 
   explicit FeatureRecogniser(const RecogniserParams& params) : params_(params), view_(params.view) {}
-  void match_target(const Known& known, const SiftFeatures& scene, const cv::Size& working,
+  void match_target(const Known& known, const FeatureList& scene, const cv::Size& working,
                     RecognitionReport& report) const;
 
   RecogniserParams params_;

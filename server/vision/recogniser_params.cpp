@@ -1,30 +1,11 @@
 #include "server/vision/recogniser_params.hpp"
 
 #include <array>
-#include <cmath>
-#include <string>
+
+#include "server/vision/bounds.hpp"
 
 namespace seeker::vision {
 namespace {
-
-/// A field with the range it must lie in.
-struct Bound {
-  const char* name;
-  double value;
-  double low;
-  double high;
-};
-
-template <std::size_t N>
-Status check(const std::array<Bound, N>& bounds) {
-  for (const Bound& b : bounds) {
-    if (!(b.value >= b.low && b.value <= b.high)) {
-      return fail(Errc::kInvalidArgument, std::string(b.name) + " is " + std::to_string(b.value) + ", allowed is " +
-                                              std::to_string(b.low) + " to " + std::to_string(b.high));
-    }
-  }
-  return {};
-}
 
 Status validate_view(const ViewParams& p) {
   if (p.omni) {
@@ -32,9 +13,9 @@ Status validate_view(const ViewParams& p) {
       return omni;
     }
   }
-  return check(std::array<Bound, 3>{{{"view.photo_fov_rad", p.photo_fov_rad, 0.01, 3.1},
-                                     {"view.panorama_scale", p.panorama_scale, 0.1, 3.0},
-                                     {"view.min_elevation_rad", p.min_elevation_rad, -1.4, 0.0}}});
+  return check_bounds(std::array<Bound, 3>{{{"view.photo_fov_rad", p.photo_fov_rad, 0.01, 3.1},
+                                            {"view.panorama_scale", p.panorama_scale, 0.1, 3.0},
+                                            {"view.min_elevation_rad", p.min_elevation_rad, -1.4, 0.0}}});
 }
 
 Status validate_templates(const TemplateParams& p) {
@@ -45,7 +26,7 @@ Status validate_templates(const TemplateParams& p) {
   if (p.adaptive_block_px % 2 == 0) {
     return fail(Errc::kInvalidArgument, "templates.adaptive_block_px must be odd");
   }
-  return check(
+  return check_bounds(
       std::array<Bound, 14>{{{"templates.stretch_low", p.stretch_low, 0.0, 1.0},
                              {"templates.stretch_high", p.stretch_high, 0.0, 1.0},
                              {"templates.min_area", p.min_area, 0.0, 1.0},
@@ -63,14 +44,15 @@ Status validate_templates(const TemplateParams& p) {
 }
 
 Status validate_features(const FeatureParams& p) {
-  return check(std::array<Bound, 8>{{{"features.max_features", static_cast<double>(p.max_features), 10.0, 20000.0},
-                                     {"features.contrast_threshold", p.contrast_threshold, 0.001, 0.5},
-                                     {"features.wanted_features", static_cast<double>(p.wanted_features), 0.0, 20000.0},
-                                     {"features.ratio", p.ratio, 0.1, 1.0},
-                                     {"features.reprojection_px", p.reprojection_px, 0.1, 50.0},
-                                     {"features.min_inliers", static_cast<double>(p.min_inliers), 5.0, 1000.0},
-                                     {"features.min_inlier_share", p.min_inlier_share, 0.0, 1.0},
-                                     {"features.max_scale_change", p.max_scale_change, 1.0, 100.0}}});
+  return check_bounds(
+      std::array<Bound, 8>{{{"features.max_features", static_cast<double>(p.max_features), 10.0, 20000.0},
+                            {"features.contrast_threshold", p.contrast_threshold, 0.001, 0.5},
+                            {"features.wanted_features", static_cast<double>(p.wanted_features), 0.0, 20000.0},
+                            {"features.ratio", p.ratio, 0.1, 1.0},
+                            {"features.reprojection_px", p.reprojection_px, 0.1, 50.0},
+                            {"features.min_inliers", static_cast<double>(p.min_inliers), 5.0, 1000.0},
+                            {"features.min_inlier_share", p.min_inlier_share, 0.0, 1.0},
+                            {"features.max_scale_change", p.max_scale_change, 1.0, 100.0}}});
 }
 
 }  // namespace

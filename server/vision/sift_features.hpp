@@ -1,34 +1,26 @@
 /// \file
-/// SIFT key points as the feature recogniser needs them.
+/// SIFT key points with byte descriptors: the one detector of recogniser, stereo and places.
 #pragma once
 
-#include <vector>
-
 #include <opencv2/core.hpp>
-#include <opencv2/features2d.hpp>
 
-#include "server/vision/recogniser_params.hpp"
+#include "server/vision/descriptor.hpp"
+#include "server/vision/detector_params.hpp"
 
 namespace seeker::vision {
 
-/// Key points with their descriptors, row i belonging to point i (CV_32F, 128 columns).
-struct SiftFeatures {
-  std::vector<cv::Point2f> points;
-  cv::Mat descriptors;
+/// A place whose gradients have several main directions is described once for each of them.
+enum class Orientations : std::uint8_t {
+  kOne,  ///< the first of them only: one feature a place, so that counts of features are counts of places
+  kAll,  ///< all, one after the other: the other picture may have lost the first
 };
 
-/// Detects with a contrast threshold that is halved up to twice while fewer than wanted_features are found, takes back
-/// OpenCV 4.6's shift of a quarter pixel, and keeps one descriptor per place (of several orientations the first).
-[[nodiscard]] SiftFeatures detect_sift(const cv::Mat& grey, const FeatureParams& params);
+/// Key points of `grey` (CV_8UC1), the strongest of every cell of the grid first; `params` counts places. OpenCV 4.6's
+/// shift of a quarter pixel is taken back (vision.md 1.1). Empty for pictures too small to hold a key point.
+[[nodiscard]] FeatureList detect_sift(const cv::Mat& grey, const DetectorParams& params,
+                                      Orientations orientations = Orientations::kOne);
 
-/// A pair of rows of two descriptor lists.
-struct FeatureMatch {
-  int target = 0;
-  int scene = 0;
-};
-
-/// Mutual best matches whose distance is below `ratio` times that of the second best, either way.
-[[nodiscard]] std::vector<FeatureMatch> match_mutually(const SiftFeatures& target, const SiftFeatures& scene,
-                                                       double ratio);
+/// Whether two key points of one picture are at one place.
+[[nodiscard]] bool same_place(const Keypoint& a, const Keypoint& b);
 
 }  // namespace seeker::vision

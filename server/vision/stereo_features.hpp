@@ -10,22 +10,9 @@
 #include "common/core/result.hpp"
 #include "common/core/stereo.hpp"
 #include "server/vision/descriptor.hpp"
+#include "server/vision/detector_params.hpp"
 
 namespace seeker::vision {
-
-/// Key points of one picture.
-struct DetectorParams {
-  DescriptorKind kind = DescriptorKind::kRootSift;
-  int wanted = 500;                  ///< kept, spread over the picture; the contrast threshold adapts to find as many
-  double contrast_threshold = 0.04;  ///< to begin with; halved up to `contrast_halvings` times
-  int contrast_halvings = 2;
-  double edge_threshold = 10.0;
-  int grid_columns = 8;  ///< the strongest of each cell are kept first
-  int grid_rows = 6;
-  bool half_resolution = false;  ///< detect in a picture of half the size; places are still told in full pixels
-
-  friend bool operator==(const DetectorParams&, const DetectorParams&) = default;
-};
 
 /// How alike the scales of two matching key points must be, spec S2.1 constraint (4).
 enum class ScaleGate : std::uint8_t {
@@ -66,10 +53,10 @@ struct StereoFeatureParams {
 /// Features of one pair, and what became of the candidates.
 struct StereoFeatures {
   std::vector<StereoFeature> features;
-  int left_keypoints = 0;
+  int left_keypoints = 0;  ///< places
   int right_keypoints = 0;
-  int matches_before_constraints = 0;  ///< best matches by descriptor alone, spec S2.11 Table 1
-  int inliers_of_rows = 0;             ///< pairs that pass (1) alone: few of many tell of a wrong calibration
+  int matches_before_constraints = 0;  ///< mutual best by descriptor alone, spec S2.11 Table 1
+  int inliers_of_rows = 0;             ///< of those, pairs that pass (1): few of many tell of a wrong calibration
 };
 
 /// Finds and matches. Not for two threads at once; the eyes are worked on with as many threads as OpenCV is given.

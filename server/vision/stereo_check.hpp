@@ -1,0 +1,48 @@
+/// \file
+/// What is wrong with a pair of pictures that no stereo can come of.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "common/core/image.hpp"
+#include "common/core/stereo.hpp"
+#include "server/vision/feature_match.hpp"
+
+namespace seeker::vision {
+
+enum class PictureFault : std::uint8_t { kNone, kBlack, kSaturated, kBlurred };
+
+enum class PairFault : std::uint8_t { kNone, kSwapped, kRowsDisagree };
+
+/// How bright and how sharp a picture is. Measured on a quarter of its pixels.
+struct PictureQuality {
+  double dark_share = 0.0;    ///< of the pixels: so dark that they carry nothing
+  double bright_share = 0.0;  ///< at the upper end
+  double contrast = 0.0;      ///< energy of structures of 8 to 16 px, squared grey levels
+  double sharpness = 0.0;     ///< that of structures of 2 to 4 px, less the noise's share, over `contrast`
+};
+
+/// `grey` has one channel.
+[[nodiscard]] PictureQuality measure_quality(const Image& grey);
+/// Sharp photographs of rooms, corridors and plants have a sharpness of 0.11 to 0.76, blurred by a Gaussian of 4 px
+/// (with noise of 2 grey levels) at most 0.10, by one of 8 px at most 0.075: blurred is below 0.085, or less than half
+/// as sharp as the other eye. A picture without contrast (a bare wall) is not called blurred.
+[[nodiscard]] PictureFault fault_of(const PictureQuality& picture, const PictureQuality& other_eye);
+
+/// kInvalidArgument naming the eye, the cause and the remedy; also for pictures whose size is not the geometry's.
+/// Pictures without pixels are refused.
+[[nodiscard]] Status check_pictures(const StereoFrame& frame, const StereoGeometry& geometry);
+
+/// Judges pairs that match by descriptor alone: how many are on one row, and which eye sees nearer things further
+/// right. Too few pairs are no fault.
+[[nodiscard]] PairFault fault_of_pair(const FeatureList& left, const FeatureList& right,
+                                      std::span<const FeatureMatch> matches, double row_gate_px);
+/// How many of the pairs are less than row_gate_px apart in height.
+[[nodiscard]] int count_on_rows(const FeatureList& left, const FeatureList& right,
+                                std::span<const FeatureMatch> matches, double row_gate_px);
+/// kInvalidArgument with cause and remedy.
+[[nodiscard]] Status check_pair(PairFault fault);
+
+}  // namespace seeker::vision
