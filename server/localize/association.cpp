@@ -69,14 +69,46 @@ double landmark_distance(const Landmark& landmark, const vision::Descriptor& des
 }
 
 DescriptorTable::DescriptorTable(const LandmarkDatabase& database) {
-  rows.reserve(database.size());
-  owners.reserve(database.size());
   for (std::size_t i = 0; i < database.size(); ++i) {
-    for (const LandmarkView& view : database.at(i).views) {
-      rows.push_back(view.descriptor);
-      owners.push_back(i);
+    const std::vector<LandmarkView>& views = database.at(i).views;
+    layers.resize(std::max(layers.size(), views.size()));
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      layers[k].rows.push_back(views[k].descriptor);
+      layers[k].owners.push_back(i);
     }
   }
+}
+
+std::vector<std::vector<AlikeLandmark>> alike_landmarks(const DescriptorTable& known,
+                                                        std::span<const vision::Descriptor> queries,
+                                                        vision::Metric metric) {
+  std::vector<std::vector<AlikeLandmark>> alike(queries.size());
+  for (const DescriptorTable::Layer& layer : known.layers) {
+    const auto nearest = vision::nearest_two(queries, layer.rows, metric);
+    const auto add = [&](std::size_t query, std::int32_t row, std::uint32_t byte_distance) {
+      if (row >= 0) {
+        const auto at = static_cast<std::size_t>(row);
+        alike[query].push_back({layer.owners[at], unit_distance(byte_distance, metric), &layer.rows[at]});
+      }
+    };
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+      add(i, nearest[i].best, nearest[i].best_distance);
+      add(i, nearest[i].second, nearest[i].second_distance);
+    }
+  }
+  for (std::vector<AlikeLandmark>& one : alike) {
+    std::stable_sort(one.begin(), one.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
+    std::vector<AlikeLandmark> once;
+    for (const AlikeLandmark& landmark : one) {
+      const bool known_already = std::any_of(
+          once.begin(), once.end(), [&](const AlikeLandmark& other) { return other.landmark == landmark.landmark; });
+      if (!known_already) {
+        once.push_back(landmark);
+      }
+    }
+    one = std::move(once);
+  }
+  return alike;
 }
 
 std::vector<Pairing> associate_anywhere(const DescriptorTable& known, const Sighting& sighting,
@@ -86,15 +118,13 @@ std::vector<Pairing> associate_anywhere(const DescriptorTable& known, const Sigh
   for (const SeenPoint& point : points) {
     queries.push_back(sighting.features[point.feature].descriptor);
   }
-  const auto nearest = vision::nearest_two(queries, known.rows, params.metric);
+  const auto alike = alike_landmarks(known, queries, params.metric);
   std::vector<Pairing> forward;
   std::vector<vision::Descriptor> chosen;
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    const double distance = unit_distance(nearest[i].best_distance, params.metric);
-    if (nearest[i].best >= 0 && distance <= params.max_distance) {
-      const auto row = static_cast<std::size_t>(nearest[i].best);
-      forward.push_back({i, known.owners[row], distance});
-      chosen.push_back(known.rows[row]);
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    if (!alike[i].empty() && alike[i].front().distance <= params.max_distance) {
+      forward.push_back({i, alike[i].front().landmark, alike[i].front().distance});
+      chosen.push_back(*alike[i].front().view);
     }
   }
   // Backward: the feature most alike to the chosen descriptor must be the one that chose it.

@@ -48,14 +48,31 @@ struct SparsityParams {
 [[nodiscard]] double landmark_distance(const Landmark& landmark, const vision::Descriptor& descriptor,
                                        vision::Metric metric);
 
-/// All descriptors of a database in one row, as vision::nearest_two() takes them.
+/// All descriptors of a database as vision::nearest_two() takes them. A layer holds at most one descriptor of each
+/// landmark, so that the two most alike of a layer are two landmarks.
 struct DescriptorTable {
-  std::vector<vision::Descriptor> rows;
-  std::vector<std::size_t> owners;  ///< index of each row's landmark
+  struct Layer {
+    std::vector<vision::Descriptor> rows;
+    std::vector<std::size_t> owners;  ///< index of each row's landmark
+  };
+  std::vector<Layer> layers;
 
   DescriptorTable() = default;
   explicit DescriptorTable(const LandmarkDatabase& database);
 };
+
+/// A landmark that looks like a feature.
+struct AlikeLandmark {
+  std::size_t landmark = 0;  ///< index in the database
+  double distance = 0.0;     ///< of the view that is most alike
+  const vision::Descriptor* view = nullptr;
+};
+
+/// For every query the most alike landmarks, most alike first, each once: the two best of every layer. Points into
+/// the table.
+[[nodiscard]] std::vector<std::vector<AlikeLandmark>> alike_landmarks(const DescriptorTable& known,
+                                                                      std::span<const vision::Descriptor> queries,
+                                                                      vision::Metric metric);
 
 /// Spec S2.5 as printed, over all of `known`: the most alike both ways, within params.max_distance.
 [[nodiscard]] std::vector<Pairing> associate_anywhere(const DescriptorTable& known, const Sighting& sighting,

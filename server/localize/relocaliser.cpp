@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -39,9 +40,8 @@ class Search {
 
  private:
   void find_voters();
-  void add_voter(std::size_t point, std::size_t row, std::uint32_t byte_distance,
-                 const std::vector<vision::Descriptor>& queries);
-  [[nodiscard]] std::vector<Place> try_pairs(Rng& rng) const;
+  void add_voter(const Pairing& pair);
+  [[nodiscard]] std::vector<Place> try_pairs(int attempts, Rng& rng) const;
   [[nodiscard]] std::optional<Pose2> place_of(const Voter& a, const Voter& b) const;
   [[nodiscard]] bool agrees(const Pose2& map_T_eye, const Voter& voter) const;
   [[nodiscard]] int count(const Pose2& map_T_eye) const;
@@ -52,7 +52,7 @@ class Search {
     return distance_m(a, b) > params_.relocalise.rival_m ||
            std::abs(wrap_angle(a.theta_rad - b.theta_rad)) > params_.relocalise.rival_rad;
   }
-  [[nodiscard]] int best_rival(const std::vector<Place>& places, const Pose2& best) const;
+  [[nodiscard]] int rival_of(const Pose2& best, Rng& rng) const;
   [[nodiscard]] int cells_of(const std::vector<Pairing>& inliers) const;
   void judge(RelocaliseAnswer& answer) const;
 
@@ -71,53 +71,42 @@ void Search::find_voters() {
   for (const EyeFeature& feature : lifted_) {
     queries.push_back(features_[feature.feature].descriptor);
   }
-  const auto nearest = vision::nearest_two(queries, map_.table.rows, params_.metric);
-  struct Suit {
-    std::size_t point;
-    std::size_t row;
-    double distance;
-  };
-  std::vector<Suit> suits;
+  const auto alike = alike_landmarks(map_.table, queries, params_.metric);
+  std::vector<Pairing> suits;
   std::vector<vision::Descriptor> chosen;
-  const auto suit = [&](std::size_t point, std::int32_t row, double distance) {
-    suits.push_back({point, static_cast<std::size_t>(row), distance});
-    chosen.push_back(map_.table.rows[static_cast<std::size_t>(row)]);
-  };
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    const double best = unit_distance(nearest[i].best_distance, params_.metric);
-    if (nearest[i].best < 0 || best > params_.relocalise.max_distance) {
-      continue;
-    }
-    suit(i, nearest[i].best, best);
-    const double second = unit_distance(nearest[i].second_distance, params_.metric);
-    if (nearest[i].second >= 0 &&
-        second <= std::min(params_.relocalise.max_distance, params_.relocalise.ambiguity * best)) {
-      suit(i, nearest[i].second, second);
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    for (const AlikeLandmark& landmark : alike[i]) {
+      const double limit =
+          std::min(params_.relocalise.max_distance, params_.relocalise.ambiguity * alike[i].front().distance);
+      if (landmark.distance <= limit) {
+        suits.push_back({i, landmark.landmark, landmark.distance});
+        chosen.push_back(*landmark.view);
+      }
     }
   }
   const auto back = vision::nearest_two(chosen, queries, params_.metric);
   for (std::size_t k = 0; k < suits.size(); ++k) {
-    const std::size_t landmark = map_.table.owners[suits[k].row];
-    const EyeFeature& feature = lifted_[suits[k].point];
-    const Matrix3& own = map_.covariances[landmark];
-    const double height_m = feature.eye.p.z() + params_.eye_height_m - map_.at(landmark).p_map.z();
-    const double height_sigma_m = std::sqrt(feature.eye.covariance(2, 2) + own(2, 2));
-    const bool level =
-        std::abs(height_m) <= params_.relocalise.height_tolerance_m + params_.tracking.window_sigmas * height_sigma_m;
-    if (back[k].best != static_cast<std::int32_t>(suits[k].point) || !level) {
-      continue;
+    if (back[k].best == static_cast<std::int32_t>(suits[k].point)) {
+      add_voter(suits[k]);
     }
-    Voter voter;
-    voter.pair = {suits[k].point, landmark, suits[k].distance};
-    voter.p_eye = feature.eye.p.head<2>();
-    voter.p_map = map_.at(landmark).p_map.head<2>();
-    const double floor_m2 = std::pow(params_.measurement.range_floor_m, 2);
-    const Matrix2 covariance = feature.eye.covariance.topLeftCorner<2, 2>() +
-                               (0.5 * own.topLeftCorner<2, 2>().trace() + floor_m2) * Matrix2::Identity();
-    voter.weight = covariance.inverse();
-    voter.sigma_m = std::sqrt(covariance.trace());
-    voters_.push_back(voter);
   }
+}
+
+/// Unless the heights, which both know, speak against it.
+void Search::add_voter(const Pairing& pair) {
+  const EyeFeature& feature = lifted_[pair.point];
+  const Matrix3& own = map_.covariances[pair.landmark];
+  const Point3& p_map = map_.at(pair.landmark).p_map;
+  const double height_m = feature.eye.p.z() + params_.eye_height_m - p_map.z();
+  const double height_sigma_m = std::sqrt(feature.eye.covariance(2, 2) + own(2, 2));
+  if (std::abs(height_m) > params_.relocalise.height_tolerance_m + params_.tracking.window_sigmas * height_sigma_m) {
+    return;
+  }
+  const double floor_m2 = params_.measurement.range_floor_m * params_.measurement.range_floor_m;
+  const Matrix2 covariance = feature.eye.covariance.topLeftCorner<2, 2>() +
+                             (0.5 * own.topLeftCorner<2, 2>().trace() + floor_m2) * Matrix2::Identity();
+  voters_.push_back(
+      {pair, feature.eye.p.head<2>(), p_map.head<2>(), covariance.inverse(), std::sqrt(covariance.trace())});
 }
 
 /// The rigid motion that lays two seen points on their landmarks, if their distances agree.
@@ -175,9 +164,12 @@ std::vector<Pairing> Search::inliers_at(const Pose2& map_T_eye) const {
   return inliers;
 }
 
-std::vector<Place> Search::try_pairs(Rng& rng) const {
+std::vector<Place> Search::try_pairs(int attempts, Rng& rng) const {
   std::vector<Place> places;
-  for (int i = 0; i < params_.relocalise.attempts; ++i) {
+  if (voters_.size() < 2) {
+    return places;
+  }
+  for (int i = 0; i < attempts; ++i) {
     const Voter& a = voters_[rng.below(voters_.size())];
     const Voter& b = voters_[rng.below(voters_.size())];
     const auto place = place_of(a, b);
@@ -215,20 +207,18 @@ EyeBelief Search::refine(const Pose2& map_T_eye) const {
   return belief;
 }
 
-/// Inliers of the best place that stays another one when it is refined.
-int Search::best_rival(const std::vector<Place>& places, const Pose2& best) const {
-  constexpr int kRivalsAsked = 10;
-  int asked = 0;
-  for (const Place& place : places) {
-    if (!is_rival(place.map_T_eye, best)) {
-      continue;
-    }
-    const EyeBelief refined = refine(place.map_T_eye);
+/// What the matches that do not agree with the best place say: the most that agree on another one.
+int Search::rival_of(const Pose2& best, Rng& rng) const {
+  constexpr int kShare = 3;           // of the attempts: a rival worth the name is found with fewer
+  constexpr std::size_t kAsked = 10;  // more than one may slide to the best place
+  Search others(geometry_, map_, features_, lifted_, params_);
+  std::copy_if(voters_.begin(), voters_.end(), std::back_inserter(others.voters_),
+               [&](const Voter& voter) { return !agrees(best, voter); });
+  const std::vector<Place> places = others.try_pairs(params_.relocalise.attempts / kShare, rng);
+  for (std::size_t i = 0; i < std::min(kAsked, places.size()); ++i) {
+    const EyeBelief refined = others.refine(places[i].map_T_eye);
     if (is_rival(refined.map_T_eye, best)) {
-      return std::max(place.inliers, count(refined.map_T_eye));
-    }
-    if (++asked == kRivalsAsked) {
-      break;
+      return std::max(places[i].inliers, others.count(refined.map_T_eye));
     }
   }
   return 0;
@@ -274,7 +264,7 @@ RelocaliseAnswer Search::run(Rng& rng) {
   RelocaliseAnswer answer;
   find_voters();
   answer.candidates = static_cast<int>(voters_.size());
-  const std::vector<Place> places = voters_.size() < 2 ? std::vector<Place>{} : try_pairs(rng);
+  const std::vector<Place> places = try_pairs(params_.relocalise.attempts, rng);
   if (places.empty()) {
     answer.reason = std::to_string(voters_.size()) + " features look like landmarks, and no place explains them; " +
                     "turn the robot or drive on";
@@ -283,7 +273,7 @@ RelocaliseAnswer Search::run(Rng& rng) {
   answer.belief = refine(places.front().map_T_eye);
   answer.inliers = inliers_at(answer.belief.map_T_eye);
   answer.cells = cells_of(answer.inliers);
-  answer.rival_inliers = best_rival(places, answer.belief.map_T_eye);
+  answer.rival_inliers = rival_of(answer.belief.map_T_eye, rng);
   judge(answer);
   return answer;
 }
