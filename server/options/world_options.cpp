@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "common/config/yaml.hpp"
+#include "common/core/rng.hpp"
+#include "server/sim/rearrange.hpp"
 
 namespace seeker::sim {
 
@@ -140,6 +142,12 @@ void describe(config::Fields& f, StartFile& start) {
   f.field("pose", start.pose);
 }
 
+void describe(config::Fields& f, MovedFile& moved) {
+  f.field("share", moved.share);
+  f.check("share", moved.share >= 0.0 && moved.share <= 1.0, "must be from 0 to 1");
+  f.field("seed", moved.seed);
+}
+
 void describe(config::Fields& f, WorldFile& world) {
   f.field("base", world.base);
   f.field("name", world.name);
@@ -158,6 +166,7 @@ void describe(config::Fields& f, WorldFile& world) {
   f.list("people", world.people);
   f.field("people_walk", world.people_walk);
   f.field("pattern_seed", world.pattern_seed);
+  f.section("moved", world.moved);
 }
 
 namespace {
@@ -307,6 +316,12 @@ Result<sim::World> build_world(const WorldFile& file, const TargetLoader& load_t
   }
   if (const Status valid = sim::validate(world); !valid) {
     return tl::unexpected<Error>(valid.error());
+  }
+  if (file.moved.share > 0.0) {
+    Rng rng(file.moved.seed);
+    if (const Result<std::size_t> moved = sim::move_objects(world, file.moved.share, rng); !moved) {
+      return fail_with_context("world '" + file.name + "': moved", moved.error());
+    }
   }
   return world;
 }

@@ -106,6 +106,13 @@ struct StartFile {
 };
 void describe(config::Fields& f, StartFile& start);
 
+/// Rearranges the furniture: see sim::move_objects.
+struct MovedFile {
+  double share = 0.0;  ///< of the objects; 0: none
+  std::uint64_t seed = 1;
+};
+void describe(config::Fields& f, MovedFile& moved);
+
 /// The file as it stands.
 struct WorldFile {
   std::string base;  ///< another world file in the same folder; this one changes it
@@ -125,6 +132,7 @@ struct WorldFile {
   std::vector<PersonFile> people;
   bool people_walk = false;
   std::uint64_t pattern_seed = 0;  ///< the same building in other textures
+  MovedFile moved;
 };
 void describe(config::Fields& f, WorldFile& world);
 

@@ -32,7 +32,8 @@ void add_books(const Pose2& world_T_case, const BookcaseShape& shape, double z_m
     if (!empty) {
       const double height_m = shape.shelf_m * rng.uniform(0.5, 0.85);
       const double depth_m = shape.depth_m * rng.uniform(0.45, 0.8);
-      const Surface surface{rng.uniform(0.15, 0.85), rng.uniform(0.1, 0.5), rng.uniform(0.03, 0.1),
+      const double print = rng.uniform();  // most spines are plain
+      const Surface surface{rng.uniform(0.15, 0.85), 0.8 * print * print * print * print, rng.uniform(0.03, 0.1),
                             static_cast<std::uint32_t>(rng.bits() & 0xffffffffU)};
       boxes.push_back(part(world_T_case, {at_m + width_m / 2.0, rng.uniform(-0.1, 0.1) * shape.depth_m},
                            {width_m - kGap_m, depth_m}, {z_m, z_m + height_m}, surface, object));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFinest_m = 0.0006;  ///< a pixel of the stereo camera at half a metre
 constexpr float kFirstAmplitude = 0.6F;
-constexpr float kPersistence = 0.75F;     ///< amplitude of an octave over that of the next coarser one
+constexpr float kPersistence = 0.65F;     ///< amplitude of an octave over that of the next coarser one
 constexpr std::size_t kMaxTiles = 16384;  ///< 70 MB
 constexpr float kCode = 127.0F;           ///< a tile stores values in 1/127
 

@@ -33,9 +33,11 @@ std::vector<Point2> candidates(const Grid<float>& floor, const Point2& start, do
 
 }  // namespace
 
-Grid<float> reachable_floor(const World& world, double robot_radius_m, double resolution_m) {
+Grid<float> reachable_floor(const World& world, double robot_radius_m, double resolution_m, double robot_height_m) {
   const Scene scene(world);
-  const HeightBand band = body_band(RobotModel{});
+  RobotModel robot;
+  robot.body_height_m = robot_height_m;
+  const HeightBand band = body_band(robot);
   const Point2 side = world.max_corner - world.min_corner;
   Grid<float> floor({world.min_corner, resolution_m}, static_cast<int>(std::ceil(side.x() / resolution_m)),
                     static_cast<int>(std::ceil(side.y() / resolution_m)), -1.0F);
@@ -76,7 +78,7 @@ Result<Pose2> place_target(World& world, std::size_t index, Rng& rng, const Plac
   }
   World empty = world;
   empty.targets.erase(empty.targets.begin() + static_cast<std::ptrdiff_t>(index));
-  const Grid<float> before = reachable_floor(empty, params.robot_radius_m, params.resolution_m);
+  const Grid<float> before = reachable_floor(empty, params.robot_radius_m, params.resolution_m, params.robot_height_m);
   const std::vector<Point2> places =
       candidates(before, world.starts.front().translation(), params.target_clearance_m, params.target_to_start_m);
   const Target& target = world.targets[index];
@@ -87,7 +89,7 @@ Result<Pose2> place_target(World& world, std::size_t index, Rng& rng, const Plac
     const Point2& p = places[rng.below(places.size())];
     World tried = world;
     tried.targets[index].world_T_target = {p.x(), p.y(), rng.uniform(-kPi, kPi)};
-    const Grid<float> after = reachable_floor(tried, params.robot_radius_m, params.resolution_m);
+    const Grid<float> after = reachable_floor(tried, params.robot_radius_m, params.resolution_m, params.robot_height_m);
     if (static_cast<double>(count(after)) + taken_cells >= static_cast<double>(count(before))) {
       world.targets[index].world_T_target = tried.targets[index].world_T_target;
       return world.targets[index].world_T_target;
@@ -101,7 +103,7 @@ Result<Pose2> place_start(World& world, Rng& rng, const PlacementParams& params)
   if (const Status valid = validate(world); !valid) {
     return tl::unexpected<Error>(valid.error());
   }
-  const Grid<float> floor = reachable_floor(world, params.robot_radius_m, params.resolution_m);
+  const Grid<float> floor = reachable_floor(world, params.robot_radius_m, params.resolution_m, params.robot_height_m);
   const std::vector<Point2> places =
       candidates(floor, world.starts.front().translation(), params.start_clearance_m, 0.0);
   if (places.empty()) {

@@ -14,6 +14,7 @@ namespace seeker::sim {
 
 struct PlacementParams {
   double robot_radius_m = 0.30;     ///< the robot must be able to come near with this much room
+  double robot_height_m = 0.65;     ///< furniture above it is no obstacle
   double target_clearance_m = 0.5;  ///< centre of the target to anything else
   double target_to_start_m = 2.0;   ///< at least this far from the start
   double start_clearance_m = 0.45;  ///< centre of the robot to anything
@@ -29,7 +30,8 @@ struct PlacementParams {
 
 /// A raster over the world: clearance in metres (at most 1) of every cell that the centre of a robot of this radius can
 /// reach from the first start, -1 elsewhere. The start's own cell is always reached.
-[[nodiscard]] Grid<float> reachable_floor(const World& world, double robot_radius_m, double resolution_m = 0.05);
+[[nodiscard]] Grid<float> reachable_floor(const World& world, double robot_radius_m, double resolution_m = 0.05,
+                                          double robot_height_m = 0.65);
 
 /// Area of the floor that the centre of a robot of this radius can reach from the first start.
 [[nodiscard]] double reachable_area_m2(const World& world, double robot_radius_m, double resolution_m = 0.05);

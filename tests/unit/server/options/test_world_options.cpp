@@ -42,14 +42,14 @@ TEST_P(ShippedWorld, LoadsAndHasRoomForTheRobotAtEveryStart) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedWorld,
                          ::testing::Values("paper-a", "paper-b", "no-target", "office", "office-no-target", "demo",
                                            "corridor", "hospital", "hall", "closet", "closet-gap", "open-door",
-                                           "laboratory"));
+                                           "laboratory", "laboratory-moved"));
 
 TEST(ShippedWorlds, AreAllInTheTestAbove) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/worlds"))) {
     files += entry.path().extension() == ".yaml" ? 1 : 0;
   }
-  EXPECT_EQ(files, 13U);
+  EXPECT_EQ(files, 14U);
 }
 
 TEST(ShippedWorlds, AreAsLargeAsTheyShouldBe) {
