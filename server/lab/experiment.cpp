@@ -55,7 +55,7 @@ Result<std::vector<RunResult>> run_missing(const std::vector<RunSpec>& specs, co
   RunKind<RunSpec, RunResult> kind;
   kind.file = [&](const RunSpec& spec) { return run_file(params.out, spec); };
   kind.settings = settings_of;
-  kind.load = load;
+  kind.load = load_run<RunResult>;
   kind.make = [&](const RunSpec& spec, const std::string& settings) -> Result<RunResult> {
     Result<RunRecord> record = run_search(spec);
     if (!record) {

@@ -113,7 +113,7 @@ Result<std::vector<ExploreResult>> explore_missing(const std::vector<ExploreSpec
   RunKind<ExploreSpec, ExploreResult> kind;
   kind.file = [&](const ExploreSpec& spec) { return explore_file(out, spec, ".json"); };
   kind.settings = [](const ExploreSpec& spec) { return settings_of(spec); };
-  kind.load = load_explore_result;
+  kind.load = load_run<ExploreResult>;
   kind.make = [&](const ExploreSpec& spec, const std::string& settings) -> Result<ExploreResult> {
     Result<ExploreRecord> record = run_explore(spec);
     if (!record) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "common/config/yaml.hpp"
 #include "common/image/files.hpp"
 #include "server/drivers/replay/words.hpp"
 #include "server/lab/json_printer.hpp"
@@ -56,21 +55,6 @@ void describe(config::Fields& f, ExploreResult& result) {
 
 Status save(const std::filesystem::path& path, const ExploreResult& result) {
   return image::write_file(path, to_json(result));
-}
-
-Result<ExploreResult> load_explore_result(const std::filesystem::path& path) {
-  ExploreResult result;
-  result.schema = 0;
-  const int known = ExploreResult().schema;
-  if (const Status ok = config::load_file(path, result); !ok) {
-    return tl::unexpected<Error>(ok.error());
-  }
-  if (result.schema != known) {
-    return fail(Errc::kUnsupportedVersion, path.string() + ": schema " + std::to_string(result.schema) +
-                                               ", this program writes " + std::to_string(known) +
-                                               "; use another --out or remove the file");
-  }
-  return result;
 }
 
 std::string curves_csv(const std::vector<ExploreSample>& samples) {

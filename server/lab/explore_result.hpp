@@ -57,10 +57,8 @@ struct ExploreResult {
 };
 void describe(config::Fields& f, ExploreResult& result);
 
-/// Atomic. Error: kIo.
+/// Atomic; load_run() reads it. Error: kIo.
 [[nodiscard]] Status save(const std::filesystem::path& path, const ExploreResult& result);
-/// Errors: kNotFound, those of the strict reader, kUnsupportedVersion for a newer schema.
-[[nodiscard]] Result<ExploreResult> load_explore_result(const std::filesystem::path& path);
 
 /// One moment of a run.
 struct ExploreSample {

@@ -12,7 +12,6 @@
 namespace seeker::lab {
 namespace {
 
-constexpr const char* kClient = "seeker-lab";
 constexpr const char* kWallPhase = "wall";
 constexpr Duration kSamplePeriod = std::chrono::seconds(1);
 constexpr double kPathSpacing_m = 0.05;
@@ -171,23 +170,17 @@ Result<ExploreRecord> run_explore(const ExploreSpec& spec) {
   app::UpdateHub hub;
   app::RobotLoop loop(options->loop, std::move(assembly->parts), hub);
   Observer observer(loop, *simulation, log);
-  const auto started = std::chrono::steady_clock::now();
-  loop.start();
-  if (const Result<api::MissionId> id = loop.start_mission(request_of(spec), kClient); !id) {
-    return fail_with_context("the mission was refused", id.error());
+  const Result<double> wall_time_s = run_mission(loop, request_of(spec), [&observer] { observer.look(); });
+  if (!wall_time_s) {
+    return tl::unexpected<Error>(wall_time_s.error());
   }
-  while (loop.missions().present()) {
-    observer.look();
-    loop.tick(started);  // the wall clock decides about links only, and there is none
-  }
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
 
   ExploreResult& result = record.result;
   result.world = record.world.name;
   result.strategy = to_string(spec.strategy);
   result.seed = spec.seed;
   result.robot_time_s = to_seconds(loop.now());
-  result.wall_time_s = wall.count();
+  result.wall_time_s = *wall_time_s;
   observer.fill(record);
   fill_map(record, loop);
   score(record, spec, options->sim.robot);

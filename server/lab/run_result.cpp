@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdio>
 
-#include "common/config/yaml.hpp"
 #include "common/image/files.hpp"
 #include "server/lab/json_printer.hpp"
 
@@ -63,21 +62,6 @@ void describe(config::Fields& f, RunResult& result) {
 
 Status save(const std::filesystem::path& path, const RunResult& result) {
   return image::write_file(path, to_json(result));
-}
-
-Result<RunResult> load(const std::filesystem::path& path) {
-  RunResult result;
-  result.schema = 0;
-  const int known = RunResult().schema;
-  if (const Status ok = config::load_file(path, result); !ok) {
-    return tl::unexpected<Error>(ok.error());
-  }
-  if (result.schema != known) {
-    return fail(Errc::kUnsupportedVersion, path.string() + ": schema " + std::to_string(result.schema) +
-                                               ", this program writes " + std::to_string(known) +
-                                               "; use another --out or remove the file");
-  }
-  return result;
 }
 
 void TextHash::add(std::string_view text) {

@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "common/config/fields.hpp"
+#include "common/config/yaml.hpp"
 #include "common/core/result.hpp"
 
 namespace seeker::lab {
@@ -78,8 +79,23 @@ void describe(config::Fields& f, RunResult& result);
 
 /// Atomic. Error: kIo.
 [[nodiscard]] Status save(const std::filesystem::path& path, const RunResult& result);
-/// Errors: kNotFound, those of the strict reader, kUnsupportedVersion for a newer schema.
-[[nodiscard]] Result<RunResult> load(const std::filesystem::path& path);
+
+/// A run's numbers as save() left them. Errors: kNotFound, those of the strict reader, kUnsupportedVersion for another
+/// schema than this program's.
+template <class Run>
+[[nodiscard]] Result<Run> load_run(const std::filesystem::path& path) {
+  Run run;
+  const int known = std::exchange(run.schema, 0);
+  if (const Status ok = config::load_file(path, run); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  if (run.schema != known) {
+    return fail(Errc::kUnsupportedVersion, path.string() + ": schema " + std::to_string(run.schema) +
+                                               ", this program writes " + std::to_string(known) +
+                                               "; use another --out or remove the file");
+  }
+  return run;
+}
 
 /// FNV-1a, 64 bits, as 16 hexadecimal digits: names a text, protects nothing.
 class TextHash {

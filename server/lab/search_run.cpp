@@ -1,7 +1,6 @@
 #include "server/lab/search_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -18,7 +17,6 @@
 namespace seeker::lab {
 namespace {
 
-constexpr const char* kClient = "seeker-lab";
 constexpr double kNearTarget_m = 1.0;      ///< a detection farther from every target is a false one
 constexpr double kNearBearing_deg = 10.0;  ///< the same for one that knows a direction only
 
@@ -259,23 +257,17 @@ Result<RunRecord> run_search(const RunSpec& spec) {
   app::UpdateHub hub;
   app::RobotLoop loop(options->loop, std::move(assembly->parts), hub);
   Observer observer(loop, *simulation);
-  const auto started = std::chrono::steady_clock::now();
-  loop.start();
-  if (const Result<api::MissionId> id = loop.start_mission(*request, kClient); !id) {
-    return fail_with_context("the mission was refused", id.error());
+  const Result<double> wall_time_s = run_mission(loop, *request, [&observer] { observer.look(); });
+  if (!wall_time_s) {
+    return tl::unexpected<Error>(wall_time_s.error());
   }
-  while (loop.missions().present()) {
-    observer.look();
-    loop.tick(started);  // the wall clock decides about links only, and there is none
-  }
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
 
   RunResult& result = record.result;
   result.world = record.world.name;
   result.strategy = to_string(spec.strategy);
   result.seed = spec.seed;
   result.robot_time_s = to_seconds(loop.now());
-  result.wall_time_s = wall.count();
+  result.wall_time_s = *wall_time_s;
   observer.fill(record);
   fill_mission(record, loop, observer);
   fill_coverage(record);

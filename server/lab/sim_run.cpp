@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -12,6 +13,7 @@
 namespace seeker::lab {
 namespace {
 
+constexpr const char* kClient = "seeker-lab";
 constexpr double kTruePathSpacing_m = 0.05;  ///< of the path kept for pictures
 
 /// The world's file and the one it is based on.
@@ -93,6 +95,20 @@ void RunWatch::take(const api::Event& event) {
   hash_.add(to_string(event.severity));
   hash_.add(event.mission_time ? std::to_string(event.mission_time->count()) : "");
   events_.push_back(event);
+}
+
+Result<double> run_mission(app::RobotLoop& loop, const api::MissionRequest& request,
+                           const std::function<void()>& look) {
+  const auto started = std::chrono::steady_clock::now();
+  loop.start();
+  if (const Result<api::MissionId> id = loop.start_mission(request, kClient); !id) {
+    return fail_with_context("the mission was refused", id.error());
+  }
+  while (loop.missions().present()) {
+    look();
+    loop.tick(started);  // the wall clock decides about links only, and there is none
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }
 
 std::string log_text(const std::vector<api::Event>& events) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,11 @@ class RunWatch {
   double error_rad_ = 0.0;
   double max_error_m_ = 0.0;
 };
+
+/// Starts the loop and the mission and goes on until it has ended, as fast as the machine can; `look` is called before
+/// every pass of the loop. The wall time it took, in seconds; the robot's own error where it refuses the mission.
+[[nodiscard]] Result<double> run_mission(app::RobotLoop& loop, const api::MissionRequest& request,
+                                         const std::function<void()>& look);
 
 /// A mission's log for people: robot time of the mission, kind and text of every event.
 [[nodiscard]] std::string log_text(const std::vector<api::Event>& events);

@@ -76,7 +76,7 @@ TEST(ExploreResultFile, WhatIsSavedIsLoaded) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explore-seed-3.json";
   const ExploreResult saved = result("active", 3);
   ASSERT_TRUE(save(file, saved));
-  const auto loaded = load_explore_result(file);
+  const auto loaded = load_run<ExploreResult>(file);
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->seed, 3U);
   EXPECT_EQ(loaded->cause, saved.cause);

@@ -50,7 +50,7 @@ RunResult sample(std::uint64_t seed) {
 TEST_F(RunResultFile, WhatIsSavedIsLoaded) {
   const RunResult saved = sample(3);
   ASSERT_TRUE(save(folder_ / "seed-3.json", saved));
-  const auto loaded = load(folder_ / "seed-3.json");
+  const auto loaded = load_run<RunResult>(folder_ / "seed-3.json");
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->seed, 3U);
   EXPECT_EQ(loaded->cause, saved.cause);
@@ -68,7 +68,7 @@ TEST_F(RunResultFile, ARunWithoutFindHasNone) {
   saved.first_find.reset();
   saved.last_find.reset();
   ASSERT_TRUE(save(folder_ / "seed-4.json", saved));
-  const auto loaded = load(folder_ / "seed-4.json");
+  const auto loaded = load_run<RunResult>(folder_ / "seed-4.json");
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_FALSE(loaded->first_find.has_value());
 }
@@ -77,11 +77,11 @@ TEST_F(RunResultFile, ANewerSchemaOrHalfAFileIsRefused) {
   RunResult newer = sample(1);
   newer.schema = 2;
   ASSERT_TRUE(save(folder_ / "newer.json", newer));
-  const auto refused = load(folder_ / "newer.json");
+  const auto refused = load_run<RunResult>(folder_ / "newer.json");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::kUnsupportedVersion);
   std::ofstream(folder_ / "half.json") << "{\n  \"schema\": 1,\n  \"world\": \"pap";
-  EXPECT_FALSE(load(folder_ / "half.json"));
+  EXPECT_FALSE(load_run<RunResult>(folder_ / "half.json"));
 }
 
 TEST(Summary, GroupsRunsByWorldAndStrategyAndNamesTheSeeds) {

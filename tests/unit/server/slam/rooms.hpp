@@ -3,20 +3,17 @@
 #pragma once
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "common/core/angle.hpp"
 #include "common/core/rng.hpp"
 #include "common/core/scan.hpp"
+#include "tests/support/toy_world.hpp"
 
 namespace seeker::slam {
 
-using Wall = std::pair<Point2, Point2>;
-
-inline std::vector<Wall> box(double x0, double y0, double x1, double y1) {
-  return {{{x0, y0}, {x1, y0}}, {{x1, y0}, {x1, y1}}, {{x1, y1}, {x0, y1}}, {{x0, y1}, {x0, y0}}};
-}
+using testing::box;
+using testing::Wall;
 
 /// A room of 10 x 6 m with a cupboard and a pillar.
 inline std::vector<Wall> furnished_room() {
@@ -25,25 +22,6 @@ inline std::vector<Wall> furnished_room() {
     walls.insert(walls.end(), piece.begin(), piece.end());
   }
   return walls;
-}
-
-inline double cast(const std::vector<Wall>& walls, const Point2& from, double angle_rad, double max_m) {
-  const Point2 d(std::cos(angle_rad), std::sin(angle_rad));
-  double nearest = max_m;
-  for (const auto& [a, b] : walls) {
-    const Point2 e = b - a;
-    const double cross = d.x() * e.y() - d.y() * e.x();
-    if (std::abs(cross) < 1e-12) {
-      continue;
-    }
-    const Point2 w = a - from;
-    const double t = (w.x() * e.y() - w.y() * e.x()) / cross;
-    const double u = (w.x() * d.y() - w.y() * d.x()) / cross;
-    if (t > 0.0 && u >= 0.0 && u <= 1.0 && t < nearest) {
-      nearest = t;
-    }
-  }
-  return nearest;
 }
 
 inline LaserScan scan_at(const std::vector<Wall>& walls, const Pose2& map_T_base, double time_s, Rng& rng,
@@ -59,7 +37,8 @@ inline LaserScan scan_at(const std::vector<Wall>& walls, const Pose2& map_T_base
   const Pose2 map_T_laser = map_T_base * scan.base_T_laser;
   for (int k = 0; k < kBeams; ++k) {
     const double angle_rad = map_T_laser.theta_rad + scan.angle_rad(static_cast<std::size_t>(k));
-    const double range_m = cast(walls, map_T_laser.translation(), angle_rad, range_max_m);
+    const Point2 direction(std::cos(angle_rad), std::sin(angle_rad));
+    const double range_m = testing::ray_to_walls(walls, map_T_laser.translation(), direction, range_max_m);
     scan.ranges_m.push_back(range_m < range_max_m ? static_cast<float>(range_m + rng.normal(kSigma_m)) : kNoReturn);
   }
   return scan;
