@@ -11,21 +11,19 @@ namespace {
 tl::unexpected<Error> failure(int code, const std::string& detail) {
   switch (code & 0xff) {
     case SQLITE_CORRUPT:
-    case SQLITE_NOTADB: return fail(Errc::kCorrupt, "the state file is damaged (" + detail + ")");
+    case SQLITE_NOTADB: return fail(Errc::kCorrupt, "the file is damaged (" + detail + ")");
     case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      return fail(Errc::kBusy, "another program has the state file open; stop it or use another state folder");
-    case SQLITE_FULL: return fail(Errc::kIo, "no space is left for the state file; free some on its disk");
-    case SQLITE_TOOBIG: return fail(Errc::kTooLarge, "the value is too large for the state file (" + detail + ")");
-    case SQLITE_CONSTRAINT: return fail(Errc::kInvalidArgument, "the state file refuses the value (" + detail + ")");
+    case SQLITE_LOCKED: return fail(Errc::kBusy, "another program has the file open; stop it or use another folder");
+    case SQLITE_FULL: return fail(Errc::kIo, "no space is left for the file; free some on its disk");
+    case SQLITE_TOOBIG: return fail(Errc::kTooLarge, "the value is too large for the file (" + detail + ")");
+    case SQLITE_CONSTRAINT: return fail(Errc::kInvalidArgument, "the file refuses the value (" + detail + ")");
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_CANTOPEN:
-      return fail(Errc::kIo, "the state file cannot be opened for writing (" + detail +
+      return fail(Errc::kIo, "the file cannot be opened for writing (" + detail +
                                  "); check that the folder exists and belongs to this user");
     default:
-      return fail(Errc::kIo,
-                  "the state file cannot be read or written (" + detail + "); check its disk and free space");
+      return fail(Errc::kIo, "the file cannot be read or written (" + detail + "); check its disk and free space");
   }
 }
 
@@ -50,6 +48,12 @@ Statement::~Statement() {
 
 Statement& Statement::bind(std::int64_t value) {
   const int code = sqlite3_bind_int64(statement_, ++bound_, value);
+  failure_ = failure_ != SQLITE_OK ? failure_ : code;
+  return *this;
+}
+
+Statement& Statement::bind(double value) {
+  const int code = sqlite3_bind_double(statement_, ++bound_, value);
   failure_ = failure_ != SQLITE_OK ? failure_ : code;
   return *this;
 }
@@ -94,6 +98,8 @@ bool Statement::is_null(int column) const { return sqlite3_column_type(statement
 
 std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_, column); }
 
+double Statement::real(int column) const { return sqlite3_column_double(statement_, column); }
+
 std::string Statement::text(int column) const {
   const unsigned char* data = sqlite3_column_text(statement_, column);
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
@@ -106,18 +112,23 @@ std::vector<std::uint8_t> Statement::blob(int column) const {
   return data != nullptr ? std::vector<std::uint8_t>(data, data + size) : std::vector<std::uint8_t>();
 }
 
-Result<Database> Database::open(const std::filesystem::path& file) {
+Result<Database> Database::open(const std::filesystem::path& file, Access access) {
   sqlite3* raw = nullptr;
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX | SQLITE_OPEN_EXRESCODE;
+  const bool may_make = access == Access::kExclusive || access == Access::kMake;
+  // Reading needs the right to write as well: a journal that a crash left behind is rolled back before.
+  const int flags =
+      SQLITE_OPEN_READWRITE | (may_make ? SQLITE_OPEN_CREATE : 0) | SQLITE_OPEN_FULLMUTEX | SQLITE_OPEN_EXRESCODE;
   const int code = sqlite3_open_v2(file.c_str(), &raw, flags, nullptr);
   Database database(raw);  // owns it in case of failure too
   if (code != SQLITE_OK) {
     return failure(raw, code);
   }
   // Exclusive: a second server on the same folder is refused at once instead of mixing two robots' missions.
-  if (Status ok = database.execute("PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL;"
-                                   "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
-      !ok) {
+  std::string pragmas = access == Access::kExclusive ? "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL;"
+                                                     : "PRAGMA busy_timeout = 2000;";
+  pragmas += "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;";
+  pragmas += access == Access::kRead ? "PRAGMA query_only = ON;" : "";
+  if (Status ok = database.execute(pragmas); !ok) {
     return tl::unexpected(ok.error());
   }
   return database;

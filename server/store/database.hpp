@@ -29,6 +29,7 @@ class Statement {
   ~Statement();
 
   Statement& bind(std::int64_t value);
+  Statement& bind(double value);
   Statement& bind(std::string_view text);
   Statement& bind(std::span<const std::uint8_t> blob);
   Statement& bind_null();
@@ -40,6 +41,7 @@ class Statement {
 
   [[nodiscard]] bool is_null(int column) const;
   [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] double real(int column) const;
   [[nodiscard]] std::string text(int column) const;
   [[nodiscard]] std::vector<std::uint8_t> blob(int column) const;
 
@@ -50,11 +52,18 @@ class Statement {
   int failure_ = 0;  ///< first result code of bind other than "ok"
 };
 
-/// One open database file. Not for two threads at once.
+/// How a database file is opened.
+enum class Access : std::uint8_t {
+  kExclusive,  ///< by this program alone, for long, with a write-ahead log beside it; made where it is absent
+  kChange,     ///< for one change: no other file is left beside it
+  kMake,       ///< the same; made where it is absent
+  kRead,       ///< nothing is written, except that a change which a crash cut short is undone
+};
+
+/// One open database file. Every commit is synced. Not for two threads at once.
 class Database {
  public:
-  /// Opens or creates the file for this program alone, with a write-ahead log that is synced at every commit.
-  [[nodiscard]] static Result<Database> open(const std::filesystem::path& file);
+  [[nodiscard]] static Result<Database> open(const std::filesystem::path& file, Access access = Access::kExclusive);
 
   Database(Database&& other) noexcept;
   Database& operator=(Database&& other) noexcept;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/store/map_file.hpp"
+#include "server/store/named_files.hpp"
 
 namespace seeker::store {
 
@@ -21,7 +22,7 @@ struct MapListing {
 /// Not made until the first map is written. Calls may come from one thread at a time.
 class MapFiles {
  public:
-  explicit MapFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit MapFiles(std::filesystem::path folder);
 
   /// By name. An absent folder has no maps. kIo.
   [[nodiscard]] Result<std::vector<MapListing>> list() const;
@@ -32,15 +33,12 @@ class MapFiles {
   [[nodiscard]] Result<std::vector<std::uint8_t>> read_bytes(const std::string& name) const;
   /// Writes under the name of its origin. kRefused: there is such a map and `replace` is false.
   [[nodiscard]] Result<MapListing> write(const MapFile& file, bool replace) const;
-  [[nodiscard]] Status remove(const std::string& name) const;
+  [[nodiscard]] Status remove(const std::string& name) const { return files_.remove(name); }
 
-  [[nodiscard]] std::filesystem::path path_of(const std::string& name) const;
+  [[nodiscard]] std::filesystem::path path_of(const std::string& name) const { return files_.path_of(name); }
 
  private:
-  [[nodiscard]] tl::unexpected<Error> unknown(const std::string& name) const;
-  [[nodiscard]] Status check_present(const std::string& name) const;
-
-  std::filesystem::path folder_;
+  NamedFiles files_;
 };
 
 }  // namespace seeker::store

@@ -53,19 +53,19 @@ Status check_structure(Database& database) {
     return tl::unexpected(verdict.error());
   }
   if (*verdict != "ok") {
-    return fail(Errc::kCorrupt, "the state file is damaged (" + *verdict + ")");
+    return fail(Errc::kCorrupt, "the file is damaged (" + *verdict + ")");
   }
   return {};
 }
 
-Status create_tables(Database& database) {
+Status create_tables(Database& database, const Schema& schema) {
   Result<Transaction> transaction = Transaction::begin(database);
   if (!transaction) {
     return tl::unexpected(transaction.error());
   }
-  const std::string marks = "PRAGMA application_id = " + std::to_string(kApplicationId) +
-                            "; PRAGMA user_version = " + std::to_string(kSchemaVersion) + ";";
-  if (Status ok = database.execute(kTables + marks); !ok) {
+  const std::string marks = "PRAGMA application_id = " + std::to_string(schema.application_id) +
+                            "; PRAGMA user_version = " + std::to_string(schema.version) + ";";
+  if (Status ok = database.execute(schema.tables + marks); !ok) {
     return ok;
   }
   return transaction->commit();
@@ -73,7 +73,13 @@ Status create_tables(Database& database) {
 
 }  // namespace
 
-Status prepare_schema(Database& database) {
+const Schema& state_schema() {
+  constexpr std::int64_t kApplicationId = 0x5345454B;  // "SEEK"
+  static const Schema kSchema{kTables, kApplicationId, kSchemaVersion};
+  return kSchema;
+}
+
+Status prepare_schema(Database& database, const Schema& schema) {
   if (Status ok = check_structure(database); !ok) {
     return ok;
   }
@@ -86,15 +92,15 @@ Status prepare_schema(Database& database) {
     }
   }
   if (*tables == 0 && *version == 0) {
-    return create_tables(database);
+    return create_tables(database, schema);
   }
-  if (*application != kApplicationId) {
-    return fail(Errc::kInvalidArgument, "the file is a database of another program; choose another state folder");
+  if (*application != schema.application_id) {
+    return fail(Errc::kInvalidArgument, "the file is a database of another kind; choose another folder");
   }
-  if (*version > kSchemaVersion) {
+  if (*version > schema.version) {
     return fail(Errc::kUnsupportedVersion, "the file has version " + std::to_string(*version) +
-                                               ", this program knows versions up to " + std::to_string(kSchemaVersion) +
-                                               "; update the program or choose another state folder");
+                                               ", this program knows versions up to " + std::to_string(schema.version) +
+                                               "; update the program or choose another folder");
   }
   return {};
 }

@@ -1,16 +1,23 @@
 /// \file
-/// The tables of the state file, and the way from an older version to this one.
+/// The tables of a database file, and how a file is known to have them.
 #pragma once
 
 #include "server/store/database.hpp"
 
 namespace seeker::store {
 
-/// Marks a file as ours: "SEEK" in the database's header.
-inline constexpr std::int64_t kApplicationId = 0x5345454B;
+/// What a file of one kind looks like.
+struct Schema {
+  const char* tables;           ///< SQL that makes them in an empty file
+  std::int64_t application_id;  ///< marks a file as being of this kind, in the database's header
+  std::int64_t version;         ///< written by this program; a newer file is refused
+};
 
-/// Checks the file and brings its tables to kSchemaVersion. kCorrupt: the structure is damaged; kUnsupportedVersion:
-/// written by a newer program; kInvalidArgument: a database of another program. In these cases nothing was changed.
-[[nodiscard]] Status prepare_schema(Database& database);
+/// Of the state file: "SEEK".
+[[nodiscard]] const Schema& state_schema();
+
+/// Checks the file; an empty one gets the tables. kCorrupt: the structure is damaged; kUnsupportedVersion: written by a
+/// newer program; kInvalidArgument: a database of another kind. In these cases nothing was changed.
+[[nodiscard]] Status prepare_schema(Database& database, const Schema& schema = state_schema());
 
 }  // namespace seeker::store
