@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -10,11 +11,16 @@ namespace seeker::vision {
 namespace {
 
 constexpr double kBlur_px = 0.8;  ///< twice, so that the difference is that of sigma 0.8 and 1.13
+constexpr int kStripe_px = 64;    ///< every second stripe of as many rows is looked at
+const cv::Size kKernel(5, 5);
 constexpr double kGreyLevels = 255.0;
 constexpr int kLayersPerOctave = 3;  ///< SIFT compares contrasts times its layers with the threshold
 /// A picture that has a quarter fewer than wanted does without a lower threshold, which costs time and finds weaker
 /// points; at 0.75 key points an extremum, as many extrema as key points wanted are enough.
 constexpr double kExtremaPerWanted = 1.0;
+/// Of a picture with far more than are kept only the strongest are looked at: at 0.75 key points an extremum these
+/// are then enough.
+constexpr double kPlenty = 2.0;
 
 /// |contrast| of an extremum of the 3x3 pixels around `u`, or 0.
 float peak(const float* above, const float* row, const float* below, int u) {
@@ -36,9 +42,8 @@ bool is_corner(const float* above, const float* row, const float* below, int u, 
   return det > 0.0F && (uu + vv) * (uu + vv) * edge < (edge + 1.0F) * (edge + 1.0F) * det;
 }
 
-/// Contrasts of all extrema of at least `lowest`.
-std::vector<float> extrema(const cv::Mat& difference, float lowest, float edge) {
-  std::vector<float> found;
+/// Adds the contrasts of all extrema of at least `lowest`.
+void add_extrema(const cv::Mat& difference, float lowest, float edge, std::vector<float>& found) {
   for (int v = 1; v + 1 < difference.rows; ++v) {
     const auto* above = difference.ptr<float>(v - 1);
     const auto* row = difference.ptr<float>(v);
@@ -53,34 +58,56 @@ std::vector<float> extrema(const cv::Mat& difference, float lowest, float edge) 
       }
     }
   }
-  return found;
+}
+
+/// Contrasts of extrema, and the share of the picture in which they were looked for.
+struct Sample {
+  std::vector<float> contrasts;
+  double share = 0.0;
+};
+
+/// From every second stripe of the picture.
+Sample sample_extrema(const cv::Mat& grey, float lowest, float edge) {
+  Sample sample;
+  cv::Mat half;
+  cv::Mat fine;
+  cv::Mat coarse;
+  const int stripe = std::min(kStripe_px, grey.rows);
+  for (int top = 0; top + stripe <= grey.rows; top += 2 * stripe) {
+    cv::resize(grey.rowRange(top, top + stripe), half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
+    half.convertTo(half, CV_32F);
+    cv::GaussianBlur(half, fine, kKernel, kBlur_px);
+    cv::GaussianBlur(fine, coarse, kKernel, kBlur_px);
+    add_extrema(coarse - fine, lowest, edge, sample.contrasts);
+    sample.share += static_cast<double>(stripe) / grey.rows;
+  }
+  return sample;
 }
 
 }  // namespace
 
 double pick_contrast_threshold(const cv::Mat& grey, const DetectorParams& params) {
-  if (params.contrast_halvings == 0 || params.wanted == 0) {
-    return params.contrast_threshold;
-  }
-  cv::Mat half;
-  cv::resize(grey, half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
-  half.convertTo(half, CV_32F);
-  cv::Mat fine;
-  cv::Mat coarse;
-  cv::GaussianBlur(half, fine, cv::Size(), kBlur_px);
-  cv::GaussianBlur(fine, coarse, cv::Size(), kBlur_px);
   const double lowest = std::ldexp(params.contrast_threshold, -params.contrast_halvings);
-  const auto in_greys = [](double threshold) { return static_cast<float>(threshold * kGreyLevels / kLayersPerOctave); };
-  const std::vector<float> found = extrema(coarse - fine, in_greys(lowest), static_cast<float>(params.edge_threshold));
-  double threshold = params.contrast_threshold;
-  for (; threshold > lowest; threshold *= 0.5) {
-    const auto enough = std::count_if(found.begin(), found.end(),
-                                      [limit = in_greys(threshold)](float contrast) { return contrast >= limit; });
-    if (static_cast<double>(enough) >= kExtremaPerWanted * params.wanted) {
-      break;
+  Sample sample = sample_extrema(grey, static_cast<float>(lowest * kGreyLevels / kLayersPerOctave),
+                                 static_cast<float>(params.edge_threshold));
+  // The threshold that `count` of the extrema pass; below the lowest where there are not as many.
+  const auto threshold_of = [&sample](double count) {
+    std::vector<float>& found = sample.contrasts;
+    const auto n = static_cast<std::size_t>(sample.share * count);
+    if (n >= found.size()) {
+      return 0.0;
     }
+    const auto nth = found.begin() + static_cast<std::ptrdiff_t>(n);
+    std::nth_element(found.begin(), nth, found.end(), std::greater<>());
+    return static_cast<double>(*nth) * kLayersPerOctave / kGreyLevels;
+  };
+  const double described = kPlenty * std::max(params.wanted, params.at_most);
+  const double enough = threshold_of(kExtremaPerWanted * params.wanted);
+  double threshold = params.contrast_threshold;
+  while (threshold > std::max(lowest, enough)) {
+    threshold *= 0.5;
   }
-  return threshold;
+  return std::max(threshold, threshold_of(described));
 }
 
 }  // namespace seeker::vision

@@ -12,7 +12,7 @@ struct DetectorParams {
   DescriptorKind kind = DescriptorKind::kRootSift;
   int wanted = 500;                  ///< the contrast threshold is lowered until a picture promises as many
   int at_most = 0;                   ///< kept, spread over the picture; 0: as many as wanted
-  double contrast_threshold = 0.04;  ///< to begin with; halved up to `contrast_halvings` times
+  double contrast_threshold = 0.04;  ///< halved up to `contrast_halvings` times for poor pictures, raised for rich ones
   int contrast_halvings = 2;
   double edge_threshold = 10.0;
   int grid_columns = 8;  ///< the strongest of each cell are kept first

@@ -23,21 +23,25 @@ bool is_distinct(std::uint32_t best, std::uint32_t second, Metric metric, double
 
 std::vector<FeatureMatch> match_mutually(std::span<const Descriptor> first, std::span<const Descriptor> second,
                                          const MatchParams& params) {
-  const std::vector<NearestTwo> forth = nearest_two(first, second, params.metric);
-  const std::vector<NearestTwo> back = nearest_two(second, first, params.metric);
   const std::uint32_t gate = byte_distance(params.max_distance, params.metric);
   const auto passes = [&](const NearestTwo& n) {
     return n.best != NearestTwo::kNone && n.best_distance <= gate &&
            is_distinct(n.best_distance, n.second_distance, params.metric, params.max_ratio);
   };
-  std::vector<FeatureMatch> matches;
+  const std::vector<NearestTwo> forth = nearest_two(first, second, params.metric);
+  std::vector<FeatureMatch> one_way;
+  std::vector<Descriptor> named;  // only those must name back
   for (std::size_t i = 0; i < forth.size(); ++i) {
-    if (!passes(forth[i])) {
-      continue;
+    if (passes(forth[i])) {
+      one_way.push_back({static_cast<int>(i), forth[i].best});
+      named.push_back(second[static_cast<std::size_t>(forth[i].best)]);
     }
-    const NearestTwo& b = back[static_cast<std::size_t>(forth[i].best)];
-    if (b.best == static_cast<std::int32_t>(i) && passes(b)) {
-      matches.push_back({static_cast<int>(i), forth[i].best});
+  }
+  const std::vector<NearestTwo> back = nearest_two(named, first, params.metric);
+  std::vector<FeatureMatch> matches;
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    if (back[i].best == one_way[i].first && passes(back[i])) {
+      matches.push_back(one_way[i]);
     }
   }
   return matches;

@@ -24,10 +24,13 @@ std::uint32_t sum_of_squares(const std::uint8_t* a, const std::uint8_t* b) {
 }
 
 template <std::uint32_t (*kDistance)(const std::uint8_t*, const std::uint8_t*)>
-void plain_distances(const Descriptor& query, const CandidateBlock& block, std::uint32_t* distances) {
+std::uint32_t plain_distances(const Descriptor& query, const CandidateBlock& block, std::uint32_t* distances) {
+  std::uint32_t least = NearestTwo::kFar;
   for (std::size_t i = 0; i < block.size; ++i) {
     distances[i] = kDistance(query.data(), &block.bytes[i * kDescriptorSize]);
+    least = std::min(least, distances[i]);
   }
+  return least;
 }
 
 void fill(CandidateBlock& block, std::span<const Descriptor> candidates) {
@@ -79,8 +82,8 @@ std::vector<NearestTwo> nearest_two_with(const NearestKernels& kernels, std::spa
   for (std::size_t first = 0; first < candidates.size(); first += kCandidateBlock) {
     fill(block, candidates.subspan(first, std::min(kCandidateBlock, candidates.size() - first)));
     for (std::size_t q = 0; q < queries.size(); ++q) {
-      measure(queries[q], block, distances.data());
-      for (std::size_t i = 0; i < block.size; ++i) {
+      const bool any = measure(queries[q], block, distances.data()) < nearest[q].second_distance;
+      for (std::size_t i = 0; any && i < block.size; ++i) {
         if (distances[i] < nearest[q].second_distance) {
           offer(nearest[q], static_cast<std::int32_t>(first + i), distances[i]);
         }

@@ -14,7 +14,7 @@ namespace seeker::vision {
 
 /// Candidates that are worked on at once: in both forms they fit into the nearest cache.
 inline constexpr std::size_t kCandidateBlock = 64;
-inline constexpr std::size_t kRegisterBytes = 64;  ///< of the widest register, for alignment
+inline constexpr std::size_t kRegisterBytes = 32;  ///< of the widest register, for alignment
 
 /// Up to kCandidateBlock candidates as kernels read them; rows beyond `size` are zero.
 struct CandidateBlock {
@@ -24,8 +24,9 @@ struct CandidateBlock {
   std::size_t size = 0;
 };
 
-/// Writes the distance of `query` to every row of `block`, and maybe to the empty ones behind.
-using DistanceKernel = void (*)(const Descriptor& query, const CandidateBlock& block, std::uint32_t* distances);
+/// Writes the distance of `query` to every row of `block`, and maybe to the empty ones behind. Returns the least of all
+/// that it wrote: of most blocks no other is ever read.
+using DistanceKernel = std::uint32_t (*)(const Descriptor& query, const CandidateBlock& block, std::uint32_t* distances);
 
 struct NearestKernels {
   const char* name;

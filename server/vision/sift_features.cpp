@@ -22,9 +22,8 @@ constexpr float kShift_px = 0.25F;
 constexpr float kSamePlace_px = 0.5F;
 /// Less cannot hold a key point and its border.
 constexpr int kMinSide_px = 16;
-/// More are described than kept: about a sixth share a place with another, and the grid wants a choice. Each costs
-/// 0.02 % of a detection.
-constexpr double kOversupply = 1.5;
+/// More are described than kept, since about a sixth share a place with another. Each costs 0.02 % of a detection.
+constexpr double kOversupply = 1.2;
 
 using Indices = std::vector<std::size_t>;
 
@@ -88,14 +87,15 @@ std::vector<Indices> spread(const std::vector<cv::KeyPoint>& keys, std::vector<I
 
 /// OpenCV's floats are whole numbers, 512 times the unit descriptor.
 Descriptor describe(const float* row, DescriptorKind kind) {
-  const float sum = std::accumulate(row, row + kDescriptorSize, 0.0F);
   Descriptor out;
-  for (std::size_t i = 0; i < kDescriptorSize; ++i) {
-    const float value = kind == DescriptorKind::kSift || sum <= 0.0F
-                            ? row[i]
-                            : static_cast<float>(kDescriptorUnit) * std::sqrt(row[i] / sum);
-    out[i] = cv::saturate_cast<std::uint8_t>(value);
+  if (kind == DescriptorKind::kSift) {
+    std::transform(row, row + kDescriptorSize, out.begin(), [](float v) { return static_cast<std::uint8_t>(v); });
+    return out;
   }
+  constexpr auto kUnit = static_cast<float>(kDescriptorUnit);
+  const float scale = kUnit * kUnit / std::max(1.0F, std::accumulate(row, row + kDescriptorSize, 0.0F));
+  std::transform(row, row + kDescriptorSize, out.begin(),
+                 [scale](float v) { return static_cast<std::uint8_t>(std::min(255.0F, std::sqrt(v * scale) + 0.5F)); });
   return out;
 }
 

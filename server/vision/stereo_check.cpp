@@ -16,7 +16,7 @@ constexpr double kMinContrast = 10.0;  // squared grey levels; a bare wall with 
 constexpr double kMinSharpness = 0.085;
 constexpr double kMinSharpnessToOther = 0.5;
 constexpr double kSurelySharp = 0.2;
-constexpr int kTile_px = 16;  // the coarsest cell; every second tile of every second row of tiles is looked at
+constexpr int kTile_px = 16;  // the coarsest cell; every third tile of every second row of tiles is looked at
 constexpr int kLevels = 5;    // cells of 1, 2, 4, 8, 16 px
 
 constexpr int kMinPairs = 40;            // fewer say nothing about the rig
@@ -83,7 +83,7 @@ PictureQuality measure_quality(const Image& grey) {
   int tiles = 0;
   std::array<int, 256> histogram{};
   for (int top = 0; top + kTile_px <= grey.height_px(); top += 2 * kTile_px) {
-    for (int left = 0; left + kTile_px <= grey.width_px(); left += 2 * kTile_px) {
+    for (int left = 0; left + kTile_px <= grey.width_px(); left += 3 * kTile_px) {
       add_tile(grey, left, top, energies);
       ++tiles;
       for (int v = top; v < top + kTile_px; ++v) {

@@ -16,7 +16,7 @@ enum class PictureFault : std::uint8_t { kNone, kBlack, kSaturated, kBlurred };
 
 enum class PairFault : std::uint8_t { kNone, kSwapped, kRowsDisagree };
 
-/// How bright and how sharp a picture is. Measured on a quarter of its pixels.
+/// How bright and how sharp a picture is. Measured on a sixth of its pixels.
 struct PictureQuality {
   double dark_share = 0.0;    ///< of the pixels: so dark that they carry nothing
   double bright_share = 0.0;  ///< at the upper end

@@ -23,8 +23,8 @@ inline StereoGeometry small_camera() {
   return geometry;
 }
 
-/// Noise of many sizes with dark and light patches: as rich in key points as a furnished room.
-inline cv::Mat rich_texture(int width, int height, Rng& rng) {
+/// Noise of many sizes with dark and light patches. At a contrast of 1 it is as rich in key points as foliage.
+inline cv::Mat rich_texture(int width, int height, Rng& rng, double contrast = 1.0) {
   cv::Mat sum(height, width, CV_32FC1, cv::Scalar(128.0));
   for (int cell = 64; cell >= 2; cell /= 2) {
     cv::Mat grid(height / cell + 4, width / cell + 4, CV_32FC1);
@@ -44,17 +44,17 @@ inline cv::Mat rich_texture(int width, int height, Rng& rng) {
     cv::rectangle(sum, patch, cv::Scalar(rng.uniform(40.0, 215.0)), cv::FILLED);
   }
   cv::Mat out;
-  sum.convertTo(out, CV_8U);
+  sum.convertTo(out, CV_8U, contrast, 128.0 * (1.0 - contrast));
   cv::GaussianBlur(out, out, cv::Size(), 0.7);
   return out;
 }
 
 /// `disparities_px[i]` holds in the i-th of as many horizontal bands; noise of `noise_sigma` in both eyes, apart.
 inline StereoFrame banded_pair(const StereoGeometry& geometry, const std::vector<double>& disparities_px, Rng& rng,
-                               double noise_sigma = 2.0) {
+                               double noise_sigma = 2.0, double contrast = 1.0) {
   constexpr int kMargin_px = 8;
   const int reach = 2 * kMargin_px + 256;
-  const cv::Mat texture = rich_texture(geometry.width_px + reach, geometry.height_px, rng);
+  const cv::Mat texture = rich_texture(geometry.width_px + reach, geometry.height_px, rng, contrast);
   const auto eye = [&](bool right) {
     cv::Mat picture(geometry.height_px, geometry.width_px, CV_8UC1);
     for (std::size_t band = 0; band < disparities_px.size(); ++band) {

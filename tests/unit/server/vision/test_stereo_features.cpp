@@ -112,8 +112,9 @@ TEST(StereoFeatures, KeepsOnePointAPlaceAndNoMoreThanWanted) {
   params.detector.wanted = 150;
   const auto list = make_stereo_extractor(small_camera(), params)->detect(frame.left);
   ASSERT_TRUE(list.has_value());
-  EXPECT_EQ(list->size(), 150U);
-  EXPECT_EQ(list->descriptors.size(), 150U);
+  EXPECT_LE(list->size(), 150U);
+  EXPECT_GE(list->size(), 130U);  // a few places have several orientations
+  EXPECT_EQ(list->descriptors.size(), list->size());
   for (std::size_t i = 0; i < list->size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const Keypoint& a = list->keypoints[i];

@@ -1,0 +1,190 @@
+#include "server/vision/bbf_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <queue>
+
+#include "common/core/assert.hpp"
+
+namespace seeker::vision {
+namespace {
+
+/// The variance of a large node is taken from as many of its members.
+constexpr std::uint32_t kVarianceSample = 256;
+
+/// A part of the tree that was passed by. `bound`: no descriptor in it is nearer to the query.
+struct Branch {
+  std::uint32_t bound = 0;
+  std::int32_t node = 0;
+  std::int32_t detour = -1;  ///< index of the last border crossed on the way to it
+};
+
+struct Farther {
+  bool operator()(const Branch& a, const Branch& b) const { return a.bound > b.bound; }
+};
+
+/// A border that the way to a branch crosses: how far the query is from it.
+struct Detour {
+  std::int32_t earlier = -1;
+  std::uint8_t dimension = 0;
+  std::uint8_t offset = 0;
+};
+
+std::uint32_t cost(std::uint32_t offset, Metric metric) { return metric == Metric::kL1 ? offset : offset * offset; }
+
+}  // namespace
+
+struct BbfTree::Search {
+  const Descriptor& query;
+  NearestTwo nearest;
+  int leaves = 0;
+  std::uint32_t bound = 0;   ///< of the branch that is descended
+  std::int32_t detour = -1;  ///< its last one
+  std::vector<Detour> detours;
+  std::priority_queue<Branch, std::vector<Branch>, Farther> branches;
+
+  /// How far the query already is outside the branch along a dimension.
+  [[nodiscard]] std::uint8_t offset_along(std::uint8_t dimension) const {
+    for (std::int32_t i = detour; i >= 0; i = detours[static_cast<std::size_t>(i)].earlier) {
+      if (detours[static_cast<std::size_t>(i)].dimension == dimension) {
+        return detours[static_cast<std::size_t>(i)].offset;
+      }
+    }
+    return 0;
+  }
+
+  /// Notes a branch whose border is `offset` away from the query.
+  void pass_by(std::int32_t node, std::uint8_t dimension, std::uint8_t offset, Metric metric) {
+    const std::uint8_t before = offset_along(dimension);
+    const std::uint8_t now = std::max(before, offset);
+    const std::uint32_t branch_bound = bound - cost(before, metric) + cost(now, metric);
+    if (branch_bound >= nearest.second_distance) {
+      return;
+    }
+    detours.push_back({detour, dimension, now});
+    branches.push({branch_bound, node, static_cast<std::int32_t>(detours.size()) - 1});
+  }
+
+  void offer(std::uint32_t candidate, std::uint32_t distance) {
+    const auto index = static_cast<std::int32_t>(candidate);
+    if (distance < nearest.best_distance) {
+      nearest.second = nearest.best;
+      nearest.second_distance = nearest.best_distance;
+      nearest.best = index;
+      nearest.best_distance = distance;
+    } else if (distance < nearest.second_distance) {
+      nearest.second = index;
+      nearest.second_distance = distance;
+    }
+  }
+};
+
+BbfTree::BbfTree(std::span<const Descriptor> candidates, Metric metric, const BbfParams& params)
+    : params_(params), metric_(metric), order_(candidates.size()), descriptors_(candidates.begin(), candidates.end()) {
+  SEEKER_ASSERT(params.max_leaves >= 1 && params.leaf_size >= 1);
+  std::iota(order_.begin(), order_.end(), 0U);
+  if (!candidates.empty()) {
+    nodes_.reserve(2 * candidates.size());
+    build(0, static_cast<std::uint32_t>(candidates.size()));
+  }
+  // Leaves' members side by side: a search reads memory in order.
+  std::transform(order_.begin(), order_.end(), descriptors_.begin(), [&](std::uint32_t i) { return candidates[i]; });
+}
+
+std::uint8_t BbfTree::widest_dimension(std::uint32_t first, std::uint32_t last) const {
+  std::array<std::uint32_t, kDescriptorSize> sums{};
+  std::array<std::uint32_t, kDescriptorSize> squares{};
+  const std::uint32_t step = std::max(1U, (last - first) / kVarianceSample);
+  double count = 0.0;
+  for (std::uint32_t i = first; i < last; i += step) {
+    const Descriptor& d = descriptors_[order_[i]];
+    for (std::size_t k = 0; k < kDescriptorSize; ++k) {
+      sums[k] += d[k];
+      squares[k] += std::uint32_t{d[k]} * d[k];
+    }
+    count += 1.0;
+  }
+  std::size_t widest = 0;
+  double largest = -1.0;
+  for (std::size_t k = 0; k < kDescriptorSize; ++k) {
+    const double variance = squares[k] - static_cast<double>(sums[k]) * sums[k] / count;
+    if (variance > largest) {
+      largest = variance;
+      widest = k;
+    }
+  }
+  return static_cast<std::uint8_t>(widest);
+}
+
+std::int32_t BbfTree::build(std::uint32_t first, std::uint32_t last) {
+  const auto index = static_cast<std::int32_t>(nodes_.size());
+  Node node;
+  node.first = first;
+  node.last = last;
+  nodes_.push_back(node);
+  if (last - first <= static_cast<std::uint32_t>(params_.leaf_size)) {
+    return index;
+  }
+  node.dimension = widest_dimension(first, last);
+  const auto value = [&](std::uint32_t i) { return descriptors_[i][node.dimension]; };
+  const auto begin = order_.begin() + first;
+  const auto end = order_.begin() + last;
+  const auto middle = begin + (last - first) / 2;
+  std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
+    return value(a) != value(b) ? value(a) < value(b) : a < b;
+  });
+  const auto by_value = [&](std::uint32_t a, std::uint32_t b) { return value(a) < value(b); };
+  node.low = value(*std::max_element(begin, middle, by_value));
+  node.high = value(*middle);
+  const auto split = static_cast<std::uint32_t>(middle - order_.begin());
+  node.left = build(first, split);
+  node.right = build(split, last);
+  nodes_[static_cast<std::size_t>(index)] = node;
+  return index;
+}
+
+void BbfTree::look_at(const Node& leaf, Search& search) const {
+  ++search.leaves;
+  for (std::uint32_t i = leaf.first; i < leaf.last; ++i) {
+    search.offer(order_[i], descriptor_distance(search.query, descriptors_[i], metric_));
+  }
+}
+
+void BbfTree::descend(std::int32_t node_index, Search& search) const {
+  const Node* node = &nodes_[static_cast<std::size_t>(node_index)];
+  while (node->left >= 0) {
+    const int value = search.query[node->dimension];
+    const bool go_left = 2 * value <= int{node->low} + int{node->high};
+    const int offset = go_left ? int{node->high} - value : value - int{node->low};
+    search.pass_by(go_left ? node->right : node->left, node->dimension, static_cast<std::uint8_t>(std::max(0, offset)),
+                   metric_);
+    node = &nodes_[static_cast<std::size_t>(go_left ? node->left : node->right)];
+  }
+  look_at(*node, search);
+}
+
+std::vector<NearestTwo> BbfTree::nearest_two(std::span<const Descriptor> queries) const {
+  std::vector<NearestTwo> found;
+  found.reserve(queries.size());
+  for (const Descriptor& query : queries) {
+    Search search{query, {}, 0, 0, -1, {}, {}};
+    if (!nodes_.empty()) {
+      descend(0, search);
+    }
+    while (!search.branches.empty() && search.leaves < params_.max_leaves) {
+      const Branch next = search.branches.top();
+      search.branches.pop();
+      if (next.bound >= search.nearest.second_distance) {
+        break;  // all others are further still
+      }
+      search.bound = next.bound;
+      search.detour = next.detour;
+      descend(next.node, search);
+    }
+    found.push_back(search.nearest);
+  }
+  return found;
+}
+
+}  // namespace seeker::vision
