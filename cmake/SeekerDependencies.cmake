@@ -33,6 +33,11 @@ foreach(module calib3d features2d flann imgproc core)
   target_link_libraries(seeker_opencv INTERFACE ${OPENCV_${module}_LIBRARY})
 endforeach()
 
+# Cameras alone need this one: it brings the codecs.
+find_library(OPENCV_videoio_LIBRARY opencv_videoio REQUIRED)
+add_library(seeker_opencv_video INTERFACE)
+target_link_libraries(seeker_opencv_video INTERFACE seeker_opencv ${OPENCV_videoio_LIBRARY})
+
 add_library(seeker_asio INTERFACE)
 target_include_directories(seeker_asio SYSTEM INTERFACE ${Boost_INCLUDE_DIRS})
 target_compile_definitions(seeker_asio INTERFACE BOOST_ASIO_NO_DEPRECATED)

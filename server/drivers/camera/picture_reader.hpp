@@ -1,0 +1,81 @@
+/// \file
+/// A slow device read on a thread of its own: who asks gets the newest pictures at once.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "common/core/image.hpp"
+#include "common/core/result.hpp"
+#include "common/core/time.hpp"
+
+namespace seeker::drivers {
+
+/// Something that gives pictures one after another. Used by one thread.
+class PictureSource {
+ public:
+  PictureSource() = default;
+  PictureSource(const PictureSource&) = delete;
+  PictureSource& operator=(const PictureSource&) = delete;
+  virtual ~PictureSource() = default;
+
+  [[nodiscard]] virtual Status open() = 0;
+  /// Waits for the next picture. A failure ends the source until it is opened again.
+  [[nodiscard]] virtual Result<Image> read() = 0;
+  virtual void close() = 0;
+};
+
+/// Robot time of the present.
+using NowFunction = std::function<RobotTime()>;
+
+struct PictureReaderParams {
+  Duration max_age = std::chrono::milliseconds(500);         ///< a picture older than this is no picture
+  Duration first_picture = std::chrono::milliseconds(5000);  ///< time to open the device and to set its exposure
+  std::size_t kept = 4;                                      ///< newest pictures, to find those of one moment
+};
+
+class PictureReader {
+ public:
+  /// `name` is told in errors.
+  PictureReader(std::string name, std::unique_ptr<PictureSource> source, NowFunction now,
+                const PictureReaderParams& params);
+  PictureReader(const PictureReader&) = delete;
+  PictureReader& operator=(const PictureReader&) = delete;
+  ~PictureReader();
+
+  /// Begins to open and to read; what goes wrong is told by pictures().
+  void start();
+  /// Waits for the thread, which may be within the device.
+  void stop();
+
+  /// The newest pictures, oldest first, none too old; never empty. kNotReady: none so far, try again; kTimeout: no
+  /// picture for too long; or what the source failed with.
+  [[nodiscard]] Result<std::deque<CameraFrame>> pictures() const;
+  /// Waits until a picture has come or the source has failed, for people and tests. False: neither.
+  [[nodiscard]] bool wait_for_picture(std::chrono::milliseconds limit) const;
+
+ private:
+  void run();
+
+  std::string name_;
+  std::unique_ptr<PictureSource> source_;
+  NowFunction now_;
+  PictureReaderParams params_;
+  std::thread thread_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  // Guarded by mutex_:
+  std::deque<CameraFrame> frames_;
+  std::optional<Error> error_;
+  RobotTime started_;
+  bool running_ = false;
+  bool stopping_ = false;
+};
+
+}  // namespace seeker::drivers
