@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace seeker::lab {
 namespace {
@@ -50,9 +51,16 @@ Result<Corners> find_corners(const std::string& name, Image grey, const Chessboa
   const cv::Mat picture(grey.height_px(), grey.width_px(), CV_8U, grey.data().data());
   const cv::Size size(board.columns, board.rows);
   Corners corners;
+  constexpr int kReach_px = 9;
+  constexpr int kIterations = 40;
+  constexpr double kExact_px = 0.005;
+  if (cv::findChessboardCorners(picture, size, corners, cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE)) {
+    cv::cornerSubPix(picture, corners, cv::Size(kReach_px, kReach_px), cv::Size(-1, -1),
+                     cv::TermCriteria(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, kIterations, kExact_px));
+    return corners;
+  }
   // The thorough search takes seconds: only where the quick one finds nothing.
-  if (!cv::findChessboardCornersSB(picture, size, corners, cv::CALIB_CB_ACCURACY) &&
-      !cv::findChessboardCornersSB(picture, size, corners, cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY)) {
+  if (!cv::findChessboardCornersSB(picture, size, corners, cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY)) {
     return fail(Errc::kNotFound, name + " does not show a whole board of " + std::to_string(board.columns) + "x" +
                                      std::to_string(board.rows) +
                                      " inner corners; check --board, or leave this pair out");

@@ -34,8 +34,8 @@ void describe(config::Fields& f, ImageFolderParams& params) {
 }
 
 void describe(config::Fields& f, PictureReaderParams& params) {
-  f.duration_s("max_age_s", params.max_age);
-  f.duration_s("first_picture_s", params.first_picture);
+  f.seconds("max_age_s", params.max_age);
+  f.seconds("first_picture_s", params.first_picture);
   auto kept = static_cast<std::uint64_t>(params.kept);
   f.field("kept", kept);
   constexpr std::uint64_t kMost = 100;
@@ -56,7 +56,7 @@ void describe(config::Fields& f, StereoCameraParams& params) {
   f.field("calibration", calibration);
   params.calibration = calibration;
   f.section("geometry", params.geometry);
-  f.duration_s("max_skew_s", params.max_skew);
+  f.seconds("max_skew_s", params.max_skew);
   f.section("reader", params.reader);
 }
 
