@@ -6,6 +6,7 @@
 #include "common/image/png.hpp"
 #include "server/lab/experiment.hpp"
 #include "server/lab/hit_rate_study.hpp"
+#include "server/lab/revisit_command.hpp"
 #include "server/lab/template_command.hpp"
 #include "server/lab/verbs.hpp"
 #include "server/options/world_options.hpp"
@@ -95,6 +96,26 @@ Verb add_template(CLI::App& app) {
   return [o, kind] {
     o->kind = *kind == "features" ? vision::TargetKind::kFeature : vision::TargetKind::kTemplate;
     return run_template_verb(*o);
+  };
+}
+
+Verb add_revisit(CLI::App& app) {
+  auto o = std::make_shared<RevisitOptions>();
+  CLI::App* verb = app.add_subcommand("revisit", "Which photographs of an ordered folder show a place again");
+  verb->add_option("folder", o->folder, "Folder with PNG or JPEG files, ordered by the numbers in their names")
+      ->required();
+  verb->add_option("--out", o->out, "Folder for revisits.csv and a picture of each pair with its inliers")->required();
+  verb->add_option("--gap", o->gap, "Photographs that follow each other this closely are no revisit")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  verb->add_option("--min-inliers", o->params.min_inliers, "Matches that must agree on one geometry of two views")
+      ->check(CLI::Range(8, 1000))
+      ->capture_default_str();
+  verb->add_flag("--all", o->all, "List every pair, not only each photograph's best earlier one");
+  verb->add_flag("--json", o->json, "Print JSON");
+  return [o] {
+    const Status done = run_revisit(*o, std::cout);
+    return done ? kExitDone : report_error(done.error().message);
   };
 }
 
