@@ -24,7 +24,14 @@ struct WatchVerb {
   std::vector<std::string> topics;
   double rate_hz = 2.0;
 };
-struct SearchVerb {
+/// What every mission has.
+struct MissionOptions {
+  std::optional<double> time_limit_s;
+  std::string link_policy = "stop";
+  bool detach = false;
+  std::string id;
+};
+struct SearchVerb : MissionOptions {
   std::vector<std::string> targets;
   std::vector<std::string> target_folders;
   std::string recogniser;
@@ -37,32 +44,31 @@ struct SearchVerb {
   std::vector<std::string> keep_out;
   bool gaps_only = false;
   bool explore = false;
-  std::optional<double> time_limit_s;
-  std::string link_policy = "stop";
-  bool detach = false;
   std::string save;
-  std::string id;
 };
-struct ExploreVerb {
+struct ExploreVerb : MissionOptions {
   std::string strategy = "active";
   std::string bound;
   std::vector<std::string> keep_out;
   bool return_to_start = false;
-  std::optional<double> time_limit_s;
-  std::string link_policy = "stop";
-  bool detach = false;
   std::string save;
-  std::string id;
 };
-struct GotoVerb {
+struct GotoVerb : MissionOptions {
   std::vector<std::string> points;
   std::optional<double> heading_deg;
   std::vector<std::string> keep_out;
-  std::optional<double> time_limit_s;
-  std::string link_policy = "stop";
   bool home = false;
-  bool detach = false;
-  std::string id;
+};
+struct SurveyVerb : MissionOptions {
+  std::string name;
+  std::vector<std::string> places;
+  int headings = 12;
+  bool replace = false;
+  std::vector<std::string> keep_out;
+};
+struct LocaliseVerb : MissionOptions {
+  std::string name;
+  int headings = 12;
 };
 struct DriveVerb {
   std::optional<double> v_m_s;
@@ -111,6 +117,23 @@ struct RelocaliseVerb {
   std::string at;
   bool wait = false;
 };
+/// `landmarks info` and `landmarks verify`; info without a name lists all.
+struct LandmarksInspectVerb {
+  std::string name;
+  bool verify = false;
+};
+struct LandmarksExportVerb {
+  std::string name;
+  std::string file;
+};
+struct LandmarksPruneVerb {
+  std::string name;
+  int min_views = 3;
+};
+struct LandmarksDeleteVerb {
+  std::string name;
+  bool yes = false;
+};
 struct GridVerb {
   std::string evidence;
 };
@@ -132,10 +155,11 @@ struct CompletionVerb {
 };
 struct VersionVerb {};
 
-using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, DriveVerb, StopVerb, EstopVerb,
-                          PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb,
-                          MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb, GridVerb, DetectionsVerb,
-                          CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb, DriveVerb,
+                          StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb,
+                          MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb,
+                          LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksDeleteVerb, GridVerb,
+                          DetectionsVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

@@ -39,9 +39,8 @@ void add_globals(Parse& parse) {
       ->envname("SEEKER_ROBOT")
       ->capture_default_str();
   app.add_flag("--json", global.json, "Print data as JSON");
-  app.add_option(
-         "--timeout", global.timeout_s,
-         "Longest wall time in s: for an answer (default 5), or for the whole of search, explore, goto, watch and run")
+  app.add_option("--timeout", global.timeout_s,
+                 "Longest wall time in s: for an answer (default 5), or for the whole of a mission, watch and run")
       ->check(CLI::PositiveNumber);
   CLI::Option* quiet = app.add_flag("-q,--quiet", global.quiet, "No progress and no messages except errors");
   app.add_flag("-v,--verbose", global.verbose, "Every event of the robot as a message")->excludes(quiet);
@@ -121,6 +120,63 @@ void add_goto(Parse& parse) {
   repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners \"x,y x,y ...\" or @FILE; repeatable"));
   sub->add_flag("--home", o->home, "Return to where the robot was started")->excludes(points);
   add_mission_options(*sub, *o);
+}
+
+void add_survey(Parse& parse) {
+  auto [survey, s] =
+      add_verb<SurveyVerb>(parse, parse.app, "survey",
+                           "Build a database of landmarks: stereo pictures in several directions at several places",
+                           "seeker survey lab\n  seeker survey lab --at 1,0 --at 4,2 --headings 12 --replace");
+  survey->add_option("name", s->name, "Name of the database, [a-z0-9_-]{1,64}")->required();
+  repeatable(survey->add_option("--at", s->places,
+                                "Place X,Y in m; repeatable (default: where the robot stands, and four around it)"));
+  survey->add_option("--headings", s->headings, "Pictures at each place, evenly around")
+      ->check(CLI::Range(1, api::kMaxHeadings))
+      ->capture_default_str();
+  survey->add_flag("--replace", s->replace, "Replace an existing database of that name");
+  repeatable(
+      survey->add_option("--keep-out", s->keep_out, "Never enter: corners \"x,y x,y ...\" or @FILE; repeatable"));
+  add_mission_options(*survey, *s);
+  auto [localise, l] = add_verb<LocaliseVerb>(parse, parse.app, "localise",
+                                              "Find the robot's place by the landmarks of a database, wherever it is",
+                                              "seeker localise lab\nThe robot turns on the spot until it has found its "
+                                              "place, or has looked everywhere (exit code 1).");
+  localise->add_option("name", l->name, "Name of the database")->required();
+  localise->add_option("--headings", l->headings, "Directions to look into before it gives up")
+      ->check(CLI::Range(1, api::kMaxHeadings))
+      ->capture_default_str();
+  add_mission_options(*localise, *l);
+}
+
+void add_landmarks(Parse& parse) {
+  CLI::App* landmarks =
+      parse.app.add_subcommand("landmarks", "Databases of landmarks: look into, check, export, prune");
+  landmarks->require_subcommand(1);
+  landmarks->fallthrough();
+  landmarks->footer("Example:\n  seeker landmarks info\n  seeker landmarks export lab out/lab.csv");
+  auto [info, i] = add_verb<LandmarksInspectVerb>(parse, *landmarks, "info", "What is in a database, or in all of them",
+                                                  "seeker landmarks info lab");
+  info->add_option("name", i->name, "Name of the database (default: list all)");
+  auto [verify, v] = add_verb<LandmarksInspectVerb>(parse, *landmarks, "verify", "Read and check a whole database",
+                                                    "seeker landmarks verify lab");
+  v->verify = true;
+  verify->add_option("name", v->name, "Name of the database")->required();
+  auto [out, e] = add_verb<LandmarksExportVerb>(
+      parse, *landmarks, "export", "Write the landmarks as CSV, and a picture of them from above beside it",
+      "seeker landmarks export lab out/lab.csv");
+  out->add_option("name", e->name, "Name of the database")->required();
+  out->add_option("file", e->file, "File to write (.csv; the picture is .png)")->required();
+  auto [prune, p] =
+      add_verb<LandmarksPruneVerb>(parse, *landmarks, "prune", "Delete landmarks that few pictures have shown",
+                                   "seeker landmarks prune lab --min-views 3");
+  prune->add_option("name", p->name, "Name of the database")->required();
+  prune->add_option("--min-views", p->min_views, "Keep those seen in so many pictures or more")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  auto [remove, d] = add_verb<LandmarksDeleteVerb>(parse, *landmarks, "delete", "Delete a database of the robot",
+                                                   "seeker landmarks delete lab --yes");
+  remove->add_option("name", d->name, "Name of the database")->required();
+  remove->add_flag("--yes", d->yes, "Really: it does not come back");
 }
 
 void add_motion(Parse& parse) {
@@ -245,6 +301,8 @@ void build(Parse& parse) {
   add_search(parse);
   add_explore(parse);
   add_goto(parse);
+  add_survey(parse);
+  add_landmarks(parse);
   add_motion(parse);
   add_rest(parse);
 }

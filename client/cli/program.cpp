@@ -39,21 +39,11 @@ class Dispatch {
   VerbResult operator()(const WatchVerb& verb) {
     return with_robot([&] { return watch(context_, verb); }, true);
   }
-  VerbResult operator()(const SearchVerb& verb) {
-    const Result<api::MissionRequest> request = make_request(verb);
-    return request ? with_robot([&] { return search(context_, *request, verb); }, true)
-                   : VerbResult(tl::unexpected<Error>(request.error()));
-  }
-  VerbResult operator()(const ExploreVerb& verb) {
-    const Result<api::MissionRequest> request = make_request(verb);
-    return request ? with_robot([&] { return explore(context_, *request, verb); }, true)
-                   : VerbResult(tl::unexpected<Error>(request.error()));
-  }
-  VerbResult operator()(const GotoVerb& verb) {
-    const Result<api::MissionRequest> request = make_request(verb);
-    return request ? with_robot([&] { return go(context_, *request, verb); }, true)
-                   : VerbResult(tl::unexpected<Error>(request.error()));
-  }
+  VerbResult operator()(const SearchVerb& verb) { return with_mission(verb, search); }
+  VerbResult operator()(const ExploreVerb& verb) { return with_mission(verb, explore); }
+  VerbResult operator()(const GotoVerb& verb) { return with_mission(verb, go); }
+  VerbResult operator()(const SurveyVerb& verb) { return with_mission(verb, survey); }
+  VerbResult operator()(const LocaliseVerb& verb) { return with_mission(verb, localise); }
   VerbResult operator()(const DriveVerb& verb) {
     return with_robot([&] { return drive(context_, verb); });
   }
@@ -95,6 +85,18 @@ class Dispatch {
   }
   VerbResult operator()(const RelocaliseVerb& verb) {
     return with_robot([&] { return relocalise(context_, verb); }, verb.wait);
+  }
+  VerbResult operator()(const LandmarksInspectVerb& verb) {
+    return with_robot([&] { return inspect_landmarks(context_, verb); });
+  }
+  VerbResult operator()(const LandmarksExportVerb& verb) {
+    return with_robot([&] { return export_landmarks(context_, verb); });
+  }
+  VerbResult operator()(const LandmarksPruneVerb& verb) {
+    return with_robot([&] { return prune_landmarks(context_, verb); });
+  }
+  VerbResult operator()(const LandmarksDeleteVerb& verb) {
+    return with_robot([&] { return delete_landmarks(context_, verb); });
   }
   VerbResult operator()(const GridVerb& verb) {
     return with_robot([&] { return show_grid(context_, verb); });
@@ -145,6 +147,14 @@ class Dispatch {
   }
 
  private:
+  /// Reads the mission first: what is wrong with it is told without a robot.
+  template <class MissionVerb>
+  VerbResult with_mission(const MissionVerb& verb,
+                          VerbResult (*run)(const Context&, const api::MissionRequest&, const MissionVerb&)) {
+    const Result<api::MissionRequest> request = make_request(verb);
+    return request ? with_robot([&] { return run(context_, *request, verb); }, true)
+                   : VerbResult(tl::unexpected<Error>(request.error()));
+  }
   template <class Run>
   VerbResult with_robot(Run run, bool reconnect = false) {
     // A long verb's --timeout is for its whole; connecting has the usual time then.

@@ -154,6 +154,31 @@ void describe(config::Fields& f, GotoSection& s) {
   describe_mission(f, s.step);
 }
 
+struct SurveySection {
+  SurveyStep survey;
+  Step step;
+};
+void describe(config::Fields& f, SurveySection& s) {
+  f.require("landmarks");
+  f.field("landmarks", s.survey.landmarks);
+  f.field("places", s.survey.places);
+  f.field("headings", s.survey.headings);
+  f.field("replace", s.survey.replace);
+  areas(f, s.survey.keep_out);
+  describe_mission(f, s.step);
+}
+
+struct LocaliseSection {
+  LocaliseStep localise;
+  Step step;
+};
+void describe(config::Fields& f, LocaliseSection& s) {
+  f.require("landmarks");
+  f.field("landmarks", s.localise.landmarks);
+  f.field("headings", s.localise.headings);
+  describe_mission(f, s.step);
+}
+
 struct ReturnSection {
   Step step;
 };
@@ -230,6 +255,14 @@ void describe_missions(config::Fields& f, Step& step, int& count) {
     step.action = s.go;
     keep_mission(step, s.step);
   });
+  action<SurveySection>(f, "survey", step, count, [&](SurveySection& s) {
+    step.action = s.survey;
+    keep_mission(step, s.step);
+  });
+  action<LocaliseSection>(f, "localise", step, count, [&](LocaliseSection& s) {
+    step.action = s.localise;
+    keep_mission(step, s.step);
+  });
   action<ReturnSection>(f, "return", step, count, [&](ReturnSection& s) {
     step.action = ReturnStep{};
     keep_mission(step, s.step);
@@ -268,7 +301,8 @@ void describe(config::Fields& f, StepItem& item) {
   f.section("expect", expect);
   step.expect = expect.expect;
   f.check("expect", count == 1,
-          "a step does exactly one of search, explore, goto, return, await, wait, drive, pause, resume, stop, estop, "
+          "a step does exactly one of search, explore, goto, survey, localise, return, await, wait, drive, pause, "
+          "resume, stop, estop, "
           "map_export");
 }
 

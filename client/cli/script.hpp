@@ -36,6 +36,17 @@ struct GotoStep {
   std::optional<double> heading_rad;
   std::vector<Polygon> keep_out;
 };
+struct SurveyStep {
+  std::string landmarks;
+  std::vector<Point2> places;
+  int headings = 12;
+  bool replace = false;
+  std::vector<Polygon> keep_out;
+};
+struct LocaliseStep {
+  std::string landmarks;
+  int headings = 12;
+};
 struct ReturnStep {};
 /// Waits for the end of a mission that an earlier step started in the background.
 struct AwaitStep {};
@@ -56,8 +67,8 @@ struct ExportStep {
   std::string name;
 };
 
-using StepAction = std::variant<SearchStep, ExploreStep, GotoStep, ReturnStep, AwaitStep, WaitStep, DriveStep,
-                                CommandStep, EstopStep, ExportStep>;
+using StepAction = std::variant<SearchStep, ExploreStep, GotoStep, SurveyStep, LocaliseStep, ReturnStep, AwaitStep,
+                                WaitStep, DriveStep, CommandStep, EstopStep, ExportStep>;
 
 /// What must hold after a step. Empty fields are not looked at.
 struct Expectation {
@@ -88,7 +99,9 @@ inline constexpr std::size_t kMaxSteps = 1000;
 [[nodiscard]] Result<Script> parse_script(std::string_view text, const std::string& name);
 [[nodiscard]] Result<Script> load_script(const std::filesystem::path& path);
 
-/// The mission of a search, explore, goto or return step with its targets loaded.
+/// Whether the step starts a mission.
+[[nodiscard]] bool is_mission(const StepAction& action);
+/// The mission of a step, with its targets loaded.
 [[nodiscard]] Result<api::MissionRequest> make_request(const Step& step, const std::filesystem::path& script_folder,
                                                        const std::vector<std::filesystem::path>& target_folders);
 /// Loads every target and validates every mission; the error names the step.

@@ -15,6 +15,12 @@ std::string target_path(const std::string& target, const fs::path& script_folder
 
 }  // namespace
 
+bool is_mission(const StepAction& action) {
+  return std::holds_alternative<SearchStep>(action) || std::holds_alternative<ExploreStep>(action) ||
+         std::holds_alternative<GotoStep>(action) || std::holds_alternative<SurveyStep>(action) ||
+         std::holds_alternative<LocaliseStep>(action) || std::holds_alternative<ReturnStep>(action);
+}
+
 Result<api::MissionRequest> make_request(const Step& step, const fs::path& script_folder,
                                          const std::vector<fs::path>& target_folders) {
   api::MissionRequest request;
@@ -43,6 +49,11 @@ Result<api::MissionRequest> make_request(const Step& step, const fs::path& scrip
     request.task = api::ExploreMission{explore->strategy, explore->bound, explore->keep_out, explore->return_to_start};
   } else if (const auto* go = std::get_if<GotoStep>(&step.action)) {
     request.task = api::GotoMission{go->waypoints, go->heading_rad, go->keep_out};
+  } else if (const auto* survey = std::get_if<SurveyStep>(&step.action)) {
+    request.task =
+        api::SurveyMission{survey->landmarks, survey->places, survey->headings, survey->replace, survey->keep_out};
+  } else if (const auto* localise = std::get_if<LocaliseStep>(&step.action)) {
+    request.task = api::LocaliseMission{localise->landmarks, localise->headings};
   } else {
     request.task = api::ReturnMission{};
   }
@@ -56,9 +67,7 @@ Status check_missions(const Script& script, const fs::path& script_folder,
                       const std::vector<fs::path>& target_folders) {
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
     const StepAction& action = script.steps[i].action;
-    const bool is_mission = std::holds_alternative<SearchStep>(action) || std::holds_alternative<ExploreStep>(action) ||
-                            std::holds_alternative<GotoStep>(action) || std::holds_alternative<ReturnStep>(action);
-    if (!is_mission) {
+    if (!is_mission(action)) {
       continue;
     }
     const Result<api::MissionRequest> request = make_request(script.steps[i], script_folder, target_folders);

@@ -21,6 +21,7 @@ void write_json(Json& json, const api::ComponentInfo& component);
 void write_json(Json& json, const api::Event& event);
 void write_json(Json& json, const api::GridReport& grid);
 void write_json(Json& json, const api::MapSummary& map);
+void write_json(Json& json, const api::LandmarkSummary& database);
 void write_json(Json& json, const MapSegment& segment);
 void write_json(Json& json, const api::SegmentUpdate& update);
 /// {"topic", "sequence", "dropped", "stamp_s", "data"}; pictures and tiles are told by their sizes, not their content.
@@ -48,6 +49,9 @@ void write_list(Json& json, std::string_view name, const std::vector<T>& values)
 
 /// printf-like number with its unit: fixed("%.2f m", x).
 [[nodiscard]] std::string fixed(const char* format, double value);
+/// "2026-03-01 12:30 UTC"; "-" for 0.
+[[nodiscard]] std::string date_of(std::int64_t unix_s);
+[[nodiscard]] std::string size_of(std::uint64_t bytes);
 [[nodiscard]] std::string text_of(const Point2& p);
 [[nodiscard]] std::string text_of(const Pose2& pose);
 /// One line: name, position with sigma, bearing, score, range source, sightings.

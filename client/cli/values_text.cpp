@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 #include "client/cli/values.hpp"
 #include "common/core/angle.hpp"
@@ -67,6 +68,19 @@ std::string fixed(const char* format, double value) {
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
 }
+
+std::string date_of(std::int64_t unix_s) {
+  const auto time = static_cast<std::time_t>(unix_s);
+  std::tm parts{};
+  std::array<char, 32> text{};
+  if (unix_s <= 0 || gmtime_r(&time, &parts) == nullptr ||
+      std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &parts) == 0) {
+    return "-";
+  }
+  return text.data();
+}
+
+std::string size_of(std::uint64_t bytes) { return fixed("%.1f kB", static_cast<double>(bytes) / 1000.0); }
 
 std::string text_of(const Point2& p) { return "(" + fixed("%.2f, ", p.x()) + fixed("%.2f)", p.y()); }
 

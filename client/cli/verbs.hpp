@@ -18,6 +18,8 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] Result<api::MissionRequest> make_request(const SearchVerb& verb);
 [[nodiscard]] Result<api::MissionRequest> make_request(const ExploreVerb& verb);
 [[nodiscard]] Result<api::MissionRequest> make_request(const GotoVerb& verb);
+[[nodiscard]] Result<api::MissionRequest> make_request(const SurveyVerb& verb);
+[[nodiscard]] Result<api::MissionRequest> make_request(const LocaliseVerb& verb);
 
 [[nodiscard]] VerbResult show_status(const Context& context);
 [[nodiscard]] VerbResult show_components(const Context& context, const ComponentsVerb& verb);
@@ -34,6 +36,11 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult upload_map(const Context& context, const MapUploadVerb& verb);
 /// With --wait: 0 when the robot has found its place, 1 when it is lost.
 [[nodiscard]] VerbResult relocalise(const Context& context, const RelocaliseVerb& verb);
+[[nodiscard]] VerbResult inspect_landmarks(const Context& context, const LandmarksInspectVerb& verb);
+/// A CSV file, and a picture beside it.
+[[nodiscard]] VerbResult export_landmarks(const Context& context, const LandmarksExportVerb& verb);
+[[nodiscard]] VerbResult prune_landmarks(const Context& context, const LandmarksPruneVerb& verb);
+[[nodiscard]] VerbResult delete_landmarks(const Context& context, const LandmarksDeleteVerb& verb);
 [[nodiscard]] VerbResult watch(const Context& context, const WatchVerb& verb);
 
 [[nodiscard]] VerbResult stop(const Context& context);
@@ -49,6 +56,8 @@ using VerbResult = Result<ExitCode>;
 
 [[nodiscard]] VerbResult search(const Context& context, const api::MissionRequest& request, const SearchVerb& verb);
 [[nodiscard]] VerbResult explore(const Context& context, const api::MissionRequest& request, const ExploreVerb& verb);
+[[nodiscard]] VerbResult survey(const Context& context, const api::MissionRequest& request, const SurveyVerb& verb);
+[[nodiscard]] VerbResult localise(const Context& context, const api::MissionRequest& request, const LocaliseVerb& verb);
 [[nodiscard]] VerbResult go(const Context& context, const api::MissionRequest& request, const GotoVerb& verb);
 /// Prints how a mission ended, with detections, coverage and gaps.
 void print_report(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps);

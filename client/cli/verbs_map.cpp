@@ -1,11 +1,10 @@
 // The map as an asset: files of the robot, its transfer, and finding the place in it.
 
-#include <array>
-#include <ctime>
 #include <filesystem>
 #include <iomanip>
 
 #include "client/cli/export_files.hpp"
+#include "client/cli/show_done.hpp"
 #include "client/cli/targets.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/verbs.hpp"
@@ -16,19 +15,6 @@ namespace seeker::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string date_of(std::int64_t unix_s) {
-  const auto time = static_cast<std::time_t>(unix_s);
-  std::tm parts{};
-  std::array<char, 32> text{};
-  if (unix_s <= 0 || gmtime_r(&time, &parts) == nullptr ||
-      std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &parts) == 0) {
-    return "-";
-  }
-  return text.data();
-}
-
-std::string size_of(std::uint64_t bytes) { return fixed("%.1f kB", static_cast<double>(bytes) / 1000.0); }
 
 /// One line: the map in figures.
 std::string line_of(const api::MapSummary& map) {
@@ -51,18 +37,6 @@ VerbResult show(const Context& context, const Result<api::MapSummary>& map, cons
   }
   if (!done.empty()) {
     say(context, done);
-  }
-  return ExitCode::kOk;
-}
-
-VerbResult show_done(const Context& context, const Status& ok, const std::string& done) {
-  if (!ok) {
-    return tl::unexpected<Error>(ok.error());
-  }
-  if (context.json) {
-    *context.out << Json().begin_object().field("ok", true).field("message", done).end_object().str() << '\n';
-  } else {
-    *context.out << done << '\n';
   }
   return ExitCode::kOk;
 }

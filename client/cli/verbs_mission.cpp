@@ -122,6 +122,30 @@ VerbResult run_mission(const Context& context, const api::MissionRequest& reques
   return exit_code(report->status);
 }
 
+/// A request with everything but its task.
+api::MissionRequest begin_request(const MissionOptions& options, const std::string& kind) {
+  api::MissionRequest request;
+  request.id = options.id.empty() ? make_mission_id(kind) : options.id;
+  request.link_policy = parse_link_policy(options.link_policy);
+  if (options.time_limit_s) {
+    request.time_limit = seconds(*options.time_limit_s);
+  }
+  return request;
+}
+
+/// Each "X,Y" in metres.
+Result<std::vector<Point2>> parse_points(const std::vector<std::string>& texts) {
+  std::vector<Point2> points;
+  for (const std::string& text : texts) {
+    const Result<Point2> point = parse_point(text);
+    if (!point) {
+      return tl::unexpected<Error>(point.error());
+    }
+    points.push_back(*point);
+  }
+  return points;
+}
+
 }  // namespace
 
 Result<api::MissionRequest> make_request(const SearchVerb& verb) {
@@ -141,13 +165,8 @@ Result<api::MissionRequest> make_request(const SearchVerb& verb) {
   search.on_found = parse_on_found(verb.on_found);
   search.gaps_only = verb.gaps_only;
   search.explore = verb.explore;
-  api::MissionRequest request;
-  request.id = verb.id.empty() ? make_mission_id("search") : verb.id;
+  api::MissionRequest request = begin_request(verb, "search");
   request.task = std::move(search);
-  request.link_policy = parse_link_policy(verb.link_policy);
-  if (verb.time_limit_s) {
-    request.time_limit = seconds(*verb.time_limit_s);
-  }
   return checked(std::move(request));
 }
 
@@ -158,23 +177,13 @@ Result<api::MissionRequest> make_request(const ExploreVerb& verb) {
   }
   explore.strategy = parse_explore_strategy(verb.strategy);
   explore.return_to_start = verb.return_to_start;
-  api::MissionRequest request;
-  request.id = verb.id.empty() ? make_mission_id("explore") : verb.id;
+  api::MissionRequest request = begin_request(verb, "explore");
   request.task = std::move(explore);
-  request.link_policy = parse_link_policy(verb.link_policy);
-  if (verb.time_limit_s) {
-    request.time_limit = seconds(*verb.time_limit_s);
-  }
   return checked(std::move(request));
 }
 
 Result<api::MissionRequest> make_request(const GotoVerb& verb) {
-  api::MissionRequest request;
-  request.id = verb.id.empty() ? make_mission_id(verb.home ? "return" : "goto") : verb.id;
-  request.link_policy = parse_link_policy(verb.link_policy);
-  if (verb.time_limit_s) {
-    request.time_limit = seconds(*verb.time_limit_s);
-  }
+  api::MissionRequest request = begin_request(verb, verb.home ? "return" : "goto");
   if (verb.home) {
     request.task = api::ReturnMission{};
     return checked(std::move(request));
@@ -183,13 +192,11 @@ Result<api::MissionRequest> make_request(const GotoVerb& verb) {
     return fail(Errc::kInvalidArgument, "goto needs points X,Y in metres, as in seeker goto 3,4.5, or --home");
   }
   api::GotoMission go;
-  for (const std::string& text : verb.points) {
-    const Result<Point2> point = parse_point(text);
-    if (!point) {
-      return tl::unexpected<Error>(point.error());
-    }
-    go.waypoints.push_back(*point);
+  Result<std::vector<Point2>> points = parse_points(verb.points);
+  if (!points) {
+    return tl::unexpected<Error>(points.error());
   }
+  go.waypoints = std::move(*points);
   if (verb.heading_deg) {
     go.final_heading_rad = wrap_angle(deg_to_rad(*verb.heading_deg));
   }
@@ -199,6 +206,26 @@ Result<api::MissionRequest> make_request(const GotoVerb& verb) {
   }
   go.keep_out = std::move(*keep_out);
   request.task = std::move(go);
+  return checked(std::move(request));
+}
+
+Result<api::MissionRequest> make_request(const SurveyVerb& verb) {
+  Result<std::vector<Point2>> places = parse_points(verb.places);
+  if (!places) {
+    return fail_with_context("--at", places.error());
+  }
+  Result<std::vector<Polygon>> keep_out = parse_areas(verb.keep_out);
+  if (!keep_out) {
+    return fail_with_context("--keep-out", keep_out.error());
+  }
+  api::MissionRequest request = begin_request(verb, "survey");
+  request.task = api::SurveyMission{verb.name, std::move(*places), verb.headings, verb.replace, std::move(*keep_out)};
+  return checked(std::move(request));
+}
+
+Result<api::MissionRequest> make_request(const LocaliseVerb& verb) {
+  api::MissionRequest request = begin_request(verb, "localise");
+  request.task = api::LocaliseMission{verb.name, verb.headings};
   return checked(std::move(request));
 }
 
@@ -242,6 +269,14 @@ VerbResult search(const Context& context, const api::MissionRequest& request, co
 
 VerbResult explore(const Context& context, const api::MissionRequest& request, const ExploreVerb& verb) {
   return run_mission(context, request, verb.detach, verb.save);
+}
+
+VerbResult survey(const Context& context, const api::MissionRequest& request, const SurveyVerb& verb) {
+  return run_mission(context, request, verb.detach, "");
+}
+
+VerbResult localise(const Context& context, const api::MissionRequest& request, const LocaliseVerb& verb) {
+  return run_mission(context, request, verb.detach, "");
 }
 
 VerbResult go(const Context& context, const api::MissionRequest& request, const GotoVerb& verb) {

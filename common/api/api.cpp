@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/api/robot_api.hpp"
+#include "common/core/line_map.hpp"
 
 namespace seeker::api {
 namespace {
@@ -93,14 +94,17 @@ Status validate_task(const SearchMission& search) {
   return validate_areas(search.bound, search.keep_out);
 }
 
+Status validate_points(const char* what, const std::vector<Point2>& points) {
+  const bool finite = std::all_of(points.begin(), points.end(), [](const Point2& p) { return p.allFinite(); });
+  return finite ? Status() : fail(Errc::kInvalidArgument, std::string(what) + " is not a finite number");
+}
+
 Status validate_task(const GotoMission& go) {
   if (go.waypoints.empty() || go.waypoints.size() > kMaxWaypoints) {
     return fail(Errc::kInvalidArgument, "goto needs 1 to 1024 waypoints, got " + std::to_string(go.waypoints.size()));
   }
-  for (const Point2& p : go.waypoints) {
-    if (!p.allFinite()) {
-      return fail(Errc::kInvalidArgument, "a waypoint is not a finite number");
-    }
+  if (Status ok = validate_points("a waypoint", go.waypoints); !ok) {
+    return ok;
   }
   if (go.final_heading_rad && !std::isfinite(*go.final_heading_rad)) {
     return fail(Errc::kInvalidArgument, "the final heading is not a finite number");
@@ -115,6 +119,39 @@ Status validate_task(const ExploreMission& explore) {
     return fail(Errc::kInvalidArgument, "there is no such strategy of exploration");
   }
   return validate_areas(explore.bound, explore.keep_out);
+}
+
+Status validate_headings(int headings) {
+  if (headings < 1 || headings > kMaxHeadings) {
+    return fail(Errc::kInvalidArgument, "the number of headings must be 1 to 72, got " + std::to_string(headings));
+  }
+  return {};
+}
+
+Status validate_landmarks(const std::string& name) {
+  const Status ok = validate_map_name(name);
+  return ok ? ok : fail(Errc::kInvalidArgument, "a database of landmarks is named like a map: " + ok.error().message);
+}
+
+Status validate_task(const SurveyMission& survey) {
+  if (Status ok = validate_landmarks(survey.landmarks); !ok) {
+    return ok;
+  }
+  if (Status ok = validate_headings(survey.headings); !ok) {
+    return ok;
+  }
+  if (survey.places.size() > kMaxSurveyPlaces) {
+    return fail(Errc::kTooLarge, "a survey has at most 64 places");
+  }
+  if (Status ok = validate_points("a place", survey.places); !ok) {
+    return ok;
+  }
+  return validate_keep_outs(survey.keep_out);
+}
+
+Status validate_task(const LocaliseMission& localise) {
+  const Status ok = validate_landmarks(localise.landmarks);
+  return ok ? validate_headings(localise.headings) : ok;
 }
 
 }  // namespace
@@ -136,6 +173,8 @@ std::string_view task_name(const MissionTask& task) {
     std::string_view operator()(const GotoMission&) const { return "goto"; }
     std::string_view operator()(const ReturnMission&) const { return "return"; }
     std::string_view operator()(const ExploreMission&) const { return "explore"; }
+    std::string_view operator()(const SurveyMission&) const { return "survey"; }
+    std::string_view operator()(const LocaliseMission&) const { return "localise"; }
   };
   return std::visit(Name{}, task);
 }

@@ -99,7 +99,27 @@ struct ReturnMission {
   friend bool operator==(const ReturnMission&, const ReturnMission&) = default;
 };
 
-using MissionTask = std::variant<SearchMission, GotoMission, ReturnMission, ExploreMission>;
+/// Builds a database of landmarks: stereo pictures in several directions at several places (spec S2.4).
+struct SurveyMission {
+  std::string landmarks;       ///< name of the database, as in validate_map_name()
+  std::vector<Point2> places;  ///< in the frame `map`; none: where the robot stands, and four places around it
+  int headings = 12;           ///< pictures at each place, evenly around
+  bool replace = false;        ///< an existing database of that name
+  std::vector<Polygon> keep_out;
+
+  friend bool operator==(const SurveyMission&, const SurveyMission&) = default;
+};
+
+/// Finds the robot's place by the landmarks of a database, wherever it was switched on.
+struct LocaliseMission {
+  std::string landmarks;
+  int headings = 12;  ///< directions to look into before it gives up
+
+  friend bool operator==(const LocaliseMission&, const LocaliseMission&) = default;
+};
+
+using MissionTask =
+    std::variant<SearchMission, GotoMission, ReturnMission, ExploreMission, SurveyMission, LocaliseMission>;
 
 [[nodiscard]] std::string_view task_name(const MissionTask& task);
 
@@ -117,6 +137,8 @@ struct MissionRequest {
 inline constexpr std::size_t kMaxTargets = 16;
 inline constexpr std::size_t kMaxKeepOuts = 64;
 inline constexpr std::size_t kMaxWaypoints = 1024;
+inline constexpr std::size_t kMaxSurveyPlaces = 64;
+inline constexpr int kMaxHeadings = 72;
 /// A template with less spread of grey than this carries nothing to match.
 inline constexpr double kMinTargetGreySigma = 4.0;
 inline constexpr int kMinTargetSide_px = 8;

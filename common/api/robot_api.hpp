@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/api/landmarks.hpp"
 #include "common/api/map.hpp"
 #include "common/api/mission.hpp"
 #include "common/api/perception.hpp"
@@ -133,6 +134,19 @@ class RobotApi {
   /// Looks for the robot near a pose, or everywhere. Answers at once; how it goes is in RobotStatus::pose: kUnknown
   /// while it looks, then kLocalised, or kLost with the cause. kRefused: the robot moves; kBusy: a mission runs.
   virtual void relocalise(const std::optional<Pose2>& map_T_base, Reply<void> reply) = 0;
+
+  // Databases of landmarks, which `survey` builds and `localise` reads. kNotReady: there is no folder to keep them in.
+
+  /// By name; damaged ones with their problem.
+  virtual void list_landmarks(Reply<std::vector<LandmarkSummary>> reply) = 0;
+  /// Figures of one database; with `verify` the whole file is read and checked.
+  virtual void inspect_landmarks(const std::string& name, bool verify, Reply<LandmarkSummary> reply) = 0;
+  /// All landmarks of a database, by rising id.
+  virtual void get_landmarks(const std::string& name, Reply<std::vector<LandmarkPoint>> reply) = 0;
+  /// Deletes those that fewer pictures than `min_views` have shown. kRefused: nothing would be left, or the robot
+  /// localises by this database.
+  virtual void prune_landmarks(const std::string& name, int min_views, Reply<LandmarkSummary> reply) = 0;
+  virtual void delete_landmarks(const std::string& name, Reply<void> reply) = 0;
 
   [[nodiscard]] virtual Result<std::unique_ptr<Subscription>> subscribe(const std::vector<TopicRequest>& topics,
                                                                         UpdateSink sink) = 0;

@@ -18,7 +18,7 @@
 namespace seeker::api {
 
 inline constexpr std::uint32_t kProtocolMajor = 1;
-inline constexpr std::uint32_t kProtocolMinor = 2;
+inline constexpr std::uint32_t kProtocolMinor = 3;
 
 /// Who the robot is: answered before anything else.
 struct RobotInfo {

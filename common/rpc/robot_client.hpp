@@ -105,6 +105,11 @@ class RobotClient final : public api::RobotApi {
   void delete_map(const std::string& name, api::Reply<void> reply) override;
   void download_map(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply) override;
   void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override;
+  void list_landmarks(api::Reply<std::vector<api::LandmarkSummary>> reply) override;
+  void inspect_landmarks(const std::string& name, bool verify, api::Reply<api::LandmarkSummary> reply) override;
+  void get_landmarks(const std::string& name, api::Reply<std::vector<api::LandmarkPoint>> reply) override;
+  void prune_landmarks(const std::string& name, int min_views, api::Reply<api::LandmarkSummary> reply) override;
+  void delete_landmarks(const std::string& name, api::Reply<void> reply) override;
   void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override;
   /// Returns at once. Fails (kInvalidArgument) for an empty list, a topic named twice or a negative rate.
   [[nodiscard]] Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,

@@ -59,6 +59,11 @@ void read(const pb::SegmentUpdate& from, api::SegmentUpdate& to, Check& check);
 void read(const pb::MapSummary& from, api::MapSummary& to, Check& check);
 void read(const pb::LineMapStatus& from, api::LineMapStatus& to, Check& check);
 
+void write(const api::LandmarkSummary& from, pb::LandmarkSummary* to);
+void write(const api::LandmarkPoint& from, pb::Landmark* to);
+void read(const pb::LandmarkSummary& from, api::LandmarkSummary& to, Check& check);
+void read(const pb::Landmark& from, api::LandmarkPoint& to, Check& check);
+
 void write(const api::Detection& from, pb::Detection* to);
 void write(const api::CoverageSummary& from, pb::CoverageSummary* to);
 void write(const api::GridReport& from, pb::GridReport* to);

@@ -97,6 +97,18 @@ struct TaskWriter {
     write_areas(from, explore);
     explore->set_return_to_start(from.return_to_start);
   }
+  void operator()(const api::SurveyMission& from) const {
+    pb::SurveyMission* survey = to->mutable_survey();
+    survey->set_landmarks(clean_text(from.landmarks, kMaxNameBytes));
+    write(from.places, survey->mutable_places());
+    survey->set_headings(static_cast<std::uint32_t>(from.headings));
+    survey->set_replace(from.replace);
+    write_polygons(from.keep_out, survey->mutable_keep_out());
+  }
+  void operator()(const api::LocaliseMission& from) const {
+    to->mutable_localise()->set_landmarks(clean_text(from.landmarks, kMaxNameBytes));
+    to->mutable_localise()->set_headings(static_cast<std::uint32_t>(from.headings));
+  }
 };
 
 void read_search(const pb::SearchMission& from, api::SearchMission& to, Check& check) {
@@ -119,6 +131,22 @@ void read_explore(const pb::ExploreMission& from, api::ExploreMission& to, Check
   check.enumerator("strategy", from.strategy(), api::ExploreStrategy::kGain, to.strategy);
   read_areas(from, to, check);
   to.return_to_start = from.return_to_start();
+}
+
+void read_survey(const pb::SurveyMission& from, api::SurveyMission& to, Check& check) {
+  to.landmarks = check.text("landmarks", from.landmarks(), kMaxNameBytes);
+  {
+    const auto scope = check.in("places");
+    read(from.places(), to.places, check, api::kMaxSurveyPlaces);
+  }
+  to.headings = check.natural("headings", from.headings());
+  to.replace = from.replace();
+  read_polygons(from.keep_out(), to.keep_out, check);
+}
+
+void read_localise(const pb::LocaliseMission& from, api::LocaliseMission& to, Check& check) {
+  to.landmarks = check.text("landmarks", from.landmarks(), kMaxNameBytes);
+  to.headings = check.natural("headings", from.headings());
 }
 
 void read_goto(const pb::GotoMission& from, api::GotoMission& to, Check& check) {
@@ -175,6 +203,16 @@ void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check)
     case pb::MissionRequest::kExplore: {
       const auto scope = check.in("explore");
       read_explore(from.explore(), to.task.emplace<api::ExploreMission>(), check);
+      break;
+    }
+    case pb::MissionRequest::kSurvey: {
+      const auto scope = check.in("survey");
+      read_survey(from.survey(), to.task.emplace<api::SurveyMission>(), check);
+      break;
+    }
+    case pb::MissionRequest::kLocalise: {
+      const auto scope = check.in("localise");
+      read_localise(from.localise(), to.task.emplace<api::LocaliseMission>(), check);
       break;
     }
     case pb::MissionRequest::TASK_NOT_SET:

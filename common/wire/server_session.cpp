@@ -40,6 +40,8 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kLoadMap:
     case pb::Request::kDeleteMap:
     case pb::Request::kUploadMap:
+    case pb::Request::kPruneLandmarks:
+    case pb::Request::kDeleteLandmarks:
     case pb::Request::kRelocalise:
     case pb::Request::kDrive: return api::Role::kOperator;
     case pb::Request::kSetEstop: return request.set_estop().engaged() ? api::Role::kObserver : api::Role::kOperator;

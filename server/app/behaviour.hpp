@@ -12,6 +12,7 @@
 #include "common/api/robot_state.hpp"
 #include "common/core/pose_estimate.hpp"
 #include "common/core/scan.hpp"
+#include "server/app/stereo_look.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/slam/map_tracker.hpp"
 #include "server/vision/sighting.hpp"
@@ -29,6 +30,9 @@ struct Situation {
   const slam::MapTracker* tracker = nullptr;  ///< keeper of the map of segments; null: the estimator keeps none
   bool map_is_read_only = false;              ///< the robot only localises in the map of segments
   std::optional<double> battery_v;
+  Pose2 odom_T_base;        ///< by dead reckoning: goes on where the pose is not known
+  std::string map_name;     ///< under which the map of segments was saved or loaded; empty: neither
+  bool has_stereo = false;  ///< there is a stereo camera to look with
 };
 
 /// A line for the mission's log, without stamps: the executor adds them.
@@ -41,8 +45,10 @@ struct BehaviourEvent {
 /// What a behaviour wants at one tick.
 struct Decision {
   Twist2 command;
-  bool wants_image = false;  ///< recognise the targets in a picture taken now
-  bool step_done = false;    ///< a natural place to stop (link policy FINISH_STEP)
+  bool wants_image = false;           ///< recognise the targets in a picture taken now
+  bool wants_look = false;            ///< see with both eyes now; on_look() follows
+  std::optional<PoseEstimate> place;  ///< the robot was found there: the estimator is told
+  bool step_done = false;             ///< a natural place to stop (link policy FINISH_STEP)
   std::string phase;
   std::string activity;
   double progress = 0.0;
@@ -72,6 +78,10 @@ class Behaviour {
   /// What looks at the pictures this behaviour asks for; null when it asks for none.
   [[nodiscard]] virtual std::shared_ptr<const vision::Recogniser> recogniser() const { return nullptr; }
   virtual void on_recognition(const Recognition& /*recognition*/) {}
+  /// The answer to wants_look, or why there is none.
+  virtual void on_look(const Result<StereoLook>& /*look*/) {}
+  /// Whether it can go on where the pose is lost.
+  [[nodiscard]] virtual bool needs_pose() const { return true; }
   /// A loop closure moved the map: `new_T_old` takes places of the map before to the map now, exact near the robot.
   virtual void map_moved(const Pose2& /*new_T_old*/) {}
   /// Time passes without steps while paused.

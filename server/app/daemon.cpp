@@ -52,9 +52,9 @@ int config_error(const Error& error) {
   return kExitConfig;
 }
 
-int serve(const DaemonArguments& arguments, const RobotOptions& options, Assembly assembly) {
+int serve(const DaemonArguments& arguments, const RobotOptions& options, const std::filesystem::path& state,
+          Assembly assembly) {
   const TerminationSignals signals;
-  const std::filesystem::path state = arguments.state.empty() ? default_state_folder() : arguments.state;
   Result<std::unique_ptr<Journal>> journal = Journal::open(state / options.robot_id);
   if (!journal) {
     log::error(kPart, journal.error().message);
@@ -67,7 +67,7 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, Assembl
   }
   Robot robot(
       {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
-      options.loop, std::move(assembly.parts), std::move(*journal), state / "maps");
+      options.loop, std::move(assembly.parts), std::move(*journal), state / "maps", std::move(assembly.landmarks));
   server_net::ServerParams params = options.server;
   params.port = arguments.port.value_or(params.port);
   params.robot_now = [&robot] { return robot.now(); };
@@ -122,11 +122,13 @@ int run_daemon(const DaemonArguments& arguments) {
     std::cout << config::print(*options);
     return EXIT_SUCCESS;
   }
-  Result<Assembly> assembly = assemble(*options);
+  const std::filesystem::path state = arguments.state.empty() ? default_state_folder() : arguments.state;
+  Result<Assembly> assembly = assemble(
+      *options, {.folder = state / "landmarks", .robot_id = options->robot_id, .software_version = SEEKER_VERSION});
   if (!assembly) {
     return config_error(assembly.error());
   }
-  return serve(arguments, *options, std::move(*assembly));
+  return serve(arguments, *options, state, std::move(*assembly));
 }
 
 }  // namespace seeker::app

@@ -3,6 +3,7 @@
 #include "common/core/rng.hpp"
 #include "server/app/estimators.hpp"
 #include "server/app/explore_behaviour.hpp"
+#include "server/app/localise_behaviour.hpp"
 #include "server/app/tracker_estimator.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/options/world_options.hpp"
@@ -39,6 +40,7 @@ Status make_sim(const RobotOptions& options, Assembly& assembly) {
   out.lidar = std::move(devices->lidar);
   out.sonar = std::move(devices->sonar);
   out.camera = std::move(devices->camera);
+  out.stereo = std::move(devices->stereo);
   out.clock = std::move(devices->clock);
   return {};
 }
@@ -62,15 +64,86 @@ Status make_replay(const RobotOptions& options, Assembly& assembly) {
   return {};
 }
 
+Status validate(const StereoSettings& settings) {
+  if (Status ok = vision::validate(settings.features); !ok) {
+    return fail_with_context("features", ok.error());
+  }
+  if (Status ok = localize::validate(settings.database); !ok) {
+    return fail_with_context("database", ok.error());
+  }
+  const Status ok = localize::validate(settings.localiser);
+  return ok ? ok : fail_with_context("localiser", ok.error());
+}
+
+Result<std::unique_ptr<Estimator>> make_estimator(const RobotOptions& options, const Assembly& assembly) {
+  if (is_tracker(options.estimator)) {
+    return std::unique_ptr<Estimator>(std::make_unique<TrackerEstimator>(make_tracker(options.estimator, options)));
+  }
+  if (assembly.parts.devices.stereo == nullptr) {
+    return fail(Errc::kInvalidArgument, "estimator landmarks needs a stereo camera, and this robot has none");
+  }
+  const LandmarkEstimatorParams& params = options.stereo.estimator;
+  if (const Status ok = validate_map_name(params.database); !ok) {
+    return fail(Errc::kInvalidArgument,
+                "estimator landmarks needs the name of a database; give it with --set stereo.estimator.database=NAME");
+  }
+  const Result<LoadedLandmarks> loaded = assembly.landmarks.library->load(params.database);
+  if (!loaded) {
+    return tl::unexpected<Error>(loaded.error());
+  }
+  Result<localize::StereoLocaliser> localiser = localize::StereoLocaliser::create(
+      assembly.parts.devices.stereo->geometry(), loaded->database, options.stereo.localiser);
+  if (!localiser) {
+    return fail_with_context("database '" + params.database + "'", localiser.error());
+  }
+  return std::unique_ptr<Estimator>(std::make_unique<LandmarkEstimator>(
+      std::move(*localiser), params, Rng(options.sim.seed).fork("landmark-estimator")));
+}
+
+/// Makes the missions of a robot with a stereo camera.
+class StereoMissions {
+ public:
+  StereoMissions(const RobotOptions& options, const Devices& devices, LandmarkUse landmarks)
+      : localiser_(options.stereo.localiser), landmarks_(std::move(landmarks)) {
+    settings_.params = options.stereo.survey;
+    settings_.go = options.go;
+    settings_.geometry = devices.stereo->geometry();
+    settings_.database = options.stereo.database;
+    settings_.arm = localiser_.arm;
+    settings_.eye_height_m = localiser_.eye_height_m;
+    settings_.inline_work = devices.clock->lockstep();
+  }
+
+  [[nodiscard]] Result<std::unique_ptr<Behaviour>> survey(const api::SurveyMission& mission,
+                                                          const Situation& situation) const {
+    return SurveyBehaviour::create(settings_, mission, landmarks_.library, situation);
+  }
+  [[nodiscard]] Result<std::unique_ptr<Behaviour>> localise(const api::LocaliseMission& mission,
+                                                            const Situation& situation) const {
+    return LocaliseBehaviour::create({.look = settings_.params.look,
+                                      .geometry = settings_.geometry,
+                                      .localiser = localiser_,
+                                      .estimator_database = landmarks_.in_use},
+                                     mission, *landmarks_.library, situation);
+  }
+
+ private:
+  SurveySettings settings_;
+  localize::LocaliserParams localiser_;
+  LandmarkUse landmarks_;
+};
+
 /// Makes behaviours; holds what they share over missions.
 class Behaviours {
  public:
-  Behaviours(const RobotOptions& options, std::shared_ptr<const search::ControlTable> table, bool has_camera)
+  Behaviours(const RobotOptions& options, std::shared_ptr<const search::ControlTable> table, bool has_camera,
+             std::optional<StereoMissions> stereo)
       : go_(options.go),
         search_(options.search),
         explore_(options.explore),
         table_(std::move(table)),
-        has_camera_(has_camera) {}
+        has_camera_(has_camera),
+        stereo_(std::move(stereo)) {}
 
   Result<std::unique_ptr<Behaviour>> operator()(const api::MissionTask& task, const Situation& situation) {
     if (const auto* go = std::get_if<api::GotoMission>(&task)) {
@@ -85,6 +158,12 @@ class Behaviours {
     if (const auto* explore = std::get_if<api::ExploreMission>(&task)) {
       return ExploreBehaviour::create(explore_, *explore, situation);
     }
+    if (const auto* survey = std::get_if<api::SurveyMission>(&task)) {
+      return stereo_ ? stereo_->survey(*survey, situation) : no_stereo();
+    }
+    if (const auto* localise = std::get_if<api::LocaliseMission>(&task)) {
+      return stereo_ ? stereo_->localise(*localise, situation) : no_stereo();
+    }
     if (!has_camera_) {
       return fail(Errc::kRefused, "this robot has no camera to search with");
     }
@@ -94,6 +173,9 @@ class Behaviours {
   [[nodiscard]] const EvidenceMemory& memory() const { return memory_; }
 
  private:
+  static Result<std::unique_ptr<Behaviour>> no_stereo() {
+    return fail(Errc::kRefused, "this robot has no stereo camera to find landmarks with");
+  }
   [[nodiscard]] Result<std::unique_ptr<Behaviour>> search(const api::SearchMission& mission,
                                                           const Situation& situation) const {
     std::unique_ptr<MapViewFinder> views;
@@ -111,13 +193,15 @@ class Behaviours {
   explore::ExploreParams explore_;
   std::shared_ptr<const search::ControlTable> table_;
   bool has_camera_;
+  std::optional<StereoMissions> stereo_;
   EvidenceMemory memory_ = std::make_shared<std::optional<search::EvidenceGrid>>();
 };
 
 }  // namespace
 
-Result<Assembly> assemble(const RobotOptions& options) {
+Result<Assembly> assemble(const RobotOptions& options, LandmarkStorage landmarks) {
   Assembly assembly;
+  assembly.landmarks.library = std::make_shared<LandmarkLibrary>(std::move(landmarks));
   const Status made = options.driver == DriverType::kSim ? make_sim(options, assembly) : make_replay(options, assembly);
   if (!made) {
     return tl::unexpected<Error>(made.error());
@@ -133,11 +217,28 @@ Result<Assembly> assemble(const RobotOptions& options) {
     return fail_with_context("control_table", table.error());
   }
   LoopParts& parts = assembly.parts;
-  parts.estimator = std::make_unique<TrackerEstimator>(make_tracker(options.estimator, options));
+  std::optional<StereoMissions> stereo;
+  if (parts.devices.stereo != nullptr) {
+    if (const Status ok = validate(options.stereo); !ok) {
+      return fail_with_context("stereo", ok.error());
+    }
+    parts.stereo = vision::make_stereo_extractor(parts.devices.stereo->geometry(), options.stereo.features);
+  }
+  if (options.estimator == EstimatorType::kLandmarks) {
+    assembly.landmarks.in_use = options.stereo.estimator.database;
+  }
+  Result<std::unique_ptr<Estimator>> estimator = make_estimator(options, assembly);
+  if (!estimator) {
+    return tl::unexpected<Error>(estimator.error());
+  }
+  parts.estimator = std::move(*estimator);
+  if (parts.devices.stereo != nullptr) {
+    stereo.emplace(options, parts.devices, assembly.landmarks);
+  }
   parts.estimator_type = to_string(options.estimator);
   parts.occupancy = options.occupancy;
   Behaviours behaviours(options, std::make_shared<const search::ControlTable>(std::move(*table)),
-                        parts.devices.camera != nullptr);
+                        parts.devices.camera != nullptr, std::move(stereo));
   parts.forget_places = [memory = behaviours.memory()] { memory->reset(); };
   parts.behaviours = std::move(behaviours);
   return assembly;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "server/app/devices.hpp"
+#include "server/app/landmark_library.hpp"
 #include "server/app/robot_loop.hpp"
 #include "server/app/robot_options.hpp"
 #include "server/drivers/sim/sim_devices.hpp"
@@ -16,9 +17,10 @@ struct Assembly {
   LoopParts parts;
   std::shared_ptr<sim::Simulation> simulation;
   std::shared_ptr<drivers::SimFaults> faults;
+  LandmarkUse landmarks;
 };
 
-/// Errors name the file or field that is wrong.
-[[nodiscard]] Result<Assembly> assemble(const RobotOptions& options);
+/// Errors name the file or field that is wrong. Without a folder in `landmarks` there are no databases of landmarks.
+[[nodiscard]] Result<Assembly> assemble(const RobotOptions& options, LandmarkStorage landmarks = {});
 
 }  // namespace seeker::app

@@ -1,5 +1,5 @@
 /// \file
-/// Whatever tells the robot where it is: dead reckoning, scan matching, later line SLAM and the feature database.
+/// Whatever tells the robot where it is: dead reckoning, scan matching, line SLAM, a database of landmarks.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include "common/core/pose_estimate.hpp"
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
+#include "server/app/stereo_look.hpp"
 #include "server/drivers/interfaces/drivers.hpp"
 #include "server/slam/map_tracker.hpp"
 
@@ -24,12 +25,22 @@ class Estimator {
   [[nodiscard]] virtual Status on_odometry(const drivers::OdometrySample& sample) = 0;
   /// Corrects by a sweep taken at the newest odometry. Errors as above.
   [[nodiscard]] virtual Status on_scan(const LaserScan& scan) = 0;
+  /// Whether it wants to see with both eyes now.
+  [[nodiscard]] virtual bool wants_look(RobotTime /*now*/) const { return false; }
+  /// Pictures were taken at the newest odometry; on_look() follows, perhaps some ticks later.
+  virtual void look_begun(RobotTime /*stamp*/) {}
+  /// What was asked for, or why there is nothing.
+  virtual void on_look(const Result<StereoLook>& /*look*/) {}
+  /// The robot is there: by landmarks, or because somebody says so. kNotReady: it cannot be told.
+  [[nodiscard]] virtual Status place_at(const PoseEstimate& /*place*/) {
+    return fail(Errc::kNotReady, "this estimator cannot be told where the robot is");
+  }
   [[nodiscard]] virtual PoseEstimate estimate() const = 0;
   /// The map of segments behind the estimate; null where none is kept.
   [[nodiscard]] virtual slam::MapTracker* map_tracker() { return nullptr; }
 };
 
 /// Which estimator a robot uses.
-enum class EstimatorType : std::uint8_t { kOdometry, kScanMatch, kLineSlam };
+enum class EstimatorType : std::uint8_t { kOdometry, kScanMatch, kLineSlam, kLandmarks };
 
 }  // namespace seeker::app

@@ -16,7 +16,9 @@ namespace seeker::app {
 [[nodiscard]] const std::vector<std::pair<std::string_view, EstimatorType>>& estimator_names();
 [[nodiscard]] std::string_view to_string(EstimatorType type);
 
-/// An estimator with the parameters of the robot file, at the origin of `map`.
+/// Whether it goes by wheels and walls alone: make_tracker() makes it.
+[[nodiscard]] bool is_tracker(EstimatorType type);
+/// A tracker with the parameters of the robot file, at the origin of `map`. Asserts is_tracker().
 [[nodiscard]] std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotOptions& options);
 
 }  // namespace seeker::app

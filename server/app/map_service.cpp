@@ -60,47 +60,14 @@ MapService::MapService(MapStorage storage, RobotLoop& loop, Mailbox& mailbox)
       loop_(loop),
       mailbox_(mailbox),
       files_(storage_.folder),
-      checkpoints_(storage_.folder / "checkpoints" / storage_.robot_id) {
-  thread_ = std::thread([this] { work(); });
-}
-
-MapService::~MapService() {
-  {
-    const std::lock_guard lock(mutex_);
-    quit_ = true;
-  }
-  wake_.notify_all();
-  thread_.join();
-}
-
-void MapService::work() {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    wake_.wait(lock, [this] { return quit_ || !queue_.empty(); });
-    if (queue_.empty()) {
-      return;
-    }
-    const Work next = std::move(queue_.front());
-    queue_.pop_front();
-    lock.unlock();
-    next(files_);
-    lock.lock();
-  }
-}
+      checkpoints_(storage_.folder / "checkpoints" / storage_.robot_id),
+      disk_(kMaxWaiting, "maps") {}
 
 Status MapService::enqueue(Work work) {
   if (storage_.folder.empty()) {
     return fail(Errc::kNotReady, "this robot has no folder to keep maps in; start it with --state FOLDER");
   }
-  {
-    const std::lock_guard lock(mutex_);
-    if (quit_ || queue_.size() >= kMaxWaiting) {
-      return fail(Errc::kBusy, "too many maps are being read and written; try again");
-    }
-    queue_.push_back(std::move(work));
-  }
-  wake_.notify_one();
-  return {};
+  return disk_.post([this, work = std::move(work)] { work(files_); });
 }
 
 template <class T>

@@ -3,18 +3,15 @@
 /// so that no tick waits for a disk.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/api/robot_api.hpp"
+#include "server/app/disk_worker.hpp"
 #include "server/app/mailbox.hpp"
 #include "server/app/robot_loop.hpp"
 #include "server/store/map_files.hpp"
@@ -28,14 +25,11 @@ struct MapStorage {
   std::string software_version;
 };
 
-/// Methods mean what they mean in api::RobotApi and may be called from any thread. Outlives neither loop nor mailbox.
+/// Methods mean what they mean in api::RobotApi and may be called from any thread. Outlives neither loop nor mailbox;
+/// its end finishes what was accepted.
 class MapService {
  public:
   MapService(MapStorage storage, RobotLoop& loop, Mailbox& mailbox);
-  MapService(const MapService&) = delete;
-  MapService& operator=(const MapService&) = delete;
-  /// Finishes what was accepted.
-  ~MapService();
 
   void save(const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply);
   void load(const std::string& name, api::MapUse use, const api::Reply<api::MapSummary>& reply);
@@ -61,18 +55,13 @@ class MapService {
   void write(const LoopMap& from, const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply);
   [[nodiscard]] store::MapFile file_of(const LoopMap& from, const std::string& name) const;
   void resume_from(const api::MissionId& mission, const api::Reply<void>& reply);
-  void work();
 
   MapStorage storage_;
   RobotLoop& loop_;
   Mailbox& mailbox_;
   store::MapFiles files_;
   store::MapFiles checkpoints_;  ///< of missions, by their ids; for the worker only
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::deque<Work> queue_;
-  bool quit_ = false;
-  std::thread thread_;
+  DiskWorker disk_;
 };
 
 }  // namespace seeker::app

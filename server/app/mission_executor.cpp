@@ -122,7 +122,7 @@ bool MissionExecutor::hold_for_trouble(const Situation& situation, const api::Fa
     }
     return true;
   }
-  if (situation.pose.quality == LocalisationQuality::kLost) {
+  if (situation.pose.quality == LocalisationQuality::kLost && active_->behaviour->needs_pose()) {
     if (!active_->unlocalised_since) {
       active_->unlocalised_since = situation.now;
       log(situation.now, "mission-held", "lost: " + situation.pose.cause, api::Severity::kError);
@@ -228,6 +228,12 @@ void MissionExecutor::on_recognition(const Recognition& recognition) {
   if (active_) {
     active_->behaviour->on_recognition(recognition);
     collect();
+  }
+}
+
+void MissionExecutor::on_look(const Result<StereoLook>& look) {
+  if (active_) {
+    active_->behaviour->on_look(look);
   }
 }
 

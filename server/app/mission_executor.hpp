@@ -51,6 +51,7 @@ class MissionExecutor {
   /// One tick; a decision without command when nothing runs. `blocking` is a fault that forbids motion.
   [[nodiscard]] Decision step(const Situation& situation, const api::Fault* blocking, WallTime wall_now);
   void on_recognition(const Recognition& recognition);
+  void on_look(const Result<StereoLook>& look);
   /// What a running mission knows of places moves with the map; what ended missions left keeps its old epoch.
   void map_moved(const Pose2& new_T_old, RobotTime now);
 

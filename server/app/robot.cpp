@@ -107,6 +107,19 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override {
     robot_.maps_.upload(upload, reply);
   }
+  void list_landmarks(api::Reply<std::vector<api::LandmarkSummary>> reply) override { robot_.landmarks_.list(reply); }
+  void inspect_landmarks(const std::string& name, bool verify, api::Reply<api::LandmarkSummary> reply) override {
+    robot_.landmarks_.inspect(name, verify, reply);
+  }
+  void get_landmarks(const std::string& name, api::Reply<std::vector<api::LandmarkPoint>> reply) override {
+    robot_.landmarks_.points(name, reply);
+  }
+  void prune_landmarks(const std::string& name, int min_views, api::Reply<api::LandmarkSummary> reply) override {
+    robot_.landmarks_.prune(name, min_views, reply);
+  }
+  void delete_landmarks(const std::string& name, api::Reply<void> reply) override {
+    robot_.landmarks_.remove(name, reply);
+  }
   void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
     ask(std::move(reply), [this, map_T_base] { return loop().relocalise(map_T_base); });
   }
@@ -136,12 +149,13 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
 };
 
 Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal,
-             const std::filesystem::path& maps)
+             const std::filesystem::path& maps, LandmarkUse landmarks)
     : identity_(std::move(identity)),
       loop_(params, std::move(parts), hub_),
       mailbox_(kMailboxCapacity),
       journal_(std::move(journal)),
-      maps_({maps, identity_.robot_id, identity_.software_version}, loop_, mailbox_) {
+      maps_({maps, identity_.robot_id, identity_.software_version}, loop_, mailbox_),
+      landmarks_(std::move(landmarks.library), std::move(landmarks.in_use)) {
   if (journal_) {
     keep_journal();
   }

@@ -9,6 +9,7 @@
 
 #include "common/api/robot_api.hpp"
 #include "server/app/journal.hpp"
+#include "server/app/landmark_service.hpp"
 #include "server/app/mailbox.hpp"
 #include "server/app/map_service.hpp"
 #include "server/app/robot_loop.hpp"
@@ -26,7 +27,7 @@ class Robot final : public api::RobotHost {
  public:
   /// `journal` may be null: nothing is kept over a restart then. An empty `maps` folder: no maps are kept.
   Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal = nullptr,
-        const std::filesystem::path& maps = {});
+        const std::filesystem::path& maps = {}, LandmarkUse landmarks = {});
   ~Robot() override;
 
   /// Starts the components, then the thread. With `wait_for_client` a replay begins with the first session.
@@ -57,6 +58,7 @@ class Robot final : public api::RobotHost {
   Mailbox mailbox_;
   std::unique_ptr<Journal> journal_;
   MapService maps_;
+  LandmarkService landmarks_;
   std::thread thread_;
   std::atomic<bool> client_seen_{false};
   std::atomic<bool> ended_{false};

@@ -19,6 +19,15 @@ Status check(const drivers::OdometrySample& sample) {
   }
   return {};
 }
+Result<Recognition> recognise(const vision::Recogniser& recogniser, const Image& picture, Recognition context) {
+  Result<vision::RecognitionReport> report = recogniser.recognise(picture);
+  if (!report) {
+    return tl::unexpected<Error>(report.error());
+  }
+  context.sightings = std::move(report->sightings);
+  return context;
+}
+
 Status check(const LaserScan& scan) { return validate(scan); }
 Status check(const SonarScan& scan) { return validate(scan); }
 
@@ -47,7 +56,8 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
                        }
                        hub_.publish(api::Topic::kDetection, now(), detection);
                      }}),
-      recognition_(parts_.devices.clock->lockstep()),
+      recognition_(parts_.devices.clock->lockstep(), "the recogniser failed on a picture"),
+      looks_(parts_.devices.clock->lockstep(), "a stereo picture could not be looked at"),
       map_(params.map, parts_.occupancy, parts_.estimator->map_tracker()) {
   register_components();
 }
@@ -65,6 +75,7 @@ void RobotLoop::register_components() {
   driver("lidar", parts_.devices.lidar.get());
   driver("sonar", parts_.devices.sonar.get());
   driver("camera", parts_.devices.camera.get());
+  driver("stereo", parts_.devices.stereo.get());
   components_.add("pose", "estimator", parts_.estimator_type, {});
   components_.add("mission", "behaviour", "executor", {});
   components_.add("recogniser", "recogniser", "template+features", {});
@@ -209,15 +220,27 @@ Situation RobotLoop::situation() const {
   s.tracker = parts_.estimator->map_tracker();
   s.map_is_read_only = map_.identity().use == api::MapUse::kLocalise;
   s.battery_v = odometry_ ? odometry_->battery_v : std::nullopt;
+  s.odom_T_base = odometry_ ? odometry_->odom_T_base : Pose2{};
+  s.map_name = map_.identity().name;
+  s.has_stereo = parts_.devices.stereo != nullptr && parts_.stereo != nullptr;
   return s;
 }
 
 Twist2 RobotLoop::decide(WallTime wall_now) {
   take_recognition();
+  take_look();
   const Situation here = situation();
   const Decision decision = missions_.step(here, faults_.blocking(), wall_now);
   if (decision.wants_image && missions_.running()) {
     look();
+  }
+  if (decision.place) {
+    place_at(*decision.place);
+  }
+  const bool for_mission = decision.wants_look && missions_.running();
+  if (for_mission || parts_.estimator->wants_look(now())) {
+    look_for_mission_ = look_for_mission_ || for_mission;
+    look_with_both();
   }
   if (missions_.running()) {
     authority_.cancel_drive();
@@ -244,14 +267,14 @@ void RobotLoop::look() {
     hub_.publish(api::Topic::kImage, now(),
                  api::ImageFrame{.camera = "omni", .frame = *frame, .map_T_base = pose_.map_T_base});
   }
-  RecognitionJob job;
-  job.recogniser = recogniser;
-  job.context.stamp = frame->stamp;
-  job.context.map_T_base = pose_.map_T_base;
-  job.context.scan = scan_;
-  job.context.sonar = sonar_;
-  job.image = std::move(frame->image);
-  recognition_.start(std::move(job));
+  Recognition context;
+  context.stamp = frame->stamp;
+  context.map_T_base = pose_.map_T_base;
+  context.scan = scan_;
+  context.sonar = sonar_;
+  recognition_.start([recogniser, context = std::move(context), picture = std::move(frame->image)] {
+    return recognise(*recogniser, picture, context);
+  });
   take_recognition();  // inline: the answer is there at once
 }
 

@@ -10,17 +10,18 @@
 #include <vector>
 
 #include "common/api/robot_api.hpp"
+#include "server/app/background.hpp"
 #include "server/app/components.hpp"
 #include "server/app/devices.hpp"
 #include "server/app/estimator.hpp"
 #include "server/app/faults.hpp"
 #include "server/app/mission_executor.hpp"
 #include "server/app/motion_authority.hpp"
-#include "server/app/recognition_runner.hpp"
 #include "server/app/robot_map.hpp"
 #include "server/app/safety_supervisor.hpp"
 #include "server/app/update_hub.hpp"
 #include "server/nav/occupancy_map.hpp"
+#include "server/vision/stereo_features.hpp"
 
 namespace seeker::app {
 
@@ -42,6 +43,7 @@ struct LoopParams {
 struct LoopParts {
   Devices devices;
   std::unique_ptr<Estimator> estimator;
+  std::shared_ptr<const vision::StereoExtractor> stereo;  ///< what looks at stereo pictures; null: nobody wants them
   std::string estimator_type;
   BehaviourFactory behaviours;
   nav::OccupancyParams occupancy;
@@ -137,6 +139,12 @@ class RobotLoop {
   [[nodiscard]] Twist2 decide(WallTime wall_now);
   /// Takes a picture and has the mission's recogniser look at it.
   void look();
+  // Looking with both eyes (robot_stereo.cpp).
+  void look_with_both();
+  void take_look();
+  /// To the estimator, and to the mission where it asked.
+  void give_look(const Result<StereoLook>& look);
+  void place_at(const PoseEstimate& place);
   /// Hands a finished recognition to the mission, or reports why there is none.
   void take_recognition();
   void act(const Twist2& wanted);
@@ -166,7 +174,9 @@ class RobotLoop {
   FaultList faults_;
   MotionAuthority authority_;
   MissionExecutor missions_;
-  RecognitionRunner recognition_;
+  Background<Recognition> recognition_;
+  Background<StereoLook> looks_;
+  bool look_for_mission_ = false;  ///< a mission waits for the answer to a look
   RobotMap map_;
 
   std::optional<drivers::OdometrySample> odometry_;

@@ -7,6 +7,7 @@
 #include "server/options/search_options.hpp"
 #include "server/options/sim_options.hpp"
 #include "server/options/slam_options.hpp"
+#include "server/options/stereo_options.hpp"
 #include "server/options/vision_options.hpp"
 
 // None of these may stand in an unnamed namespace: argument-dependent look-up would not find them from Fields.
@@ -123,6 +124,36 @@ void describe(config::Fields& f, SearchBehaviourParams& params) {
   f.section("recogniser", params.recogniser);
 }
 
+void describe(config::Fields& f, LandmarkEstimatorParams& params) {
+  f.field("database", params.database);
+  f.seconds("look_period_s", params.look_period);
+  f.check("look_period_s", params.look_period > Duration::zero(), "must be above 0");
+  f.seconds("odometry_gap_s", params.odometry_gap);
+}
+
+void describe(config::Fields& f, TurnAndLookParams& params) {
+  f.section("follower", params.follower);
+  f.field("settle_s", params.settle_s);
+  f.angle_deg("still_deg_s", params.still_rad_s);
+  f.field("turn_time_s", params.turn_time_s);
+  f.field("tries", params.tries);
+  f.check("tries", params.tries > 0, "must be above 0");
+}
+
+void describe(config::Fields& f, SurveyParams& params) {
+  f.field("spacing_m", params.spacing_m);
+  f.check("spacing_m", params.spacing_m > 0.0, "must be above 0");
+  f.section("look", params.look);
+}
+
+void describe(config::Fields& f, StereoSettings& settings) {
+  f.section("features", settings.features);
+  f.section("database", settings.database);
+  f.section("localiser", settings.localiser);
+  f.section("estimator", settings.estimator);
+  f.section("survey", settings.survey);
+}
+
 void describe(config::Fields& f, RobotOptions& options) {
   f.field("robot_id", options.robot_id);
   f.choice("driver", options.driver,
@@ -139,6 +170,7 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("search", options.search);
   f.section("control_table", options.control_table);
   f.section("explore", options.explore);
+  f.section("stereo", options.stereo);
   f.section("server", options.server);
 }
 

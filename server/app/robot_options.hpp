@@ -9,8 +9,10 @@
 
 #include "common/config/yaml.hpp"
 #include "server/app/goto_behaviour.hpp"
+#include "server/app/landmark_estimator.hpp"
 #include "server/app/robot_loop.hpp"
 #include "server/app/search_behaviour.hpp"
+#include "server/app/survey_behaviour.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/drivers/sim/sim_devices.hpp"
 #include "server/explore/explore_params.hpp"
@@ -42,6 +44,15 @@ struct ReplaySettings {
   drivers::ReplayParams params;
 };
 
+/// Everything about the stereo camera but the camera itself.
+struct StereoSettings {
+  vision::StereoFeatureParams features;
+  localize::DatabaseParams database;
+  localize::LocaliserParams localiser;
+  LandmarkEstimatorParams estimator;
+  SurveyParams survey;
+};
+
 struct RobotOptions {
   std::string robot_id = "seeker-1";
   DriverType driver = DriverType::kSim;
@@ -57,6 +68,7 @@ struct RobotOptions {
   SearchBehaviourParams search;
   search::ControlTableParams control_table;
   explore::ExploreParams explore;
+  StereoSettings stereo;
   server_net::ServerParams server;
   std::filesystem::path folder;  ///< of the robot file; not a field
 };

@@ -7,7 +7,9 @@ namespace seeker::lab {
 std::vector<std::string> estimator_names() {
   std::vector<std::string> names;
   for (const auto& [name, type] : app::estimator_names()) {
-    names.emplace_back(name);
+    if (app::is_tracker(type)) {
+      names.emplace_back(name);
+    }
   }
   return names;
 }
@@ -17,6 +19,9 @@ std::string name_of(app::EstimatorType type) { return std::string(app::to_string
 Result<std::unique_ptr<slam::PoseTracker>> make_tracker(const std::string& name, const app::RobotOptions& options) {
   std::string names;
   for (const auto& [known, type] : app::estimator_names()) {
+    if (!app::is_tracker(type)) {
+      continue;
+    }
     if (known == name) {
       return app::make_tracker(type, options);
     }

@@ -238,7 +238,7 @@ void handle(const SessionPtr& session, const pb::Request& request, RobotTime rec
     case R::kTimeSync: return time_sync(responder, s);
     default: break;
   }
-  if (!handle_map_call(responder, s, request)) {
+  if (!handle_map_call(responder, s, request) && !handle_landmark_call(responder, s, request)) {
     read_call(responder, s, request);
   }
 }

@@ -5,16 +5,6 @@
 namespace seeker::server_net {
 namespace {
 
-/// Calls `go` when the name of a map may be one; else the answer is that it may not.
-template <class Go>
-void with_name(const Responder& responder, const std::string& name, Go go) {
-  if (const Status ok = validate_map_name(name); !ok) {
-    responder.answer_now(ok);
-  } else {
-    go();
-  }
-}
-
 /// The reply of a call whose answer is the summary of a map; `field` is its place in the response.
 template <class Field>
 api::Reply<api::MapSummary> reply_summary(const Responder& responder, Field field) {

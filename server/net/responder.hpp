@@ -66,7 +66,19 @@ inline api::Reply<void> reply_empty(const Responder& responder) {
   return reply_with<void>(responder, [] {});
 }
 
-/// The calls about maps of segments (map_handlers.cpp); false when the request is none of them.
+/// Calls `go` when a map, or a database of landmarks, may be named so; else the answer is that it may not.
+template <class Go>
+void with_name(const Responder& responder, const std::string& name, Go go) {
+  if (const Status ok = validate_map_name(name); !ok) {
+    responder.answer_now(ok);
+  } else {
+    go();
+  }
+}
+
+/// The calls about maps of segments (map_handlers.cpp) and about landmarks (landmark_handlers.cpp); false when the
+/// request is none of them.
 [[nodiscard]] bool handle_map_call(const Responder& responder, Session& session, const pb::Request& request);
+[[nodiscard]] bool handle_landmark_call(const Responder& responder, Session& session, const pb::Request& request);
 
 }  // namespace seeker::server_net

@@ -228,6 +228,49 @@ class FakeRobot final : public api::RobotApi {
       return v.segments ? Status() : Status(no_map());
     });
   }
+  void list_landmarks(api::Reply<std::vector<api::LandmarkSummary>> reply) override {
+    read<std::vector<api::LandmarkSummary>>("list_landmarks", reply, [](const FakeRobotValues& v) {
+      std::vector<api::LandmarkSummary> databases;
+      for (const auto& [name, landmarks] : v.landmarks) {
+        databases.push_back(summary_of(name, landmarks));
+      }
+      return databases;
+    });
+  }
+  void inspect_landmarks(const std::string& name, bool verify, api::Reply<api::LandmarkSummary> reply) override {
+    read<api::LandmarkSummary>("inspect_landmarks " + name + (verify ? " verify" : ""), reply,
+                               [&](FakeRobotValues& v) -> Result<api::LandmarkSummary> {
+                                 const auto found = v.landmarks.find(name);
+                                 return found != v.landmarks.end()
+                                            ? summary_of(name, found->second)
+                                            : Result<api::LandmarkSummary>(no_such_landmarks(name));
+                               });
+  }
+  void get_landmarks(const std::string& name, api::Reply<std::vector<api::LandmarkPoint>> reply) override {
+    using Landmarks = std::vector<api::LandmarkPoint>;
+    read<Landmarks>("get_landmarks " + name, reply, [&](FakeRobotValues& v) -> Result<Landmarks> {
+      const auto found = v.landmarks.find(name);
+      return found != v.landmarks.end() ? found->second : Result<Landmarks>(no_such_landmarks(name));
+    });
+  }
+  void prune_landmarks(const std::string& name, int min_views, api::Reply<api::LandmarkSummary> reply) override {
+    read<api::LandmarkSummary>("prune_landmarks " + name + " " + std::to_string(min_views), reply,
+                               [&](FakeRobotValues& v) -> Result<api::LandmarkSummary> {
+                                 const auto found = v.landmarks.find(name);
+                                 if (found == v.landmarks.end()) {
+                                   return no_such_landmarks(name);
+                                 }
+                                 std::erase_if(found->second, [&](const api::LandmarkPoint& landmark) {
+                                   return landmark.views < static_cast<std::uint32_t>(min_views);
+                                 });
+                                 return summary_of(name, found->second);
+                               });
+  }
+  void delete_landmarks(const std::string& name, api::Reply<void> reply) override {
+    change("delete_landmarks " + name, reply, [&](FakeRobotValues& v) {
+      return v.landmarks.erase(name) > 0 ? Status() : Status(no_such_landmarks(name));
+    });
+  }
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                        api::UpdateSink sink) override;
 
@@ -254,6 +297,15 @@ class FakeRobot final : public api::RobotApi {
   }
   static tl::unexpected<Error> no_map() {
     return fail(Errc::kNotReady, "the estimator keeps no map of segments; start the robot with estimator: line_slam");
+  }
+  static tl::unexpected<Error> no_such_landmarks(const std::string& name) {
+    return fail(Errc::kNotFound, "there is no database of landmarks '" + name + "'; 'seeker survey' makes one");
+  }
+  static api::LandmarkSummary summary_of(const std::string& name, const std::vector<api::LandmarkPoint>& landmarks) {
+    api::LandmarkSummary summary;
+    summary.name = name;
+    summary.landmarks = static_cast<std::uint32_t>(landmarks.size());
+    return summary;
   }
   static tl::unexpected<Error> no_such_map(const std::string& name) {
     return fail(Errc::kNotFound, "there is no map '" + name + "'; none has been saved yet");

@@ -26,11 +26,13 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
     }
   };
   visit(tree, {});
-  EXPECT_EQ(names, (std::vector<std::string>{
-                       "status", "watch",      "map",      "export",     "save",       "load",  "list",       "info",
-                       "verify", "delete",     "download", "upload",     "relocalise", "grid",  "detections", "camera",
-                       "grab",   "components", "search",   "explore",    "goto",       "drive", "stop",       "estop",
-                       "pause",  "resume",     "run",      "completion", "version"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "status", "watch",      "map",      "export",     "save",       "load",   "list",       "info",
+                "verify", "delete",     "download", "upload",     "relocalise", "grid",   "detections", "camera",
+                "grab",   "components", "search",   "explore",    "goto",       "survey", "localise",   "landmarks",
+                "info",   "verify",     "export",   "prune",      "delete",     "drive",  "stop",       "estop",
+                "pause",  "resume",     "run",      "completion", "version"}));
 }
 
 TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
@@ -44,6 +46,11 @@ TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
       {"search", "--target", "a", "--detach", "--save", "x"},
       {"explore", "--strategy", "by-chance"},
       {"explore", "--link-policy", "hope"},
+      {"survey"},
+      {"survey", "lab", "--headings", "0"},
+      {"localise"},
+      {"landmarks"},
+      {"landmarks", "prune", "lab", "--min-views", "0"},
       {"drive", "0.2"},
       {"drive", "fast", "0"},
       {"map"},

@@ -31,10 +31,19 @@ TEST(Script, StepsKeepTheirValues) {
       "  - map_export: out/night\n"
       "  - explore: {strategy: gain, bound: [[0, 0], [4, 0], [4, 4]], keep_out: [{corners: [[1, 1], [2, 1], [2, 2]]}], "
       "return_to_start: true}\n"
-      "  - search: {targets: [ring], explore: true}\n",
+      "  - search: {targets: [ring], explore: true}\n"
+      "  - survey: {landmarks: lab, places: [[1, 2]], headings: 6, replace: true}\n"
+      "  - localise: {landmarks: lab, time_limit: 60s}\n",
       "m.yaml");
   ASSERT_TRUE(script) << script.error().message;
-  ASSERT_EQ(script->steps.size(), 10U);
+  ASSERT_EQ(script->steps.size(), 12U);
+  const auto& survey = std::get<SurveyStep>(script->steps[10].action);
+  EXPECT_EQ(survey.landmarks, "lab");
+  EXPECT_EQ(survey.places, std::vector<Point2>{Point2(1.0, 2.0)});
+  EXPECT_EQ(survey.headings, 6);
+  EXPECT_TRUE(survey.replace);
+  EXPECT_EQ(std::get<LocaliseStep>(script->steps[11].action).landmarks, "lab");
+  EXPECT_TRUE(is_mission(script->steps[11].action));
   const auto& explore = std::get<ExploreStep>(script->steps[8].action);
   EXPECT_EQ(explore.strategy, api::ExploreStrategy::kGain);
   EXPECT_EQ(explore.bound->size(), 3U);

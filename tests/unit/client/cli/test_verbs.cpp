@@ -160,6 +160,23 @@ TEST_F(Verbs, ExploreSendsWhatTheUserAskedFor) {
   EXPECT_TRUE(std::get<api::SearchMission>(missions[2].task).explore);
 }
 
+TEST_F(Verbs, SurveyAndLocaliseSendWhatTheUserAskedFor) {
+  EXPECT_EQ(run({"survey", "lab", "--at", "1,0", "--at", "4,2.5", "--headings", "8", "--replace", "--keep-out",
+                 "1,1 2,1 2,2", "--detach"})
+                .code,
+            0);
+  host->edit([](testing::FakeRobotValues& v) { v.mission.reset(); });
+  EXPECT_EQ(run({"localise", "lab", "--time-limit", "60", "--detach"}).code, 0);
+  EXPECT_EQ(run({"survey", "../lab"}).code, 2);
+  EXPECT_EQ(run({"survey", "lab", "--at", "here"}).code, 2);
+  const auto missions = host->values().missions;
+  ASSERT_EQ(missions.size(), 2U);
+  const api::SurveyMission survey{"lab", {{1.0, 0.0}, {4.0, 2.5}}, 8, true, {{{1, 1}, {2, 1}, {2, 2}}}};
+  EXPECT_EQ(std::get<api::SurveyMission>(missions[0].task), survey);
+  EXPECT_EQ(std::get<api::LocaliseMission>(missions[1].task), (api::LocaliseMission{"lab", 12}));
+  EXPECT_EQ(*missions[1].time_limit, seconds(60));
+}
+
 TEST_F(Verbs, AnExplorationThatReachedItsBoundHasSucceeded) {
   EXPECT_EQ(run({"explore"}, [&] { end_mission(api::Outcome::kBoundReached); }).code, 0);
   EXPECT_EQ(run({"explore"}, [&] { end_mission(api::Outcome::kUnreachable); }).code, 1);

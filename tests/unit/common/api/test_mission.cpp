@@ -120,6 +120,24 @@ TEST(MissionRequest, AreasOfAnExplorationAreChecked) {
   EXPECT_TRUE(validate({"m", explore, LinkPolicy::kStop, std::nullopt}));
 }
 
+TEST(MissionRequest, SurveyAndLocaliseNeedANameAndHeadings) {
+  const auto check = [](const MissionTask& task) { return validate({"m", task, LinkPolicy::kStop, std::nullopt}); };
+  EXPECT_TRUE(check(SurveyMission{"lab", {}, 12, false, {}}));
+  EXPECT_TRUE(check(LocaliseMission{"lab", 1}));
+  EXPECT_THAT(check(SurveyMission{"My Lab", {}, 12, false, {}}).error().message, HasSubstr("landmarks"));
+  EXPECT_EQ(check(LocaliseMission{"", 12}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(check(LocaliseMission{"lab", 0}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(check(SurveyMission{"lab", {}, kMaxHeadings + 1, false, {}}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(check(SurveyMission{"lab", std::vector<Point2>(kMaxSurveyPlaces + 1, Point2::Zero()), 12, false, {}})
+                .error()
+                .code,
+            Errc::kTooLarge);
+  EXPECT_EQ(check(SurveyMission{"lab", {{std::nan(""), 0.0}}, 12, false, {}}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(check(SurveyMission{"lab", {}, 12, false, {kBowTie}}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(task_name(SurveyMission{}), "survey");
+  EXPECT_EQ(task_name(LocaliseMission{}), "localise");
+}
+
 TEST(MissionRequest, PublishedSearchDoesNotExplore) {
   MissionRequest request = search_for(target());
   std::get<SearchMission>(request.task).explore = true;

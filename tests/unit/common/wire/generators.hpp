@@ -48,6 +48,8 @@ class ValueMaker {
   MapSegment segment();
   api::SegmentUpdate segments();
   api::MapSummary map_summary();
+  api::LandmarkSummary landmark_summary();
+  api::LandmarkPoint landmark();
   api::LineMapStatus line_map();
   std::vector<api::StampedPose> trajectory();
   api::Detection detection();

@@ -43,6 +43,8 @@ RC_GTEST_PROP(Convert, EveryValueComesBackUnchanged, (std::uint64_t seed)) {
   expect_round_trip<pb::Segment>(make.segment());
   expect_round_trip<pb::SegmentUpdate>(make.segments());
   expect_round_trip<pb::MapSummary>(make.map_summary());
+  expect_round_trip<pb::LandmarkSummary>(make.landmark_summary());
+  expect_round_trip<pb::Landmark>(make.landmark());
   expect_round_trip<pb::LineMapStatus>(make.line_map());
   expect_round_trip<pb::PoseList>(make.trajectory());
   RC_ASSERT(!::testing::Test::HasFailure());
@@ -131,6 +133,15 @@ TEST(Convert, RefusalsNameTheField) {
   explore.set_id("m");
   explore.mutable_explore()->set_strategy(static_cast<pb::ExploreStrategy>(6));
   expect_refused<api::MissionRequest>(explore, "explore.strategy", Errc::kInvalidArgument);
+  pb::MissionRequest survey;
+  survey.set_id("m");
+  survey.mutable_survey()->set_headings(1U << 31U);
+  expect_refused<api::MissionRequest>(survey, "survey.headings", Errc::kInvalidArgument);
+  auto landmark = to_message<pb::Landmark>(make.landmark());
+  landmark.set_z_m(std::nan(""));
+  expect_refused<api::LandmarkPoint>(landmark, "z_m", Errc::kInvalidArgument);
+  landmark.set_id(0);
+  expect_refused<api::LandmarkPoint>(landmark, "id", Errc::kInvalidArgument);
   pb::MissionRequest nothing;
   nothing.set_id("m");
   expect_refused<api::MissionRequest>(nothing, "task", Errc::kInvalidArgument);

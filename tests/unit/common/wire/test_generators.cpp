@@ -104,7 +104,7 @@ api::MissionRequest ValueMaker::mission() {
   if (flag()) {
     m.time_limit = Duration(count(1'000'000));
   }
-  switch (count(3)) {
+  switch (count(5)) {
     case 0: {
       api::SearchMission search;
       for (int k = count(3); k > 0; --k) {
@@ -138,6 +138,8 @@ api::MissionRequest ValueMaker::mission() {
       m.task = explore;
       break;
     }
+    case 3: m.task = api::SurveyMission{text(), points(), count(99), flag(), {points()}}; break;
+    case 4: m.task = api::LocaliseMission{text(), count(99)}; break;
     default: m.task = api::ReturnMission{};
   }
   return m;
@@ -253,6 +255,24 @@ api::MapSummary ValueMaker::map_summary() {
           .segments = figure(),
           .keyframes = figure(),
           .problem = text()};
+}
+
+api::LandmarkSummary ValueMaker::landmark_summary() {
+  return {.name = "lab",
+          .robot_id = text(),
+          .software_version = text(),
+          .map_name = text(),
+          .calibration = rng_.bits(),
+          .created_unix_s = count(1'000'000),
+          .saved_unix_s = -count(1'000'000),
+          .file_bytes = rng_.bits(),
+          .revision = rng_.bits(),
+          .landmarks = static_cast<std::uint32_t>(rng_.bits()),
+          .problem = text()};
+}
+
+api::LandmarkPoint ValueMaker::landmark() {
+  return {rng_.bits() | 1U, {number(), number()}, number(), number(), static_cast<std::uint32_t>(rng_.bits())};
 }
 
 api::LineMapStatus ValueMaker::line_map() {

@@ -1,0 +1,86 @@
+#include "server/app/landmark_estimator.hpp"
+
+#include <cmath>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::app {
+
+Twist2 mean_velocity(const Pose2& odom_T_from, const Pose2& odom_T_to, double tau_s) {
+  const Pose2 step = inverse(odom_T_from) * odom_T_to;
+  const double turn_rad = wrap_angle(step.theta_rad);
+  // The way along the arc whose chord the step is.
+  const double half_rad = 0.5 * turn_rad;
+  const double arc = std::abs(half_rad) > 1e-6 ? half_rad / std::sin(half_rad) : 1.0;
+  const double way_m = std::copysign(step.translation().norm(), step.x_m) * arc;
+  return {way_m / tau_s, turn_rad / tau_s};
+}
+
+LandmarkEstimator::LandmarkEstimator(localize::StereoLocaliser localiser, const LandmarkEstimatorParams& params,
+                                     Rng rng)
+    : localiser_(std::move(localiser)), params_(params), rng_(std::move(rng)) {
+  localiser_.start_anywhere();
+}
+
+Status LandmarkEstimator::on_odometry(const drivers::OdometrySample& sample) {
+  if (!samples_.empty() && sample.stamp <= samples_.back().stamp) {
+    return fail(Errc::kInvalidArgument, "the odometry's time runs backwards; check the clock of the base");
+  }
+  if (!samples_.empty() && sample.stamp - samples_.back().stamp > params_.odometry_gap) {
+    samples_ = {sample};
+    return fail(Errc::kTimeout, "the odometry had a gap; the way driven meanwhile is not known");
+  }
+  samples_.push_back(sample);
+  if (!looking_) {
+    catch_up();
+  }
+  return {};
+}
+
+void LandmarkEstimator::catch_up() {
+  for (std::size_t next = 1; next < samples_.size(); ++next) {
+    const drivers::OdometrySample& from = samples_[next - 1];
+    const drivers::OdometrySample& to = samples_[next];
+    const double tau_s = to_seconds(to.stamp - from.stamp);
+    localiser_.predict(mean_velocity(from.odom_T_base, to.odom_T_base, tau_s), tau_s);
+  }
+  samples_ = {samples_.back()};
+}
+
+bool LandmarkEstimator::wants_look(RobotTime now) const {
+  return !looking_ && !samples_.empty() && (!looked_at_ || now - *looked_at_ >= params_.look_period);
+}
+
+void LandmarkEstimator::look_begun(RobotTime stamp) {
+  looking_ = true;
+  looked_at_ = stamp;
+}
+
+void LandmarkEstimator::on_look(const Result<StereoLook>& look) {
+  looking_ = false;
+  if (look) {
+    localiser_.update(look->features.features, rng_);
+  } else {
+    localiser_.miss(look.error().message);
+    looked_at_ = samples_.empty() ? looked_at_ : samples_.back().stamp;
+  }
+  if (!samples_.empty()) {
+    catch_up();
+  }
+}
+
+Status LandmarkEstimator::place_at(const PoseEstimate& place) {
+  return localiser_.start_at(place.map_T_base, place.covariance);
+}
+
+PoseEstimate LandmarkEstimator::estimate() const {
+  if (samples_.empty()) {
+    return localiser_.estimate(RobotTime());
+  }
+  PoseEstimate estimate = localiser_.estimate(samples_.back().stamp);
+  // Motion that the localiser has not been told yet; its noise is added when it has.
+  estimate.map_T_base = estimate.map_T_base * (inverse(samples_.front().odom_T_base) * samples_.back().odom_T_base);
+  return estimate;
+}
+
+}  // namespace seeker::app
