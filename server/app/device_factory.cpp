@@ -71,6 +71,9 @@ Status validate(const StereoSettings& settings) {
   if (Status ok = localize::validate(settings.database); !ok) {
     return fail_with_context("database", ok.error());
   }
+  if (Status ok = localize::validate(settings.estimator.update); !ok) {
+    return fail_with_context("estimator.update", ok.error());
+  }
   const Status ok = localize::validate(settings.localiser);
   return ok ? ok : fail_with_context("localiser", ok.error());
 }
@@ -96,8 +99,12 @@ Result<std::unique_ptr<Estimator>> make_estimator(const RobotOptions& options, c
   if (!localiser) {
     return fail_with_context("database '" + params.database + "'", localiser.error());
   }
-  return std::unique_ptr<Estimator>(std::make_unique<LandmarkEstimator>(
-      std::move(*localiser), params, Rng(options.sim.seed).fork("landmark-estimator")));
+  return std::unique_ptr<Estimator>(
+      std::make_unique<LandmarkEstimator>(std::move(*localiser), loaded->database, params,
+                                          LandmarkUpdating{.library = assembly.landmarks.library,
+                                                           .geometry = assembly.parts.devices.stereo->geometry(),
+                                                           .inline_work = assembly.parts.devices.clock->lockstep()},
+                                          Rng(options.sim.seed).fork("landmark-estimator")));
 }
 
 /// Makes the missions of a robot with a stereo camera.

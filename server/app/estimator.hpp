@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/core/pose_estimate.hpp"
 #include "common/core/result.hpp"
@@ -35,6 +36,8 @@ class Estimator {
   [[nodiscard]] virtual Status place_at(const PoseEstimate& /*place*/) {
     return fail(Errc::kNotReady, "this estimator cannot be told where the robot is");
   }
+  /// What happened since it was asked last and people should know.
+  [[nodiscard]] virtual std::vector<std::string> take_news() { return {}; }
   [[nodiscard]] virtual PoseEstimate estimate() const = 0;
   /// The map of segments behind the estimate; null where none is kept.
   [[nodiscard]] virtual slam::MapTracker* map_tracker() { return nullptr; }

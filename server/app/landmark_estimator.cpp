@@ -16,9 +16,15 @@ Twist2 mean_velocity(const Pose2& odom_T_from, const Pose2& odom_T_to, double ta
   return {way_m / tau_s, turn_rad / tau_s};
 }
 
-LandmarkEstimator::LandmarkEstimator(localize::StereoLocaliser localiser, const LandmarkEstimatorParams& params,
-                                     Rng rng)
-    : localiser_(std::move(localiser)), params_(params), rng_(std::move(rng)) {
+LandmarkEstimator::LandmarkEstimator(localize::StereoLocaliser localiser, Database database,
+                                     const LandmarkEstimatorParams& params, const LandmarkUpdating& updating, Rng rng)
+    : localiser_(std::move(localiser)),
+      database_(std::move(database)),
+      params_(params),
+      library_(updating.library),
+      rng_(std::move(rng)),
+      update_(updating.geometry, params.update),
+      updating_(updating.inline_work, "the database of landmarks could not be updated") {
   localiser_.start_anywhere();
 }
 
@@ -60,12 +66,67 @@ void LandmarkEstimator::on_look(const Result<StereoLook>& look) {
   looking_ = false;
   if (look) {
     localiser_.update(look->features.features, rng_);
+    learn(*look);
   } else {
     localiser_.miss(look.error().message);
     looked_at_ = samples_.empty() ? looked_at_ : samples_.back().stamp;
   }
   if (!samples_.empty()) {
     catch_up();
+  }
+}
+
+void LandmarkEstimator::learn(const StereoLook& look) {
+  if (params_.update_period == Duration::zero()) {
+    return;
+  }
+  end_update();
+  localize::Sighting sighting;
+  sighting.stamp = look.stamp;
+  sighting.map_T_eye = localiser_.belief().map_T_eye;
+  sighting.pose_covariance = localiser_.belief().pose_covariance();
+  sighting.eye_height_m = localiser_.params().eye_height_m;
+  sighting.features = look.features.features;
+  update_.observe(*database_, sighting, localiser_.last());
+  updated_at_ = updated_at_.value_or(look.stamp);
+  if (look.stamp - *updated_at_ >= params_.update_period && !updating_.busy()) {
+    begin_update(look.stamp);
+  }
+}
+
+void LandmarkEstimator::begin_update(RobotTime now) {
+  updated_at_ = now;
+  Result<localize::StagedUpdate> staged = update_.stage(*database_);
+  if (!staged) {
+    if (staged.error().code != Errc::kNotReady) {
+      news_.push_back("the database of landmarks stays as it is: " + staged.error().message);
+    }
+    return;
+  }
+  const localize::UpdateCounts& counts = staged->counts;
+  news_.push_back("the database of landmarks is updated: " + std::to_string(counts.before) + " + " +
+                  std::to_string(counts.added) + " - " + std::to_string(counts.removed) + " = " +
+                  std::to_string(counts.after));
+  update_.clear();
+  auto database = std::make_shared<const localize::LandmarkDatabase>(std::move(staged->database));
+  updating_.start([library = library_, name = params_.database, database]() -> Result<Database> {
+    const Result<api::LandmarkSummary> kept = library->update(name, *database);
+    return kept ? Result<Database>(database) : Result<Database>(tl::unexpected<Error>(kept.error()));
+  });
+  end_update();  // inline: it is done
+}
+
+void LandmarkEstimator::end_update() {
+  const std::optional<Result<Database>> done = updating_.take();
+  if (!done) {
+    return;
+  }
+  // What is not on the disk is not used either: after a restart the robot would know another building.
+  const Status used = *done ? localiser_.use(**done) : Status(tl::unexpected<Error>(done->error()));
+  if (used) {
+    database_ = **done;
+  } else {
+    news_.push_back("the database of landmarks stays as it is: " + used.error().message);
   }
 }
 

@@ -113,11 +113,19 @@ Status RobotLoop::restart_component(const std::string& name) {
 }
 
 Result<api::ImageFrame> RobotLoop::grab_image(const std::string& camera) {
-  if (parts_.devices.camera == nullptr) {
-    return fail(Errc::kNotFound, "this robot has no camera");
+  if (parts_.devices.stereo != nullptr && (camera == "left" || camera == "right")) {
+    Result<StereoFrame> frame = parts_.devices.stereo->grab();
+    if (!frame) {
+      return tl::unexpected<Error>(frame.error());
+    }
+    Image& eye = camera == "left" ? frame->left : frame->right;
+    return api::ImageFrame{.camera = camera, .frame = {frame->stamp, std::move(eye)}, .map_T_base = pose_.map_T_base};
   }
-  if (!camera.empty() && camera != "omni") {
-    return fail(Errc::kNotFound, "no camera '" + camera + "'; there is: omni");
+  if (parts_.devices.camera == nullptr || (!camera.empty() && camera != "omni")) {
+    std::string there = parts_.devices.camera != nullptr ? "omni" : "";
+    there += parts_.devices.stereo != nullptr ? std::string(there.empty() ? "" : ", ") + "left, right" : "";
+    return fail(Errc::kNotFound,
+                there.empty() ? "this robot has no camera" : "no camera '" + camera + "'; there are: " + there);
   }
   Result<CameraFrame> frame = parts_.devices.camera->grab();
   if (!frame) {

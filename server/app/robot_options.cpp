@@ -129,6 +129,8 @@ void describe(config::Fields& f, LandmarkEstimatorParams& params) {
   f.seconds("look_period_s", params.look_period);
   f.check("look_period_s", params.look_period > Duration::zero(), "must be above 0");
   f.seconds("odometry_gap_s", params.odometry_gap);
+  f.seconds("update_period_s", params.update_period);
+  f.section("update", params.update);
 }
 
 void describe(config::Fields& f, TurnAndLookParams& params) {

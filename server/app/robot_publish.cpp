@@ -108,6 +108,9 @@ api::RobotStatus RobotLoop::status() const {
 
 std::vector<std::string> RobotLoop::capabilities() const {
   std::vector<std::string> words{"goto", "return", "drive"};
+  if (parts_.devices.stereo) {
+    words.insert(words.end(), {"survey", "localise", "camera:left", "camera:right"});
+  }
   if (parts_.devices.camera) {
     words.insert(words.end(), {"search", "camera:omni"});
   }

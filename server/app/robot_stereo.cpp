@@ -50,6 +50,9 @@ void RobotLoop::give_look(const Result<StereoLook>& look) {
           "check the camera, then 'seeker components --restart stereo'", api::Severity::kWarning);
   }
   parts_.estimator->on_look(look);
+  for (const std::string& news : parts_.estimator->take_news()) {
+    log("landmarks", news);
+  }
   if (look_for_mission_) {
     look_for_mission_ = false;
     missions_.on_look(look);
