@@ -45,6 +45,27 @@ Status make_sim(const RobotOptions& options, Assembly& assembly) {
   return {};
 }
 
+/// A real stereo camera instead of the simulated one.
+Status use_camera(const RobotOptions& options, Devices& devices) {
+  if (!options.stereo.camera) {
+    return {};
+  }
+  drivers::StereoCameraParams params = *options.stereo.camera;
+  if (!params.calibration.empty()) {
+    params.calibration = resolve(options, params.calibration.string());
+  }
+  if (!params.files.folder.empty()) {
+    params.files.folder = resolve(options, params.files.folder.string());
+  }
+  Result<std::unique_ptr<drivers::StereoDriver>> camera =
+      drivers::make_stereo_camera(params, [clock = devices.clock] { return clock->now(); });
+  if (!camera) {
+    return fail_with_context("stereo.camera", camera.error());
+  }
+  devices.stereo = std::move(*camera);
+  return {};
+}
+
 Status make_replay(const RobotOptions& options, Assembly& assembly) {
   if (options.replay.log.empty()) {
     return fail(Errc::kInvalidArgument, "replay.log is empty; name a log with --set replay.log=FILE");
@@ -212,6 +233,9 @@ Result<Assembly> assemble(const RobotOptions& options, LandmarkStorage landmarks
   const Status made = options.driver == DriverType::kSim ? make_sim(options, assembly) : make_replay(options, assembly);
   if (!made) {
     return tl::unexpected<Error>(made.error());
+  }
+  if (const Status ok = use_camera(options, assembly.parts.devices); !ok) {
+    return tl::unexpected<Error>(ok.error());
   }
   if (const Status ok = search::validate(options.search.search); !ok) {
     return fail_with_context("search.coverage", ok.error());

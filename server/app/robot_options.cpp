@@ -1,6 +1,7 @@
 #include "server/app/robot_options.hpp"
 
 #include "server/app/estimators.hpp"
+#include "server/options/camera_options.hpp"
 #include "server/options/explore_options.hpp"
 #include "server/options/line_slam_options.hpp"
 #include "server/options/nav_options.hpp"
@@ -149,6 +150,7 @@ void describe(config::Fields& f, SurveyParams& params) {
 }
 
 void describe(config::Fields& f, StereoSettings& settings) {
+  f.optional_section("camera", settings.camera);
   f.section("features", settings.features);
   f.section("database", settings.database);
   f.section("localiser", settings.localiser);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "server/app/robot_loop.hpp"
 #include "server/app/search_behaviour.hpp"
 #include "server/app/survey_behaviour.hpp"
+#include "server/drivers/camera/cameras.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/drivers/sim/sim_devices.hpp"
 #include "server/explore/explore_params.hpp"
@@ -44,8 +46,9 @@ struct ReplaySettings {
   drivers::ReplayParams params;
 };
 
-/// Everything about the stereo camera but the camera itself.
+/// The stereo camera, and what is made of its pictures.
 struct StereoSettings {
+  std::optional<drivers::StereoCameraParams> camera;  ///< a real one, or recorded pictures; else the simulated one
   vision::StereoFeatureParams features;
   localize::DatabaseParams database;
   localize::LocaliserParams localiser;

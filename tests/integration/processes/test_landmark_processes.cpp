@@ -1,6 +1,10 @@
 // A building surveyed with the stereo camera, and a robot that finds its place in it, over real sockets.
 
+#include "common/core/angle.hpp"
+#include "common/image/png.hpp"
 #include "common/rpc/wait.hpp"
+#include "server/options/world_options.hpp"
+#include "server/sim/simulation.hpp"
 #include "tests/integration/processes/daemon.hpp"
 
 namespace seeker::testing {
@@ -43,6 +47,38 @@ TEST(LandmarkProcesses, ARobotThatWasSwitchedOffFindsItsPlaceInTheSurveyedLabora
   EXPECT_EQ(status.pose.quality, LocalisationQuality::kLocalised) << status.pose.cause;
   // It stands at its start, the origin of the map that was surveyed; three sigma of a survey of one place.
   EXPECT_LT(status.pose.map_T_base.translation().norm(), 0.15);
+}
+
+/// What the simulated camera sees at the start in 12 directions, as files.
+void write_pictures(const fs::path& folder) {
+  sim::World world = options::load_world(source_file("config/worlds/laboratory.yaml")).value();
+  sim::RobotModel robot;
+  robot.body_height_m = 1.0;
+  const Pose2 start = world.starts.front();
+  constexpr int kHeadings = 12;
+  fs::create_directories(folder);
+  for (int k = 0; k < kHeadings; ++k) {
+    world.starts = {start * Pose2{0.0, 0.0, 2.0 * kPi * k / kHeadings}};
+    const StereoFrame pair = sim::Simulation::create(world, robot, 1).value().stereo_pair();
+    const std::string name = std::to_string(100 + k);
+    ASSERT_TRUE(image::write_png(folder / (name + "_left.png"), pair.left));
+    ASSERT_TRUE(image::write_png(folder / (name + "_right.png"), pair.right));
+  }
+}
+
+TEST(LandmarkProcesses, RecordedPicturesArePlayedThroughTheCameraDriver) {
+  const fs::path folder = fresh_folder("played");
+  ASSERT_NO_FATAL_FAILURE(write_pictures(folder / "pictures"));
+  const Daemon daemon(laboratory({"--set", "stereo.camera.source=files", "--set",
+                                  "stereo.camera.files.folder=" + (folder / "pictures").string(), "--set",
+                                  "stereo.camera.repeat_files=true"}),
+                      folder);
+  std::string output;
+  ASSERT_EQ(seeker(daemon, {"survey", "lab", "--at", "0,0"}, &output), 0) << output;
+  EXPECT_NE(output.find("12 looks are kept as 'lab'"), std::string::npos) << output;
+  // The pictures begin again with the first heading, whatever the robot's own is now.
+  ASSERT_EQ(seeker(daemon, {"localise", "lab"}, &output), 0) << output;
+  EXPECT_NE(output.find("the robot is at ("), std::string::npos) << output;
 }
 
 TEST(LandmarkProcesses, AnEstimatorWithoutItsDatabaseDoesNotStart) {
