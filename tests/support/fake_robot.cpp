@@ -5,6 +5,8 @@
 #include <atomic>
 #include <utility>
 
+#include "tests/support/fake_answers.hpp"
+
 namespace seeker::testing {
 
 struct FakeRobotHost::Shared {
@@ -130,7 +132,7 @@ class FakeRobot final : public api::RobotApi {
     {
       const std::lock_guard lock(shared_->mutex);
       shared_->values.calls.push_back(caller_.client_name + " command_lease");
-      result = lease(shared_->values.lease, action);
+      result = fake_lease(shared_->values.lease, action, caller_.client_name);
     }
     shared_->answer(reply, std::move(result));
   }
@@ -229,46 +231,25 @@ class FakeRobot final : public api::RobotApi {
     });
   }
   void list_landmarks(api::Reply<std::vector<api::LandmarkSummary>> reply) override {
-    read<std::vector<api::LandmarkSummary>>("list_landmarks", reply, [](const FakeRobotValues& v) {
-      std::vector<api::LandmarkSummary> databases;
-      for (const auto& [name, landmarks] : v.landmarks) {
-        databases.push_back(summary_of(name, landmarks));
-      }
-      return databases;
-    });
+    read<std::vector<api::LandmarkSummary>>("list_landmarks", reply, fake_list_landmarks);
   }
   void inspect_landmarks(const std::string& name, bool verify, api::Reply<api::LandmarkSummary> reply) override {
     read<api::LandmarkSummary>("inspect_landmarks " + name + (verify ? " verify" : ""), reply,
-                               [&](FakeRobotValues& v) -> Result<api::LandmarkSummary> {
-                                 const auto found = v.landmarks.find(name);
-                                 return found != v.landmarks.end()
-                                            ? summary_of(name, found->second)
-                                            : Result<api::LandmarkSummary>(no_such_landmarks(name));
-                               });
+                               [&](const FakeRobotValues& v) { return fake_inspect_landmarks(v, name); });
   }
   void get_landmarks(const std::string& name, api::Reply<std::vector<api::LandmarkPoint>> reply) override {
-    using Landmarks = std::vector<api::LandmarkPoint>;
-    read<Landmarks>("get_landmarks " + name, reply, [&](FakeRobotValues& v) -> Result<Landmarks> {
-      const auto found = v.landmarks.find(name);
-      return found != v.landmarks.end() ? found->second : Result<Landmarks>(no_such_landmarks(name));
-    });
+    read<std::vector<api::LandmarkPoint>>("get_landmarks " + name, reply,
+                                          [&](const FakeRobotValues& v) { return fake_landmarks(v, name); });
   }
   void prune_landmarks(const std::string& name, int min_views, api::Reply<api::LandmarkSummary> reply) override {
     read<api::LandmarkSummary>("prune_landmarks " + name + " " + std::to_string(min_views), reply,
-                               [&](FakeRobotValues& v) -> Result<api::LandmarkSummary> {
-                                 const auto found = v.landmarks.find(name);
-                                 if (found == v.landmarks.end()) {
-                                   return no_such_landmarks(name);
-                                 }
-                                 std::erase_if(found->second, [&](const api::LandmarkPoint& landmark) {
-                                   return landmark.views < static_cast<std::uint32_t>(min_views);
-                                 });
-                                 return summary_of(name, found->second);
-                               });
+                               [&](FakeRobotValues& v) { return fake_prune_landmarks(v, name, min_views); });
   }
   void delete_landmarks(const std::string& name, api::Reply<void> reply) override {
     change("delete_landmarks " + name, reply, [&](FakeRobotValues& v) {
-      return v.landmarks.erase(name) > 0 ? Status() : Status(no_such_landmarks(name));
+      const auto known = fake_landmarks(v, name);
+      v.landmarks.erase(name);
+      return known ? Status() : Status(tl::unexpected<Error>(known.error()));
     });
   }
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
@@ -298,15 +279,6 @@ class FakeRobot final : public api::RobotApi {
   static tl::unexpected<Error> no_map() {
     return fail(Errc::kNotReady, "the estimator keeps no map of segments; start the robot with estimator: line_slam");
   }
-  static tl::unexpected<Error> no_such_landmarks(const std::string& name) {
-    return fail(Errc::kNotFound, "there is no database of landmarks '" + name + "'; 'seeker survey' makes one");
-  }
-  static api::LandmarkSummary summary_of(const std::string& name, const std::vector<api::LandmarkPoint>& landmarks) {
-    api::LandmarkSummary summary;
-    summary.name = name;
-    summary.landmarks = static_cast<std::uint32_t>(landmarks.size());
-    return summary;
-  }
   static tl::unexpected<Error> no_such_map(const std::string& name) {
     return fail(Errc::kNotFound, "there is no map '" + name + "'; none has been saved yet");
   }
@@ -322,43 +294,10 @@ class FakeRobot final : public api::RobotApi {
     v.mission->state = api::MissionState::kEnded;
     v.mission->end = api::MissionEnd{api::Outcome::kOperator, "stopped by an operator", "", {}};
   }
-  Result<api::LeaseState> lease(api::LeaseState& state, api::LeaseAction action) const;
 
   std::shared_ptr<FakeRobotHost::Shared> shared_;
   api::Caller caller_;
 };
-
-Result<api::LeaseState> FakeRobot::lease(api::LeaseState& state, api::LeaseAction action) const {
-  const std::string& me = caller_.client_name;
-  const auto hand_to = [&](const std::string& owner) {
-    state = {owner, state.epoch + 1, ""};
-    return state;
-  };
-  switch (action) {
-    case api::LeaseAction::kAcquire:
-      if (state.owner == me) {
-        return state;
-      }
-      if (!state.owner.empty()) {
-        return fail(Errc::kBusy, "'" + state.owner + "' holds the lease; request it or take it over");
-      }
-      return hand_to(me);
-    case api::LeaseAction::kTakeOver: return hand_to(me);
-    case api::LeaseAction::kRequest: state.requested_by = me; return state;
-    default: break;
-  }
-  if (state.owner != me) {
-    return fail(Errc::kRefused, "only the owner of the lease may do this");
-  }
-  if (action == api::LeaseAction::kRelease) {
-    return hand_to("");
-  }
-  if (action == api::LeaseAction::kGrant) {
-    return hand_to(state.requested_by);
-  }
-  state.requested_by.clear();
-  return state;
-}
 
 namespace {
 

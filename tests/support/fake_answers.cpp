@@ -1,0 +1,78 @@
+#include "tests/support/fake_answers.hpp"
+
+namespace seeker::testing {
+namespace {
+
+api::LandmarkSummary summary_of(const std::string& name, const std::vector<api::LandmarkPoint>& landmarks) {
+  api::LandmarkSummary summary;
+  summary.name = name;
+  summary.landmarks = static_cast<std::uint32_t>(landmarks.size());
+  return summary;
+}
+
+}  // namespace
+
+Result<api::LeaseState> fake_lease(api::LeaseState& state, api::LeaseAction action, const std::string& me) {
+  const auto hand_to = [&](const std::string& owner) {
+    state = {owner, state.epoch + 1, ""};
+    return state;
+  };
+  switch (action) {
+    case api::LeaseAction::kAcquire:
+      if (state.owner == me) {
+        return state;
+      }
+      if (!state.owner.empty()) {
+        return fail(Errc::kBusy, "'" + state.owner + "' holds the lease; request it or take it over");
+      }
+      return hand_to(me);
+    case api::LeaseAction::kTakeOver: return hand_to(me);
+    case api::LeaseAction::kRequest: state.requested_by = me; return state;
+    default: break;
+  }
+  if (state.owner != me) {
+    return fail(Errc::kRefused, "only the owner of the lease may do this");
+  }
+  if (action == api::LeaseAction::kRelease) {
+    return hand_to("");
+  }
+  if (action == api::LeaseAction::kGrant) {
+    return hand_to(state.requested_by);
+  }
+  state.requested_by.clear();
+  return state;
+}
+
+std::vector<api::LandmarkSummary> fake_list_landmarks(const FakeRobotValues& values) {
+  std::vector<api::LandmarkSummary> databases;
+  for (const auto& [name, landmarks] : values.landmarks) {
+    databases.push_back(summary_of(name, landmarks));
+  }
+  return databases;
+}
+
+Result<std::vector<api::LandmarkPoint>> fake_landmarks(const FakeRobotValues& values, const std::string& name) {
+  const auto found = values.landmarks.find(name);
+  if (found == values.landmarks.end()) {
+    return fail(Errc::kNotFound, "there is no database of landmarks '" + name + "'; 'seeker survey' makes one");
+  }
+  return found->second;
+}
+
+Result<api::LandmarkSummary> fake_inspect_landmarks(const FakeRobotValues& values, const std::string& name) {
+  const auto landmarks = fake_landmarks(values, name);
+  return landmarks ? summary_of(name, *landmarks)
+                   : Result<api::LandmarkSummary>(tl::unexpected<Error>(landmarks.error()));
+}
+
+Result<api::LandmarkSummary> fake_prune_landmarks(FakeRobotValues& values, const std::string& name, int min_views) {
+  if (const auto known = fake_landmarks(values, name); !known) {
+    return tl::unexpected<Error>(known.error());
+  }
+  std::erase_if(values.landmarks[name], [&](const api::LandmarkPoint& landmark) {
+    return landmark.views < static_cast<std::uint32_t>(min_views);
+  });
+  return fake_inspect_landmarks(values, name);
+}
+
+}  // namespace seeker::testing
