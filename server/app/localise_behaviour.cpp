@@ -54,7 +54,7 @@ LocaliseBehaviour::LocaliseBehaviour(const TurnAndLookParams& params, api::Local
       sweep_(params),
       rng_(kSeed) {
   localiser_.start_anywhere();
-  sweep_.start(situation.odom_T_base, mission_.headings, situation.now);
+  sweep_.start(situation.odom_T_base, mission_.headings);
 }
 
 void LocaliseBehaviour::follow_odometry(const Situation& situation) {

@@ -123,7 +123,7 @@ void SurveyBehaviour::drive(const Situation& situation, Decision& decision) {
   decision.step_done = true;
   if (way.end->outcome == api::Outcome::kComplete) {
     phase_ = Phase::kLook;
-    sweep_.start(situation.pose.map_T_base, mission_.headings, situation.now);
+    sweep_.start(situation.pose.map_T_base, mission_.headings);
     return;
   }
   const Point2& place = mission_.places[place_];

@@ -7,7 +7,7 @@
 
 namespace seeker::app {
 
-void TurnAndLook::start(const Pose2& frame_T_base, int headings, RobotTime /*now*/) {
+void TurnAndLook::start(const Pose2& frame_T_base, int headings) {
   SEEKER_ASSERT(headings > 0);
   headings_ = headings;
   index_ = 0;

@@ -23,7 +23,7 @@ class TurnAndLook {
   explicit TurnAndLook(const TurnAndLookParams& params) : params_(params), follower_(params.follower) {}
 
   /// Begins at the heading that the robot has.
-  void start(const Pose2& frame_T_base, int headings, RobotTime now);
+  void start(const Pose2& frame_T_base, int headings);
   /// True until every heading was looked at or left out.
   [[nodiscard]] bool active() const { return index_ < headings_; }
   [[nodiscard]] int index() const { return index_; }

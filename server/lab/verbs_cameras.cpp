@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "server/lab/calibrate_command.hpp"
+#include "server/lab/survey_command.hpp"
 #include "server/lab/verbs.hpp"
 
 namespace seeker::lab {
@@ -25,6 +26,36 @@ Verb add_calibrate(CLI::App& app) {
       return static_cast<int>(kExitUsage);
     }
     const Status done = run_calibrate(*o, std::cout);
+    return done ? static_cast<int>(kExitDone) : report_error(done.error().message);
+  };
+}
+
+Verb add_survey(CLI::App& app) {
+  auto o = std::make_shared<SurveyOptions>();
+  auto config = std::make_shared<std::string>();
+  CLI::App* verb = app.add_subcommand("survey", "A database of landmarks from pairs of pictures whose poses are known");
+  verb->add_option("folder", o->folder, "Folder with the pairs and their poses")->required();
+  verb->add_option("--name", o->name, "Name of the database")->required();
+  verb->add_option("--out", o->out, "Folder to write NAME.seekerlm into, as STATE/landmarks of a robot")->required();
+  verb->add_option("--poses", o->poses,
+                   "In the folder: lines name,x_m,y_m,theta_deg of the left eye, with that heading")
+      ->capture_default_str();
+  verb->add_option("--calibration", o->calibration, "Of seeker-lab calibrate (default: the pictures are rectified)");
+  verb->add_option("--left", o->left, "Names of left pictures")->capture_default_str();
+  verb->add_option("--right", o->right, "Names of right pictures")->capture_default_str();
+  verb->add_option("--robot", o->robot, "Robot file with the section `stereo` (default: robots/stereo.yaml)");
+  verb->add_option("--config", *config, "Folder with robots/");
+  verb->add_option("--set", o->overrides, "Override a field of the robot file: key.path=value (repeatable)");
+  verb->add_flag("--replace", o->replace, "Replace an existing database of that name");
+  verb->add_flag("--json", o->json, "Print JSON");
+  return [o, config] {
+    if (o->robot.empty()) {
+      CommonOptions common;
+      common.config = *config;
+      o->robot = config_folder(common) / "robots" / "stereo.yaml";
+    }
+    o->show_progress = show_progress();
+    const Status done = run_survey(*o, std::cout);
     return done ? static_cast<int>(kExitDone) : report_error(done.error().message);
   };
 }

@@ -10,7 +10,7 @@ namespace {
 /// Turns as it is told.
 class Turning {
  public:
-  explicit Turning(int headings) : sweep(params()) { sweep.start(pose, headings, situation.now); }
+  explicit Turning(int headings) : sweep(params()) { sweep.start(pose, headings); }
 
   static TurnAndLookParams params() {
     TurnAndLookParams p;
