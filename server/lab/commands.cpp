@@ -69,6 +69,7 @@ int run_lab(int argc, char** argv) {
   verbs["calibrate"] = add_calibrate(app);
   verbs["revisit"] = add_revisit(app);
   verbs["survey"] = add_survey(app);
+  verbs["train-solids"] = add_train_solids(app);
   verbs["slam"] = add_slam(app);
   verbs["lines"] = add_lines(app);
   verbs["plot"] = add_plot(app);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "server/lab/calibrate_command.hpp"
+#include "server/lab/solids_study.hpp"
 #include "server/lab/survey_command.hpp"
 #include "server/lab/verbs.hpp"
 
@@ -56,6 +57,20 @@ Verb add_survey(CLI::App& app) {
     }
     o->show_progress = show_progress();
     const Status done = run_survey(*o, std::cout);
+    return done ? static_cast<int>(kExitDone) : report_error(done.error().message);
+  };
+}
+
+Verb add_train_solids(CLI::App& app) {
+  auto o = std::make_shared<TrainSolidsOptions>();
+  CLI::App* verb = app.add_subcommand("train-solids", "The recogniser of solids, from rendered pictures");
+  verb->add_option("--out", o->out, "Model file to write (YAML)")->required();
+  verb->add_option("--per-class", o->pictures.per_class, "Training pictures of each solid")
+      ->check(CLI::Range(2, 100000))
+      ->capture_default_str();
+  verb->add_option("--seed", o->pictures.seed, "Seed of the pictures and of the training")->capture_default_str();
+  return [o] {
+    const Status done = run_train_solids(*o, std::cout);
     return done ? static_cast<int>(kExitDone) : report_error(done.error().message);
   };
 }

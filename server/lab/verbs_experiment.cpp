@@ -9,6 +9,7 @@
 #include "server/lab/reproduce.hpp"
 #include "server/lab/s1_reproduce.hpp"
 #include "server/lab/s5_reproduce.hpp"
+#include "server/lab/solids_study.hpp"
 #include "server/lab/summary.hpp"
 #include "server/lab/verbs.hpp"
 
@@ -30,7 +31,8 @@ struct Reproduction {
 const std::map<std::string, Reproduction> kReproductions = {{"r2", {&reproduce_r2, "1-50"}},
                                                             {"s1", {&reproduce_s1, "1-20"}},
                                                             {"s3", {&reproduce_s3, "1-20"}},
-                                                            {"s5", {&reproduce_s5, "1-100"}}};
+                                                            {"s5", {&reproduce_s5, "1-100"}},
+                                                            {"s6", {&reproduce_s6, "1"}}};
 
 std::vector<std::string> reproduction_ids() {
   std::vector<std::string> ids;
