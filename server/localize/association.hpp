@@ -21,7 +21,7 @@ struct Pairing {
 
 struct AssociationParams {
   vision::Metric metric = vision::Metric::kL2;
-  double max_distance = 0.7;  ///< d_a of descriptors of unit length: 2.5 in the paper, by L1
+  double max_distance = 0.5;  ///< d_a of descriptors of unit length: 2.5 in the paper, by L1
   /// Spec S2.5 as printed: the most alike of the whole database, both ways, wherever it lies. Else only landmarks whose
   /// place agrees are asked.
   bool anywhere = false;
@@ -35,8 +35,8 @@ struct AssociationParams {
 /// Spec S2.6.
 struct SparsityParams {
   bool on = true;
-  double inner_radius_m = 0.10;  ///< R_A: nothing new nearer than this to a landmark
-  double outer_radius_m = 0.50;  ///< R_B: up to here only what looks different
+  double inner_radius_m = 0.05;  ///< R_A: nothing new nearer than this to a landmark; 0.10 with the paper
+  double outer_radius_m = 0.25;  ///< R_B: up to here only what looks different; 0.50 with the paper
   double min_distance = 0.7;     ///< d_f0 of descriptors: 2.5 in the paper, by L1
 
   friend bool operator==(const SparsityParams&, const SparsityParams&) = default;

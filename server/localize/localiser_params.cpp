@@ -42,6 +42,8 @@ Status check_filter(const LocaliserParams& p) {
                    {"landmark_sigma_floor_m", p.landmark_sigma_floor_m, 0.0},
                    {"disparity_offset_sigma_px", p.disparity_offset_sigma_px, 0.0},
                    {"disparity_offset_walk_px", p.disparity_offset_walk_px, 0.0},
+                   {"map_sigma_m", p.map_sigma_m, 0.0},
+                   {"map_sigma_deg", p.map_sigma_rad, 0.0},
                    {"max_repeats", static_cast<double>(p.max_repeats), 1.0},
                    {"batch.iterations", static_cast<double>(p.batch.iterations), 1.0},
                    {"batch.huber_sigmas", p.batch.huber_sigmas, kLeast}});
@@ -98,9 +100,11 @@ LocaliserParams paper_localiser_params() {
   params.mode = FilterMode::kPaper;
   params.metric = vision::Metric::kL1;
   params.noise.separate_eyes = true;
-  params.measurement.landmark_covariance = false;
+  params.measurement = {.range_floor_m = 0.02, .bearing_floor_rad = 0.005, .landmark_covariance = false};
   params.disparity_offset_sigma_px = 0.0;
   params.disparity_offset_walk_px = 0.0;
+  params.map_sigma_m = 0.0;
+  params.map_sigma_rad = 0.0;
   params.tracking.max_distance = 2.5;
   params.relocalise.max_distance = 2.5;
   return params;

@@ -16,7 +16,7 @@ enum class FilterMode : std::uint8_t {
 
 /// How features are taken for landmarks while the pose is known.
 struct TrackingParams {
-  double max_distance = 0.75;        ///< of descriptors
+  double max_distance = 0.5;         ///< of descriptors
   double max_ratio = 0.9;            ///< best over second best among other landmarks of the window
   double gate_chi2 = 9.210;          ///< of the innovation, 2 degrees of freedom, 99 %
   double window_sigmas = 3.0;        ///< half width of the window of the prediction
@@ -31,9 +31,9 @@ struct TrackingParams {
 
 /// Finding the place without knowing where to look.
 struct RelocaliseParams {
-  double max_distance = 0.7;  ///< of descriptors
-  double ambiguity = 1.3;     ///< the second best landmark of a feature counts too, up to so many times the distance
-  int attempts = 6000;        ///< pairs of matches tried
+  double max_distance = 0.55;  ///< of descriptors
+  double ambiguity = 1.3;      ///< the second best landmark of a feature counts too, up to so many times the distance
+  int attempts = 6000;         ///< pairs of matches tried
   double min_separation_m = 0.3;  ///< of the two points of such a pair
   double gate_chi2 = 9.210;
   double height_tolerance_m = 0.10;
@@ -84,6 +84,9 @@ struct LocaliserParams {
   /// The same landmark seen again says nothing new about its own error: its covariance counts so many times over at
   /// most.
   int max_repeats = 30;
+  /// What all landmarks err by together, from the poses of the survey: the pose is never told more certain.
+  double map_sigma_m = 0.005;
+  double map_sigma_rad = deg_to_rad(0.1);
   BatchParams batch;
   TrackingParams tracking;
   RelocaliseParams relocalise;

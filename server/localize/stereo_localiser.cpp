@@ -308,6 +308,9 @@ PoseEstimate StereoLocaliser::estimate(RobotTime stamp) const {
   if (s.somewhere) {
     estimate.map_T_base = base_from_eye(s.belief.map_T_eye, s.params.arm);
     estimate.covariance = base_covariance(s.belief.map_T_eye, estimate.covariance, s.params.arm);
+    const double place_m2 = s.params.map_sigma_m * s.params.map_sigma_m;
+    estimate.covariance.diagonal() +=
+        Eigen::Vector3d(place_m2, place_m2, s.params.map_sigma_rad * s.params.map_sigma_rad);
   }
   return estimate;
 }

@@ -14,6 +14,8 @@ DatabaseParams paper_database_params() {
   params.association.metric = vision::Metric::kL1;
   params.association.max_distance = 2.5;
   params.association.anywhere = true;
+  params.sparsity.inner_radius_m = 0.10;
+  params.sparsity.outer_radius_m = 0.50;
   params.sparsity.min_distance = 2.5;
   params.fusion.running_mean = true;
   return params;

@@ -176,6 +176,8 @@ void describe(config::Fields& f, LocaliserParams& params) {
   f.field("disparity_offset_sigma_px", params.disparity_offset_sigma_px);
   f.field("disparity_offset_walk_px", params.disparity_offset_walk_px);
   f.field("max_repeats", params.max_repeats);
+  f.field("map_sigma_m", params.map_sigma_m);
+  f.angle_deg("map_sigma_deg", params.map_sigma_rad);
   f.section("batch", params.batch);
   f.section("tracking", params.tracking);
   f.section("relocalise", params.relocalise);

@@ -204,10 +204,10 @@ TEST(Sparsity, FollowsEquationsEightAndNine) {
   const auto allowed = [&](double distance, const vision::Descriptor& descriptor) {
     return may_insert(database, point_at({distance, 0, 0}), descriptor, {}, vision::Metric::kL2);
   };
-  EXPECT_FALSE(allowed(0.05, other)) << "nothing within the inner radius";
-  EXPECT_TRUE(allowed(0.30, other)) << "something else within the outer one";
-  EXPECT_FALSE(allowed(0.30, same));
-  EXPECT_TRUE(allowed(0.60, same)) << "anything outside";
+  EXPECT_FALSE(allowed(0.03, other)) << "nothing within the inner radius";
+  EXPECT_TRUE(allowed(0.15, other)) << "something else within the outer one";
+  EXPECT_FALSE(allowed(0.15, same));
+  EXPECT_TRUE(allowed(0.30, same)) << "anything outside";
   SparsityParams off;
   off.on = false;
   EXPECT_TRUE(may_insert(database, point_at({0, 0, 0}), same, off, vision::Metric::kL2));
@@ -233,17 +233,20 @@ TEST(Survey, CountsOfEverySightingAddUp) {
 TEST(Survey, SparseAndSalientAreSmallerThanAll) {
   const LandmarkRoom room(3, 400);
   for (const DatabaseParams& base : {DatabaseParams{}, paper_database_params()}) {
-    DatabaseParams all = base;
+    DatabaseParams wide = base;
+    wide.sparsity.inner_radius_m = 0.10;  // the room's points are few
+    wide.sparsity.outer_radius_m = 0.50;
+    DatabaseParams all = wide;
     all.sparsity.on = false;
     all.salient_seen = 1;
-    DatabaseParams sparse = base;
+    DatabaseParams sparse = wide;
     sparse.salient_seen = 1;
     ViewNoise noise;
     noise.descriptor = 0.2;  // the paper's gate is narrow
     const auto count = [&](const DatabaseParams& params) { return survey(room, {}, params, 7, noise).size(); };
     EXPECT_GT(count(all), count(sparse));
-    EXPECT_GT(count(sparse), count(base));
-    EXPECT_GT(count(base), 50U);
+    EXPECT_GT(count(sparse), count(wide));
+    EXPECT_GT(count(wide), 50U);
   }
 }
 

@@ -95,7 +95,7 @@ TEST(LeverArm, BaseAndEyeAreInverseWithTheirCovariances) {
 TEST(Measurement, StraightAheadIsHalfPi) {
   UncertainPoint point;
   point.p = {3.0, 0.0, 0.5};
-  const RangeBearing seen = measure(point, 33.0, {});
+  const RangeBearing seen = measure(point, 33.0, {.range_floor_m = 0.02, .bearing_floor_rad = 0.005});
   EXPECT_NEAR(seen.range_m, 3.0, 1e-12);
   EXPECT_NEAR(seen.beta_rad, kPi / 2.0, 1e-12);
   EXPECT_NEAR(seen.covariance(0, 0), 0.02 * 0.02, 1e-12);

@@ -1,0 +1,132 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/lab/s2_reproduce.hpp"
+#include "server/lab/s2_run.hpp"
+#include "server/lab/s2_scene.hpp"
+#include "server/sim/scene.hpp"
+#include "tests/support/data.hpp"
+
+namespace seeker::lab {
+namespace {
+
+using ::testing::HasSubstr;
+
+DatabaseScore score_of(const char* name, int landmarks, double rms_m, double step_ms) {
+  DatabaseScore score;
+  score.name = name;
+  score.landmarks = landmarks;
+  score.frames = 50;
+  score.rms_m = rms_m;
+  score.rms_rad = 0.002;
+  score.mean_nees = 3.0;
+  score.median_step_ms = step_ms;
+  return score;
+}
+
+/// A run that passes everything.
+S2Result good_run() {
+  S2Result run;
+  run.mode = "default";
+  run.seed = 1;
+  run.scores = {score_of("all", 8000, 0.010, 20.0), score_of("sparse", 3000, 0.011, 3.0),
+                score_of("salient", 800, 0.0105, 1.0), score_of("updated", 820, 0.011, 1.0)};
+  run.before = 800;
+  run.added = 50;
+  run.removed = 30;
+  run.after = 820;
+  run.places = 20;
+  run.places_found = 20;
+  run.foreign = 100;
+  return run;
+}
+
+bool passes(const S2Result& run, const std::string& id) {
+  Report report(nullptr);
+  check_stereo({run}, report);
+  bool passed = true;
+  bool found = false;
+  for (const Check& check : report.checks()) {
+    if (check.id == id) {
+      found = true;
+      passed = passed && check.passed;
+    }
+  }
+  EXPECT_TRUE(found) << id;
+  return passed;
+}
+
+TEST(S2Checks, AGoodRunPasses) {
+  for (const char* id : {"R3", "R4", "S2-RMS", "S2-PLACE", "S2-FOREIGN"}) {
+    EXPECT_TRUE(passes(good_run(), id)) << id;
+  }
+}
+
+TEST(S2Checks, EachConditionCanFail) {
+  S2Result run = good_run();
+  run.scores[2].rms_m = 0.012;
+  EXPECT_FALSE(passes(run, "R3")) << "salient is worse than 1.1 times all";
+  run = good_run();
+  run.scores[1].median_step_ms = 30.0;
+  EXPECT_FALSE(passes(run, "R3")) << "sparse takes longer than all";
+  run = good_run();
+  run.after = 900;
+  EXPECT_FALSE(passes(run, "R4")) << "the counts do not add up";
+  run = good_run();
+  run.removed = 0;
+  run.after = 850;
+  EXPECT_FALSE(passes(run, "R4")) << "nothing was removed";
+  run = good_run();
+  run.scores[3].rms_m = 0.02;
+  EXPECT_FALSE(passes(run, "R4")) << "worse after the update";
+  run = good_run();
+  run.scores[2].unnoticed = 1;
+  EXPECT_FALSE(passes(run, "S2-RMS")) << "lost without saying so";
+  run = good_run();
+  run.scores[2].mean_nees = 7.0;
+  EXPECT_FALSE(passes(run, "S2-RMS"));
+  run = good_run();
+  run.places_found = 18;
+  EXPECT_FALSE(passes(run, "S2-PLACE"));
+  run = good_run();
+  run.places_wrong = 1;
+  EXPECT_FALSE(passes(run, "S2-PLACE"));
+  run = good_run();
+  run.foreign_found = 1;
+  EXPECT_FALSE(passes(run, "S2-FOREIGN"));
+}
+
+TEST(S2Checks, Table3HasARowForEveryDatabase) {
+  const std::string table = table3_csv({good_run()});
+  for (const char* name : {"all", "sparse", "salient", "updated"}) {
+    EXPECT_THAT(table, HasSubstr(std::string("default,1,") + name));
+  }
+}
+
+TEST(S2Scene, SurveyStandsInFivePlacesWithRoomAroundThem) {
+  const auto world = load_laboratory(testing::source_file("config"), 3);
+  ASSERT_TRUE(world) << world.error().message;
+  const sim::RobotModel model;
+  const std::vector<Pose2> poses = survey_poses(*world, model);
+  ASSERT_EQ(poses.size(), 60U);
+  const sim::Scene scene(*world);
+  for (std::size_t i = 0; i < poses.size(); i += 12) {
+    EXPECT_GT(scene.clearance_m(poses[i].translation(), 0.3, {0.0, model.stereo.height_m}), 0.29);
+  }
+}
+
+TEST(S2Scene, MovedFurnitureLeavesTheWayFree) {
+  const auto world = load_laboratory(testing::source_file("config"), 3);
+  ASSERT_TRUE(world) << world.error().message;
+  Rng rng(4);
+  const auto moved = move_furniture(*world, sim::RobotModel{}, 0.05, rng);
+  ASSERT_TRUE(moved) << moved.error().message;
+  int changed = 0;
+  for (std::size_t i = 0; i < world->boxes.size(); ++i) {
+    changed += moved->boxes[i].world_T_box == world->boxes[i].world_T_box ? 0 : 1;
+  }
+  EXPECT_GT(changed, 0);
+}
+
+}  // namespace
+}  // namespace seeker::lab
