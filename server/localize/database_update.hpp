@@ -23,7 +23,7 @@ struct UpdateParams {
   double max_log_odds = 3.0;               ///< so much trust at most is built up
   double occlusion_px = 25.0;              ///< a feature nearer to the eye than this around a landmark hides it
   double occlusion_ratio = 1.25;           ///< disparity of what hides over that of the landmark
-  double min_move_m = 0.15;                ///< frames count as new evidence after so much motion,
+  double min_move_m = 0.10;                ///< frames count as new evidence after so much motion,
   double min_turn_rad = deg_to_rad(10.0);  ///< or so much turning
   double max_removed_share = 0.5;          ///< an update that would remove more is refused
 
