@@ -29,12 +29,9 @@ struct Reproduction {
   Status (*run)(const ReproduceParams&, Report&);
   const char* seeds;  ///< where the command line names none
 };
-const std::map<std::string, Reproduction> kReproductions = {{"r2", {&reproduce_r2, "1-50"}},
-                                                            {"s1", {&reproduce_s1, "1-20"}},
-                                                            {"s2", {&reproduce_s2, "1-10"}},
-                                                            {"s3", {&reproduce_s3, "1-20"}},
-                                                            {"s5", {&reproduce_s5, "1-100"}},
-                                                            {"s6", {&reproduce_s6, "1"}}};
+const std::map<std::string, Reproduction> kReproductions = {
+    {"r2", {&reproduce_r2, "1-50"}}, {"s1", {&reproduce_s1, "1-20"}},  {"s2", {&reproduce_s2, "1-10"}},
+    {"s3", {&reproduce_s3, "1-20"}}, {"s5", {&reproduce_s5, "1-100"}}, {"s6", {&reproduce_s6, "1"}}};
 
 std::vector<std::string> reproduction_ids() {
   std::vector<std::string> ids;
