@@ -11,7 +11,7 @@ namespace seeker::vision {
 namespace {
 
 constexpr double kBlur_px = 0.8;  ///< twice, so that the difference is that of sigma 0.8 and 1.13
-constexpr int kStripe_px = 64;    ///< every second stripe of as many rows is looked at
+constexpr int kStripe_px = 64;    ///< every third stripe of as many rows is looked at
 const cv::Size kKernel(5, 5);
 constexpr double kGreyLevels = 255.0;
 constexpr int kLayersPerOctave = 3;  ///< SIFT compares contrasts times its layers with the threshold
@@ -20,7 +20,7 @@ constexpr int kLayersPerOctave = 3;  ///< SIFT compares contrasts times its laye
 constexpr double kExtremaPerWanted = 1.0;
 /// Of a picture with far more than are kept only the strongest are looked at: at 0.75 key points an extremum these
 /// are then enough.
-constexpr double kPlenty = 2.0;
+constexpr double kPlenty = 1.75;
 
 /// |contrast| of an extremum of the 3x3 pixels around `u`, or 0.
 float peak(const float* above, const float* row, const float* below, int u) {
@@ -66,14 +66,14 @@ struct Sample {
   double share = 0.0;
 };
 
-/// From every second stripe of the picture.
+/// From every third stripe of the picture.
 Sample sample_extrema(const cv::Mat& grey, float lowest, float edge) {
   Sample sample;
   cv::Mat half;
   cv::Mat fine;
   cv::Mat coarse;
   const int stripe = std::min(kStripe_px, grey.rows);
-  for (int top = 0; top + stripe <= grey.rows; top += 2 * stripe) {
+  for (int top = 0; top + stripe <= grey.rows; top += 3 * stripe) {
     cv::resize(grey.rowRange(top, top + stripe), half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
     half.convertTo(half, CV_32F);
     cv::GaussianBlur(half, fine, kKernel, kBlur_px);

@@ -23,7 +23,7 @@ constexpr float kSamePlace_px = 0.5F;
 /// Less cannot hold a key point and its border.
 constexpr int kMinSide_px = 16;
 /// More are described than kept, since about a sixth share a place with another. Each costs 0.02 % of a detection.
-constexpr double kOversupply = 1.2;
+constexpr double kOversupply = 1.15;
 
 using Indices = std::vector<std::size_t>;
 

@@ -64,6 +64,8 @@ Result<StereoFeatures> SiftStereoExtractor::extract(const StereoFrame& frame) co
   }
   const cv::Mat left_grey = to_grey_mat(frame.left);
   const cv::Mat right_grey = to_grey_mat(frame.right);
+  // One eye after the other: OpenCV's threads inside one detection are used better than one thread an eye, 145 against
+  // 158 ms with two (vision.md 1.1).
   const FeatureList left = detect_sift(left_grey, params_.detector, Orientations::kAll);
   const FeatureList right = detect_sift(right_grey, params_.detector, Orientations::kAll);
   // Whether the rig is right is asked of pairs that are sure by themselves, whatever the gates are.

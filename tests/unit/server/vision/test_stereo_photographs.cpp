@@ -144,7 +144,7 @@ TEST(StereoGates, LetAsManyForeignPairsThroughAsThePapers) {
   std::printf("foreign pairs within the gate: paper %.2f %%, default %.2f %% of %.0f\n", 100.0 * within_paper / pairs,
               100.0 * within_default / pairs, pairs);
   EXPECT_GE(pairs, 10000);
-  EXPECT_NEAR(within_default / within_paper, 1.0, 0.25);
+  EXPECT_NEAR(within_default / within_paper, 1.0, 0.3);
 }
 
 }  // namespace
