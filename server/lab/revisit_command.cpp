@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -12,7 +11,6 @@
 #include "common/image/jpeg.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/json_printer.hpp"
-#include "server/lab/verbs.hpp"
 #include "server/vision/picture.hpp"
 #include "server/vision/sift_features.hpp"
 
@@ -64,12 +62,6 @@ Result<Photograph> read_photograph(const std::filesystem::path& path) {
     return tl::unexpected<Error>(picture.error());
   }
   return Photograph{path, vision::detect_sift(vision::to_grey_mat(*picture), vision::place_detector_params())};
-}
-
-void progress(std::size_t done, std::size_t all) {
-  if (show_progress()) {
-    std::fprintf(stderr, "\r%zu of %zu photographs%s", done, all, done == all ? "\n" : "");
-  }
 }
 
 void copy_into(Image& sheet, const Image& picture, int left_px) {
@@ -203,7 +195,9 @@ Result<std::vector<Revisit>> find_revisits(const RevisitOptions& options) {
     }
     index.add(seen.size(), photograph->features);
     seen.push_back(std::move(*photograph));
-    progress(seen.size(), paths->size());
+    if (options.progress) {
+      options.progress(seen.size(), paths->size());
+    }
   }
   if (Status written = image::write_file(options.out / "revisits.csv", to_csv(revisits)); !written) {
     return tl::unexpected<Error>(written.error());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct RevisitOptions {
   bool all = false;              ///< every pair; else each photograph's best earlier one
   bool json = false;
   vision::PlaceParams params = {};
+  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< called after each photograph; may be empty
 };
 
 /// Two photographs of one place.

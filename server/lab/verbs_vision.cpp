@@ -114,6 +114,11 @@ Verb add_revisit(CLI::App& app) {
   verb->add_flag("--all", o->all, "List every pair, not only each photograph's best earlier one");
   verb->add_flag("--json", o->json, "Print JSON");
   return [o] {
+    if (show_progress()) {
+      o->progress = [](std::size_t done, std::size_t all) {
+        std::cerr << '\r' << done << " of " << all << " photographs" << (done == all ? "\n" : "") << std::flush;
+      };
+    }
     const Status done = run_revisit(*o, std::cout);
     return done ? kExitDone : report_error(done.error().message);
   };

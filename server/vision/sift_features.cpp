@@ -125,12 +125,12 @@ bool same_place(const Keypoint& a, const Keypoint& b) {
 }
 
 FeatureList detect_sift(const cv::Mat& grey, const DetectorParams& params, Orientations orientations) {
+  if (std::min(grey.rows, grey.cols) < kMinSide_px * (params.half_resolution ? 2 : 1)) {
+    return {};
+  }
   cv::Mat picture = grey;
   if (params.half_resolution) {
     cv::resize(grey, picture, cv::Size(grey.cols / 2, grey.rows / 2), 0.0, 0.0, cv::INTER_AREA);
-  }
-  if (std::min(picture.rows, picture.cols) < kMinSide_px) {
-    return {};
   }
   const int described = cvCeil(kOversupply * (params.at_most > 0 ? params.at_most : params.wanted));
   const auto sift = cv::SIFT::create(described, kOctaveLayers, pick_contrast_threshold(picture, params),

@@ -180,6 +180,20 @@ TEST(StereoFeatures, ABareWallGivesNoFeaturesAndNoFault) {
   EXPECT_LE(found->features.size(), 5U);
 }
 
+TEST(StereoFeatures, PicturesTooSmallForAKeyPointHaveNone) {
+  StereoFeatureParams half;
+  half.detector.half_resolution = true;
+  for (const StereoFeatureParams& params : {StereoFeatureParams{}, half}) {
+    const auto extractor = make_stereo_extractor(small_camera(), params);
+    for (const auto& [width, height] : {std::pair(1, 1), std::pair(300, 1), std::pair(15, 40), std::pair(31, 31)}) {
+      const auto found = extractor->detect(Image(width, height, 1, 80));
+      ASSERT_TRUE(found.has_value());
+      EXPECT_EQ(found->size(), 0U);
+    }
+    EXPECT_FALSE(extractor->detect(Image()).has_value());
+  }
+}
+
 TEST(StereoFeatures, ParametersOutOfRangeAreNamed) {
   const auto message = [](auto change) {
     StereoFeatureParams params;
