@@ -26,7 +26,8 @@ struct CandidateBlock {
 
 /// Writes the distance of `query` to every row of `block`, and maybe to the empty ones behind. Returns the least of all
 /// that it wrote: of most blocks no other is ever read.
-using DistanceKernel = std::uint32_t (*)(const Descriptor& query, const CandidateBlock& block, std::uint32_t* distances);
+using DistanceKernel = std::uint32_t (*)(const Descriptor& query, const CandidateBlock& block,
+                                         std::uint32_t* distances);
 
 struct NearestKernels {
   const char* name;
