@@ -22,7 +22,7 @@ LandmarkEstimator::LandmarkEstimator(localize::StereoLocaliser localiser, Databa
       database_(std::move(database)),
       params_(params),
       library_(updating.library),
-      rng_(std::move(rng)),
+      rng_(rng),
       update_(updating.geometry, params.update),
       updating_(updating.inline_work, "the database of landmarks could not be updated") {
   localiser_.start_anywhere();
