@@ -25,9 +25,12 @@ function(seeker_program name source)
   target_compile_definitions(${name} PRIVATE SEEKER_VERSION="${PROJECT_VERSION}")
 endfunction()
 
-# seeker_test(NAME [DEPS ...] [LABELS ...] [TIMEOUT S]): one test program from all test_*.cpp of the current folder.
+# seeker_test(NAME [DEPS ...] [LABELS ...] [TIMEOUT S] [THREADS]): one test program from all test_*.cpp of the current
+# folder. THREADS: what it tests starts threads, so that it is run under ThreadSanitizer too (label `threads`, target
+# threaded_tests); tests/arch sees to it that the folders of algorithms start none.
+add_custom_target(threaded_tests)
 function(seeker_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "THREADS" "TIMEOUT" "DEPS;LABELS" ${ARGN})
   if(NOT SEEKER_TESTS)
     return()
   endif()
@@ -41,10 +44,15 @@ function(seeker_test name)
   if(SEEKER_SANITIZE)  # an instrumented test takes up to ten times as long
     math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")
   endif()
+  if(ARG_THREADS)
+    list(APPEND ARG_LABELS threads)
+    add_dependencies(threaded_tests test_${name})
+  endif()
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE seeker_flags seeker_test_support ${ARG_DEPS} GTest::gmock GTest::gtest_main)
+  list(JOIN ARG_LABELS "-" label)  # gtest_discover_tests takes one; ctest -L finds parts of it
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${label}")
 endfunction()
 
 # seeker_fuzz(NAME [DEPS ...]): fuzz_NAME.cpp as a libFuzzer program with SEEKER_FUZZ; otherwise a program that
