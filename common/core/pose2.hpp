@@ -39,6 +39,9 @@ struct Twist2 {
 [[nodiscard]] Pose2 inverse(const Pose2& a_T_b);
 /// Motion of the base over `tau_s` seconds of constant twist (spec S1.3): exact on the arc.
 [[nodiscard]] Pose2 integrate(const Twist2& twist, double tau_s);
+/// The constant twist that leads from one pose to the other in `tau_s` > 0 seconds, along an arc: the inverse of
+/// integrate() for turns below pi.
+[[nodiscard]] Twist2 twist_between(const Pose2& a_T_from, const Pose2& a_T_to, double tau_s);
 
 /// d(a (+) b)/da and d(a (+) b)/db (spec S0.3: J1, J2).
 [[nodiscard]] Matrix3 compose_jacobian_a(const Pose2& a, const Pose2& b);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/core/hash.hpp"
+
 namespace seeker {
 
 double Rng::normal(double sigma) {
@@ -16,12 +18,10 @@ double Rng::normal(double sigma) {
 }
 
 Rng Rng::fork(std::string_view purpose) {
-  // FNV-1a over the purpose, mixed with one draw of this stream.
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : purpose) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
-  return Rng(hash ^ engine_());
+  // The purpose, mixed with one draw of this stream.
+  Fnv1a hash;
+  hash.add(purpose);
+  return Rng(hash.value() ^ engine_());
 }
 
 }  // namespace seeker

@@ -1,8 +1,8 @@
 #include "common/core/stereo.hpp"
 
-#include <array>
-#include <bit>
 #include <cmath>
+
+#include "common/core/hash.hpp"
 
 namespace seeker {
 
@@ -26,20 +26,13 @@ Status validate(const StereoGeometry& geometry) {
 }
 
 std::uint64_t calibration_hash(const StereoGeometry& geometry) {
-  // FNV-1a over the fields' bits, lowest byte first: the same on every machine.
-  constexpr std::uint64_t kOffset = 14695981039346656037ULL;
-  constexpr std::uint64_t kPrime = 1099511628211ULL;
-  const std::array<std::uint64_t, 6> fields = {
-      static_cast<std::uint64_t>(geometry.width_px),      static_cast<std::uint64_t>(geometry.height_px),
-      std::bit_cast<std::uint64_t>(geometry.focal_px),    std::bit_cast<std::uint64_t>(geometry.centre_u_px),
-      std::bit_cast<std::uint64_t>(geometry.centre_v_px), std::bit_cast<std::uint64_t>(geometry.baseline_m)};
-  std::uint64_t hash = kOffset;
-  for (const std::uint64_t field : fields) {
-    for (unsigned shift = 0; shift < 64U; shift += 8U) {
-      hash = (hash ^ ((field >> shift) & 0xFFU)) * kPrime;
-    }
+  Fnv1a hash;
+  hash.add(static_cast<std::uint64_t>(geometry.width_px));
+  hash.add(static_cast<std::uint64_t>(geometry.height_px));
+  for (const double field : {geometry.focal_px, geometry.centre_u_px, geometry.centre_v_px, geometry.baseline_m}) {
+    hash.add(field);
   }
-  return hash;
+  return hash.value();
 }
 
 }  // namespace seeker

@@ -1,5 +1,6 @@
 #include "server/app/disk_worker.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace seeker::app {
@@ -26,6 +27,10 @@ Status DiskWorker::post(Work work) {
   }
   wake_.notify_one();
   return {};
+}
+
+std::int64_t wall_unix_s() {
+  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 void DiskWorker::serve() {

@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -39,5 +40,8 @@ class DiskWorker {
   bool quit_ = false;
   std::thread thread_;
 };
+
+/// What files are stamped with: seconds since 1970, UTC.
+[[nodiscard]] std::int64_t wall_unix_s();
 
 }  // namespace seeker::app

@@ -1,18 +1,8 @@
 #include "server/app/goto_behaviour.hpp"
 
-#include <cstdio>
+#include "common/core/text.hpp"
 
 namespace seeker::app {
-namespace {
-
-std::string place(const Point2& p) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.2f, %.2f) m", p.x(), p.y());
-  return text;
-}
-
-}  // namespace
-
 GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission)
     : params_(params), mission_(std::move(mission)), follower_(params.follower) {}
 
@@ -51,7 +41,7 @@ void GotoBehaviour::next_waypoint(Decision& decision) {
 void GotoBehaviour::give_up(const std::string& why, Decision& decision) {
   const Point2& goal = mission_.waypoints[current_];
   unreachable_.push_back(goal);
-  decision.events.push_back({"unreachable", place(goal) + ": " + why, api::Severity::kWarning});
+  decision.events.push_back({"unreachable", text(goal) + " m: " + why, api::Severity::kWarning});
   next_waypoint(decision);
 }
 
@@ -92,10 +82,10 @@ Decision GotoBehaviour::step(const Situation& situation) {
   const nav::FollowStep step = follower_.step(situation.pose.map_T_base, points, situation.now);
   decision.command = step.command;
   decision.planned_path = follower_.path().waypoints;
-  decision.activity = "driving to " + place(mission_.waypoints[current_]) + ", " +
+  decision.activity = "driving to " + text(mission_.waypoints[current_]) + " m, " +
                       std::to_string(static_cast<int>(step.remaining_m * 10.0) / 10) + " m to go";
   if (step.state == nav::FollowState::kArrived) {
-    decision.events.push_back({"arrived", "at " + place(mission_.waypoints[current_]), api::Severity::kInfo});
+    decision.events.push_back({"arrived", "at " + text(mission_.waypoints[current_]) + " m", api::Severity::kInfo});
     next_waypoint(decision);
   } else if (step.state == nav::FollowState::kBlocked || step.state == nav::FollowState::kStuck) {
     follower_.clear();

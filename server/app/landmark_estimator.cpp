@@ -1,20 +1,6 @@
 #include "server/app/landmark_estimator.hpp"
 
-#include <cmath>
-
-#include "common/core/angle.hpp"
-
 namespace seeker::app {
-
-Twist2 mean_velocity(const Pose2& odom_T_from, const Pose2& odom_T_to, double tau_s) {
-  const Pose2 step = inverse(odom_T_from) * odom_T_to;
-  const double turn_rad = wrap_angle(step.theta_rad);
-  // The way along the arc whose chord the step is.
-  const double half_rad = 0.5 * turn_rad;
-  const double arc = std::abs(half_rad) > 1e-6 ? half_rad / std::sin(half_rad) : 1.0;
-  const double way_m = std::copysign(step.translation().norm(), step.x_m) * arc;
-  return {way_m / tau_s, turn_rad / tau_s};
-}
 
 LandmarkEstimator::LandmarkEstimator(localize::StereoLocaliser localiser, Database database,
                                      const LandmarkEstimatorParams& params, const LandmarkUpdating& updating, Rng rng)
@@ -48,7 +34,7 @@ void LandmarkEstimator::catch_up() {
     const drivers::OdometrySample& from = samples_[next - 1];
     const drivers::OdometrySample& to = samples_[next];
     const double tau_s = to_seconds(to.stamp - from.stamp);
-    localiser_.predict(mean_velocity(from.odom_T_base, to.odom_T_base, tau_s), tau_s);
+    localiser_.predict(twist_between(from.odom_T_base, to.odom_T_base, tau_s), tau_s);
   }
   samples_ = {samples_.back()};
 }

@@ -75,7 +75,4 @@ class LandmarkEstimator final : public Estimator {
   std::optional<RobotTime> looked_at_;
 };
 
-/// The velocities that lead from one pose of dead reckoning to another in tau_s > 0 seconds, along an arc.
-[[nodiscard]] Twist2 mean_velocity(const Pose2& odom_T_from, const Pose2& odom_T_to, double tau_s);
-
 }  // namespace seeker::app

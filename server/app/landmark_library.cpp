@@ -1,16 +1,12 @@
 #include "server/app/landmark_library.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
+
+#include "server/app/disk_worker.hpp"
 
 namespace seeker::app {
 namespace {
-
-std::int64_t wall_unix_s() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::seconds>(now).count();
-}
 
 store::Vector3Record record_of(const localize::Point3& p) { return {p.x(), p.y(), p.z()}; }
 localize::Point3 point_of(const store::Vector3Record& r) { return {r[0], r[1], r[2]}; }
@@ -82,22 +78,25 @@ Result<localize::LandmarkDatabase> database_of(const store::LandmarkContent& con
                                              std::move(landmarks));
 }
 
-api::LandmarkSummary summary_of(const std::string& name, const Result<store::LandmarkHeader>& header) {
+api::LandmarkSummary summary_of(const std::string& name, const store::LandmarkHeader& header) {
   api::LandmarkSummary summary;
   summary.name = name;
-  if (!header) {
-    summary.problem = header.error().message;
-    return summary;
-  }
-  summary.robot_id = header->origin.robot_id;
-  summary.software_version = header->origin.software_version;
-  summary.map_name = header->origin.map_name;
-  summary.calibration = header->calibration;
-  summary.created_unix_s = header->origin.created_unix_s;
-  summary.saved_unix_s = header->origin.saved_unix_s;
-  summary.file_bytes = header->file_bytes;
-  summary.revision = header->revision;
-  summary.landmarks = static_cast<std::uint32_t>(header->landmarks);
+  summary.robot_id = header.origin.robot_id;
+  summary.software_version = header.origin.software_version;
+  summary.map_name = header.origin.map_name;
+  summary.calibration = header.calibration;
+  summary.created_unix_s = header.origin.created_unix_s;
+  summary.saved_unix_s = header.origin.saved_unix_s;
+  summary.file_bytes = header.file_bytes;
+  summary.revision = header.revision;
+  summary.landmarks = static_cast<std::uint32_t>(header.landmarks);
+  return summary;
+}
+
+api::LandmarkSummary problem_of(const std::string& name, const Error& error) {
+  api::LandmarkSummary summary;
+  summary.name = name;
+  summary.problem = error.message;
   return summary;
 }
 
@@ -147,19 +146,16 @@ Result<LoadedLandmarks> LandmarkLibrary::load(const std::string& name) const {
   if (const Status ok = check_present(name); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
-  const Result<store::LandmarkContent> content = store::read_landmark_file(files_.path_of(name));
-  if (!content) {
-    return fail_with_context(quoted(name), content.error());
+  const Result<store::LandmarkFile> file = store::read_landmark_file(files_.path_of(name));
+  if (!file) {
+    return fail_with_context(quoted(name), file.error());
   }
-  Result<localize::LandmarkDatabase> database = database_of(*content);
+  Result<localize::LandmarkDatabase> database = database_of(file->content);
   if (!database) {
     return fail_with_context(quoted(name), database.error());
   }
-  const Result<api::LandmarkSummary> summary = inspect(name);
-  if (!summary) {
-    return tl::unexpected<Error>(summary.error());
-  }
-  return LoadedLandmarks{std::make_shared<const localize::LandmarkDatabase>(std::move(*database)), *summary};
+  return LoadedLandmarks{std::make_shared<const localize::LandmarkDatabase>(std::move(*database)),
+                         summary_of(name, file->header)};
 }
 
 Result<std::vector<api::LandmarkSummary>> LandmarkLibrary::list() const {
@@ -173,7 +169,8 @@ Result<std::vector<api::LandmarkSummary>> LandmarkLibrary::list() const {
   std::vector<api::LandmarkSummary> all;
   all.reserve(names->size());
   for (const std::string& name : *names) {
-    all.push_back(summary_of(name, store::read_landmark_header(files_.path_of(name))));
+    const Result<store::LandmarkHeader> header = store::read_landmark_header(files_.path_of(name));
+    all.push_back(header ? summary_of(name, *header) : problem_of(name, header.error()));
   }
   return all;
 }
@@ -186,7 +183,7 @@ Result<api::LandmarkSummary> LandmarkLibrary::inspect(const std::string& name) c
   if (!header) {
     return fail_with_context(quoted(name), header.error());
   }
-  return summary_of(name, header);
+  return summary_of(name, *header);
 }
 
 Result<api::LandmarkSummary> LandmarkLibrary::update(const std::string& name,

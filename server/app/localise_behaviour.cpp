@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "common/core/angle.hpp"
-#include "server/app/landmark_estimator.hpp"
 
 namespace seeker::app {
 namespace {
@@ -59,7 +58,7 @@ LocaliseBehaviour::LocaliseBehaviour(const TurnAndLookParams& params, api::Local
 
 void LocaliseBehaviour::follow_odometry(const Situation& situation) {
   if (moved_at_ && situation.now > *moved_at_) {
-    const Twist2 velocity = mean_velocity(odom_T_base_, situation.odom_T_base, to_seconds(situation.now - *moved_at_));
+    const Twist2 velocity = twist_between(odom_T_base_, situation.odom_T_base, to_seconds(situation.now - *moved_at_));
     localiser_.predict(velocity, to_seconds(situation.now - *moved_at_));
   }
   moved_at_ = situation.now;

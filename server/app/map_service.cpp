@@ -1,6 +1,5 @@
 #include "server/app/map_service.hpp"
 
-#include <chrono>
 #include <utility>
 
 namespace seeker::app {
@@ -30,10 +29,6 @@ api::MapSummary summary_of(const store::MapListing& listing) {
 Result<api::MapSummary> summary_of(const Result<store::MapListing>& listing) {
   return listing ? Result<api::MapSummary>(summary_of(*listing))
                  : Result<api::MapSummary>(tl::unexpected<Error>(listing.error()));
-}
-
-std::int64_t wall_unix_s() {
-  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 /// What the scans say about who made them.

@@ -1,18 +1,9 @@
 #include "server/app/survey_behaviour.hpp"
 
-#include <array>
-#include <cstdio>
-
-#include "common/core/angle.hpp"
+#include "common/core/text.hpp"
 
 namespace seeker::app {
 namespace {
-
-std::string text_of(const Point2& p) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "(%.2f, %.2f) m", p.x(), p.y());
-  return text.data();
-}
 
 /// Where the robot stands, and four places around it.
 std::vector<Point2> places_around(const Pose2& map_T_base, double spacing_m) {
@@ -127,7 +118,7 @@ void SurveyBehaviour::drive(const Situation& situation, Decision& decision) {
     return;
   }
   const Point2& place = mission_.places[place_];
-  decision.events.push_back({"unreachable", text_of(place) + ": no way leads there", api::Severity::kWarning});
+  decision.events.push_back({"unreachable", text(place) + " m: no way leads there", api::Severity::kWarning});
   if (places_given_) {
     unreachable_.push_back(place);
   }
@@ -143,7 +134,7 @@ void SurveyBehaviour::look(const Situation& situation, Decision& decision) {
     begin_place();
     return;
   }
-  decision.activity = "looking around at " + text_of(mission_.places[place_]) + ", direction " +
+  decision.activity = "looking around at " + text(mission_.places[place_]) + " m, direction " +
                       std::to_string(sweep_.index() + 1) + " of " + std::to_string(sweep_.headings());
   sweep_.step(situation.pose.map_T_base, situation, decision);
 }

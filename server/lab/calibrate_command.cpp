@@ -5,8 +5,6 @@
 #include <iomanip>
 #include <set>
 
-#include "common/image/jpeg.hpp"
-
 namespace seeker::lab {
 namespace {
 
@@ -19,26 +17,24 @@ struct Boards {
 };
 
 Status add_pair(const drivers::ImagePair& pair, const CalibrateOptions& options, Boards& boards, std::ostream& report) {
-  const Result<Image> left = image::read_picture(pair.left);
-  if (!left) {
-    return tl::unexpected<Error>(left.error());
+  const Result<drivers::PairPictures> pictures = drivers::read_pair(pair);
+  if (!pictures) {
+    return tl::unexpected<Error>(pictures.error());
   }
-  const Result<Image> right = image::read_picture(pair.right);
-  if (!right) {
-    return tl::unexpected<Error>(right.error());
-  }
+  const Image& left = pictures->left;
+  const Image& right = pictures->right;
   if (boards.width_px == 0) {
-    boards.width_px = left->width_px();
-    boards.height_px = left->height_px();
+    boards.width_px = left.width_px();
+    boards.height_px = left.height_px();
   }
-  for (const Image* picture : {&*left, &*right}) {
+  for (const Image* picture : {&left, &right}) {
     if (picture->width_px() != boards.width_px || picture->height_px() != boards.height_px) {
       return fail(Errc::kInvalidArgument, "pair '" + pair.name +
                                               "' has pictures of another size than the first one; take all of them "
                                               "with the same setting of the cameras");
     }
   }
-  Result<BoardView> view = find_board(pair.name, *left, *right, options.board);
+  Result<BoardView> view = find_board(pair.name, left, right, options.board);
   if (!view && view.error().code == Errc::kNotFound) {
     report << "pair " << pair.name << ": left out, " << view.error().message << '\n';
     return {};

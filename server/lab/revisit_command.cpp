@@ -6,6 +6,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "common/core/natural_order.hpp"
 #include "common/image/canvas.hpp"
 #include "common/image/files.hpp"
 #include "common/image/jpeg.hpp"
@@ -16,40 +17,6 @@
 
 namespace seeker::lab {
 namespace {
-
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-
-/// Length of the run of digits or of one other character at `at`.
-std::size_t token_length(const std::string& text, std::size_t at) {
-  std::size_t end = at + 1;
-  while (is_digit(text[at]) && end < text.size() && is_digit(text[end])) {
-    ++end;
-  }
-  return end - at;
-}
-
-/// Numbers compare by value (leading zeros apart), all else by character.
-bool in_order(const std::string& a, const std::string& b) {
-  std::size_t i = 0;
-  std::size_t k = 0;
-  while (i < a.size() && k < b.size()) {
-    std::string left = a.substr(i, token_length(a, i));
-    std::string right = b.substr(k, token_length(b, k));
-    i += left.size();
-    k += right.size();
-    if (is_digit(left[0]) && is_digit(right[0])) {
-      left.erase(0, std::min(left.find_first_not_of('0'), left.size() - 1));
-      right.erase(0, std::min(right.find_first_not_of('0'), right.size() - 1));
-      if (left.size() != right.size()) {
-        return left.size() < right.size();
-      }
-    }
-    if (left != right) {
-      return left < right;
-    }
-  }
-  return a.size() - i != b.size() - k ? a.size() - i < b.size() - k : a < b;
-}
 
 struct Photograph {
   std::filesystem::path path;
@@ -159,7 +126,7 @@ Result<std::vector<std::filesystem::path>> ordered_pictures(const std::filesyste
     return fail(Errc::kNotFound, folder.string() + " holds no picture: give a folder with PNG or JPEG files");
   }
   std::sort(found.begin(), found.end(),
-            [](const auto& a, const auto& b) { return in_order(a.filename().string(), b.filename().string()); });
+            [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
   return found;
 }
 

@@ -65,16 +65,13 @@ Status save(const std::filesystem::path& path, const RunResult& result) {
 }
 
 void TextHash::add(std::string_view text) {
-  constexpr std::uint64_t kPrime = 0x100000001b3ULL;
-  for (const char c : text) {
-    hash_ = (hash_ ^ static_cast<unsigned char>(c)) * kPrime;
-  }
-  hash_ = (hash_ ^ 0xffU) * kPrime;  // ends the text: "ab", "c" differs from "a", "bc"
+  hash_.add(text);
+  hash_.add_byte(0xffU);  // ends the text: "ab", "c" differs from "a", "bc"
 }
 
 std::string TextHash::hex() const {
   std::array<char, 17> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash_));
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash_.value()));
   return digits.data();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/config/yaml.hpp"
+#include "common/core/hash.hpp"
 #include "common/core/result.hpp"
 
 namespace seeker::lab {
@@ -104,7 +105,7 @@ class TextHash {
   [[nodiscard]] std::string hex() const;
 
  private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+  Fnv1a hash_;
 };
 
 }  // namespace seeker::lab

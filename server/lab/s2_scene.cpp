@@ -96,12 +96,6 @@ class Driver {
   bool turning_ = true;
 };
 
-Twist2 velocity_between(const Pose2& before, const Pose2& now) {
-  const Pose2 step = inverse(before) * now;
-  return {std::copysign(std::hypot(step.x_m, step.y_m), step.x_m) / kEncoderPeriod_s,
-          step.theta_rad / kEncoderPeriod_s};
-}
-
 }  // namespace
 
 Result<sim::World> load_laboratory(const std::filesystem::path& config, std::uint64_t pattern_seed) {
@@ -205,7 +199,7 @@ Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim:
     simulation->command(*wanted);
     simulation->advance(seconds(kEncoderPeriod_s));
     const Pose2 now = simulation->odometry().odom_T_base;
-    velocities.push_back(velocity_between(odometry, now));
+    velocities.push_back(twist_between(odometry, now, kEncoderPeriod_s));
     odometry = now;
   }
   return fail(Errc::kTimeout, "the drive does not end: something stands in its way");

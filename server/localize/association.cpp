@@ -7,6 +7,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "server/vision/feature_match.hpp"
+
 namespace seeker::localize {
 namespace {
 
@@ -55,17 +57,12 @@ Pairing best_near(const LandmarkDatabase& database, const SeenPoint& point, cons
 
 }  // namespace
 
-double unit_distance(std::uint32_t byte_distance, vision::Metric metric) {
-  const auto bytes = static_cast<double>(byte_distance);
-  return (metric == vision::Metric::kL1 ? bytes : std::sqrt(bytes)) / vision::kDescriptorUnit;
-}
-
 double landmark_distance(const Landmark& landmark, const vision::Descriptor& descriptor, vision::Metric metric) {
   std::uint32_t least = vision::NearestTwo::kFar;
   for (const LandmarkView& view : landmark.views) {
     least = std::min(least, vision::descriptor_distance(view.descriptor, descriptor, metric));
   }
-  return unit_distance(least, metric);
+  return vision::unit_distance(least, metric);
 }
 
 DescriptorTable::DescriptorTable(const LandmarkDatabase& database) {
@@ -88,7 +85,7 @@ std::vector<std::vector<AlikeLandmark>> alike_landmarks(const DescriptorTable& k
     const auto add = [&](std::size_t query, std::int32_t row, std::uint32_t byte_distance) {
       if (row >= 0) {
         const auto at = static_cast<std::size_t>(row);
-        alike[query].push_back({layer.owners[at], unit_distance(byte_distance, metric), &layer.rows[at]});
+        alike[query].push_back({layer.owners[at], vision::unit_distance(byte_distance, metric), &layer.rows[at]});
       }
     };
     for (std::size_t i = 0; i < nearest.size(); ++i) {
@@ -111,12 +108,12 @@ std::vector<std::vector<AlikeLandmark>> alike_landmarks(const DescriptorTable& k
   return alike;
 }
 
-std::vector<Pairing> associate_anywhere(const DescriptorTable& known, const Sighting& sighting,
+std::vector<Pairing> associate_anywhere(const DescriptorTable& known, std::span<const vision::StereoFeature> features,
                                         std::span<const SeenPoint> points, const AssociationParams& params) {
   std::vector<vision::Descriptor> queries;
   queries.reserve(points.size());
   for (const SeenPoint& point : points) {
-    queries.push_back(sighting.features[point.feature].descriptor);
+    queries.push_back(features[point.feature].descriptor);
   }
   const auto alike = alike_landmarks(known, queries, params.metric);
   std::vector<Pairing> forward;
@@ -138,17 +135,17 @@ std::vector<Pairing> associate_anywhere(const DescriptorTable& known, const Sigh
   return one_each(both_ways);
 }
 
-std::vector<Pairing> associate(const LandmarkDatabase& database, const Sighting& sighting,
+std::vector<Pairing> associate(const LandmarkDatabase& database, std::span<const vision::StereoFeature> features,
                                std::span<const SeenPoint> points, const AssociationParams& params) {
   if (database.empty() || points.empty()) {
     return {};
   }
   if (params.anywhere) {
-    return associate_anywhere(DescriptorTable(database), sighting, points, params);
+    return associate_anywhere(DescriptorTable(database), features, points, params);
   }
   std::vector<Pairing> forward;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    Pairing best = best_near(database, points[i], sighting.features[points[i].feature].descriptor, params);
+    Pairing best = best_near(database, points[i], features[points[i].feature].descriptor, params);
     if (best.landmark != kNone) {
       best.point = i;
       forward.push_back(best);

@@ -42,9 +42,7 @@ struct SparsityParams {
   friend bool operator==(const SparsityParams&, const SparsityParams&) = default;
 };
 
-/// Distance of descriptors of unit length, eq (1) or Euclidean.
-[[nodiscard]] double unit_distance(std::uint32_t byte_distance, vision::Metric metric);
-/// Of the most alike of a landmark's views.
+/// Distance of descriptors of unit length, that of the most alike of a landmark's views.
 [[nodiscard]] double landmark_distance(const Landmark& landmark, const vision::Descriptor& descriptor,
                                        vision::Metric metric);
 
@@ -75,13 +73,15 @@ struct AlikeLandmark {
                                                                       vision::Metric metric);
 
 /// Spec S2.5 as printed, over all of `known`: the most alike both ways, within params.max_distance.
-[[nodiscard]] std::vector<Pairing> associate_anywhere(const DescriptorTable& known, const Sighting& sighting,
+[[nodiscard]] std::vector<Pairing> associate_anywhere(const DescriptorTable& known,
+                                                      std::span<const vision::StereoFeature> features,
                                                       std::span<const SeenPoint> points,
                                                       const AssociationParams& params);
 
 /// One landmark a point and one point a landmark, each the other's most alike, by rising index of the point:
 /// anywhere, or only where the places agree.
-[[nodiscard]] std::vector<Pairing> associate(const LandmarkDatabase& database, const Sighting& sighting,
+[[nodiscard]] std::vector<Pairing> associate(const LandmarkDatabase& database,
+                                             std::span<const vision::StereoFeature> features,
                                              std::span<const SeenPoint> points, const AssociationParams& params);
 
 /// Eqs (8)-(9) for a point that no landmark was paired with.

@@ -130,18 +130,18 @@ void DatabaseUpdate::apply_tallies(LandmarkDatabase& database) const {
 /// Spec S2.10: what is not known already, is not too close to what is, and was seen often enough.
 void DatabaseUpdate::add_new(LandmarkDatabase& database, UpdateCounts& counts) const {
   const LandmarkDatabase& dynamic = dynamic_.database();
-  Sighting views;
+  std::vector<vision::StereoFeature> views;
   std::vector<SeenPoint> points;
   for (const Landmark& landmark : dynamic.landmarks()) {
     SeenPoint point;
-    point.feature = views.features.size();
+    point.feature = views.size();
     point.map = {landmark.p_map, landmark.covariance()};
     point.to_eye = landmark.to_eye;
     point.scale_m = landmark.scale_m;
     points.push_back(point);
     vision::StereoFeature feature;
     feature.descriptor = landmark.views.front().descriptor;
-    views.features.push_back(feature);
+    views.push_back(feature);
   }
   std::vector<bool> known(points.size(), false);
   for (const Pairing& pair : associate(database, views, points, params_.database.association)) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
 namespace seeker::localize {
 namespace {
 
@@ -27,6 +29,10 @@ Matrix3 rotation(double theta_rad) {
 }
 
 }  // namespace
+
+double largest_sigma(const Matrix2& covariance) {
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix2>(covariance, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+}
 
 std::optional<UncertainPoint> triangulate(const StereoGeometry& geometry, const vision::StereoFeature& feature,
                                           const PixelNoise& noise) {
@@ -85,15 +91,21 @@ std::optional<Pixel> project(const StereoGeometry& geometry, const Point3& p_eye
   return inside ? std::optional(pixel) : std::nullopt;
 }
 
+std::optional<UncertainPoint> triangulate_within(const StereoGeometry& geometry, const vision::StereoFeature& feature,
+                                                 const PixelNoise& noise, const RangeLimits& limits) {
+  const auto eye = triangulate(geometry, feature, noise);
+  const double range_m = eye ? eye->p.head<2>().norm() : 0.0;
+  return eye && range_m >= limits.min_m && range_m <= limits.max_m ? eye : std::nullopt;
+}
+
 std::vector<SeenPoint> see(const StereoGeometry& geometry, const Sighting& sighting, const PixelNoise& noise,
                            const RangeLimits& limits) {
   std::vector<SeenPoint> points;
   points.reserve(sighting.features.size());
   for (std::size_t i = 0; i < sighting.features.size(); ++i) {
     const vision::StereoFeature& feature = sighting.features[i];
-    const auto eye = triangulate(geometry, feature, noise);
-    const double range_m = eye ? eye->p.head<2>().norm() : 0.0;
-    if (!eye || range_m < limits.min_m || range_m > limits.max_m) {
+    const auto eye = triangulate_within(geometry, feature, noise, limits);
+    if (!eye) {
       continue;
     }
     const Matrix3 by_pose = to_map_jacobian(sighting.map_T_eye, eye->p);
@@ -105,7 +117,7 @@ std::vector<SeenPoint> see(const StereoGeometry& geometry, const Sighting& sight
     const Point3 eye_map(sighting.map_T_eye.x_m, sighting.map_T_eye.y_m, sighting.eye_height_m);
     point.to_eye = (eye_map - point.map.p).normalized();
     point.scale_m = feature.left.scale_px * eye->p.x() / geometry.focal_px;
-    point.range_m = range_m;
+    point.range_m = eye->p.head<2>().norm();
     points.push_back(point);
   }
   return points;

@@ -33,6 +33,9 @@ struct UncertainPoint {
   Matrix3 covariance = Matrix3::Zero();
 };
 
+/// Standard deviation in the direction in which it is largest.
+[[nodiscard]] double largest_sigma(const Matrix2& covariance);
+
 /// Eqs (2)-(4) with offsets from the principal point, and the covariance that the pixels' noise gives, to first order.
 /// Nothing where the disparity is not above zero.
 [[nodiscard]] std::optional<UncertainPoint> triangulate(const StereoGeometry& geometry,
@@ -80,6 +83,11 @@ struct RangeLimits {
 
   friend bool operator==(const RangeLimits&, const RangeLimits&) = default;
 };
+
+/// triangulate(), and nothing outside the limits.
+[[nodiscard]] std::optional<UncertainPoint> triangulate_within(const StereoGeometry& geometry,
+                                                               const vision::StereoFeature& feature,
+                                                               const PixelNoise& noise, const RangeLimits& limits);
 
 /// Features outside the limits are left out.
 [[nodiscard]] std::vector<SeenPoint> see(const StereoGeometry& geometry, const Sighting& sighting,

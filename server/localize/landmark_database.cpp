@@ -43,11 +43,6 @@ std::string_view problem_of(const Landmark& landmark, LandmarkId next_id) {
   return landmark.seen < 1 || landmark.expected < 0 || landmark.misses < 0 ? "its counts are negative" : "";
 }
 
-double sigma_over_floor(const Landmark& landmark) {
-  const Matrix2 floor = landmark.covariance().topLeftCorner<2, 2>();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix2>(floor, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
-}
-
 }  // namespace
 
 Result<LandmarkDatabase> LandmarkDatabase::restore(std::uint64_t calibration, LandmarkId next_id,
@@ -93,7 +88,7 @@ DatabaseStatistics LandmarkDatabase::statistics() const {
     statistics.mean_seen += static_cast<double>(landmark.seen) / static_cast<double>(size());
     statistics.low = statistics.low.cwiseMin(landmark.p_map);
     statistics.high = statistics.high.cwiseMax(landmark.p_map);
-    sigmas_m.push_back(sigma_over_floor(landmark));
+    sigmas_m.push_back(largest_sigma(landmark.covariance().topLeftCorner<2, 2>()));
   }
   const auto middle = sigmas_m.begin() + static_cast<std::ptrdiff_t>(sigmas_m.size() / 2);
   std::nth_element(sigmas_m.begin(), middle, sigmas_m.end());

@@ -1,5 +1,6 @@
 #include "server/localize/landmark_map.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "common/core/assert.hpp"
@@ -20,13 +21,18 @@ std::vector<EyeFeature> lift(const StereoGeometry& geometry, std::span<const vis
   std::vector<EyeFeature> lifted;
   lifted.reserve(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
-    const auto eye = triangulate(geometry, features[i], params.noise);
-    const double range_m = eye ? eye->p.head<2>().norm() : 0.0;
-    if (eye && range_m >= params.range.min_m && range_m <= params.range.max_m) {
+    if (const auto eye = triangulate_within(geometry, features[i], params.noise, params.range)) {
       lifted.push_back({i, *eye, measure(*eye, features[i].disparity_px, params.measurement)});
     }
   }
   return lifted;
+}
+
+bool heights_agree(const EyeFeature& feature, const LandmarkMap& map, std::size_t landmark, double tolerance_m,
+                   const LocaliserParams& params) {
+  const double difference_m = feature.eye.p.z() + params.eye_height_m - map.at(landmark).p_map.z();
+  const double sigma_m = std::sqrt(feature.eye.covariance(2, 2) + map.covariances[landmark](2, 2));
+  return std::abs(difference_m) <= tolerance_m + params.tracking.window_sigmas * sigma_m;
 }
 
 RangeBearing with_landmark(const EyeFeature& feature, const LandmarkMap& map, std::size_t landmark, double repeats,

@@ -32,6 +32,10 @@ struct EyeFeature {
                                            std::span<const vision::StereoFeature> features,
                                            const LocaliserParams& params);
 
+/// Whether feature and landmark stand at the same height, as far as both are known and within `tolerance_m`.
+[[nodiscard]] bool heights_agree(const EyeFeature& feature, const LandmarkMap& map, std::size_t landmark,
+                                 double tolerance_m, const LocaliserParams& params);
+
 /// The measurement of a feature taken for a landmark, whose covariance is counted `repeats` times.
 [[nodiscard]] RangeBearing with_landmark(const EyeFeature& feature, const LandmarkMap& map, std::size_t landmark,
                                          double repeats, const LocaliserParams& params);

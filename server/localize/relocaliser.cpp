@@ -7,7 +7,6 @@
 #include <set>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "common/core/assert.hpp"
@@ -97,9 +96,7 @@ void Search::add_voter(const Pairing& pair) {
   const EyeFeature& feature = lifted_[pair.point];
   const Matrix3& own = map_.covariances[pair.landmark];
   const Point3& p_map = map_.at(pair.landmark).p_map;
-  const double height_m = feature.eye.p.z() + params_.eye_height_m - p_map.z();
-  const double height_sigma_m = std::sqrt(feature.eye.covariance(2, 2) + own(2, 2));
-  if (std::abs(height_m) > params_.relocalise.height_tolerance_m + params_.tracking.window_sigmas * height_sigma_m) {
+  if (!heights_agree(feature, map_, pair.landmark, params_.relocalise.height_tolerance_m, params_)) {
     return;
   }
   const double floor_m2 = params_.measurement.range_floor_m * params_.measurement.range_floor_m;
@@ -241,8 +238,7 @@ void Search::judge(RelocaliseAnswer& answer) const {
   const auto found = static_cast<int>(answer.inliers.size());
   const std::string figures = std::to_string(found) + " of " + std::to_string(answer.candidates) + " matches agree";
   const Matrix2 place = answer.belief.covariance.topLeftCorner<2, 2>();
-  const double sigma_m =
-      std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix2>(place, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+  const double sigma_m = largest_sigma(place);
   if (found < p.min_inliers) {
     answer.verdict = RelocaliseVerdict::kNothing;
     answer.reason = figures + ", " + std::to_string(p.min_inliers) + " are needed; turn the robot or drive on";

@@ -20,10 +20,6 @@ namespace {
 /// What UNKNOWN reports: as large as a building.
 constexpr double kAnywhere_m = 1000.0;
 
-double largest_sigma(const Matrix2& covariance) {
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix2>(covariance, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
-}
-
 Status check_database(const StereoGeometry& geometry, const LandmarkDatabase& database) {
   if (database.calibration() != calibration_hash(geometry)) {
     return fail(Errc::kInvalidArgument,
@@ -92,8 +88,6 @@ std::vector<Pairing> StereoLocaliser::State::candidates(std::span<const vision::
   if (params.mode == FilterMode::kJoint) {
     return match_in_windows(geometry, map, belief, features, lifted, expected, params);
   }
-  Sighting sighting;
-  sighting.features.assign(features.begin(), features.end());
   std::vector<SeenPoint> points(lifted.size());
   for (std::size_t i = 0; i < lifted.size(); ++i) {
     points[i].feature = lifted[i].feature;
@@ -101,7 +95,7 @@ std::vector<Pairing> StereoLocaliser::State::candidates(std::span<const vision::
   AssociationParams anywhere;
   anywhere.metric = params.metric;
   anywhere.max_distance = params.tracking.max_distance;
-  return associate_anywhere(map.table, sighting, points, anywhere);
+  return associate_anywhere(map.table, features, points, anywhere);
 }
 
 /// Corrects the belief with the pairs that pass the gate and, jointly, agree with each other.

@@ -89,7 +89,7 @@ Result<SightingCounts> SurveyBuilder::add(const Sighting& sighting) {
     return tl::unexpected(ok.error());
   }
   const std::vector<SeenPoint> points = see(geometry_, sighting, params_.noise, params_.range);
-  const std::vector<Pairing> pairs = associate(database_, sighting, points, params_.association);
+  const std::vector<Pairing> pairs = associate(database_, sighting.features, points, params_.association);
   const std::uint64_t number = database_.begin_sighting();
   fates_.assign(sighting.features.size(), FeatureFate::kOutOfRange);
   std::vector<bool> paired(points.size(), false);

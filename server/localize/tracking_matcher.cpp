@@ -80,13 +80,6 @@ Eigen::Vector2d window_px(const StereoGeometry& geometry, const EyeBelief& belie
   return {std::max(across_px, params.tracking.min_window_px), std::max(height_px, params.tracking.min_window_px)};
 }
 
-bool height_agrees(const EyeFeature& feature, const Landmark& landmark, const Matrix3& covariance,
-                   const LocaliserParams& params) {
-  const double difference_m = feature.eye.p.z() + params.eye_height_m - landmark.p_map.z();
-  const double sigma_m = std::sqrt(feature.eye.covariance(2, 2) + covariance(2, 2));
-  return std::abs(difference_m) <= params.tracking.height_tolerance_m + params.tracking.window_sigmas * sigma_m;
-}
-
 }  // namespace
 
 std::vector<ExpectedLandmark> expected_landmarks(const StereoGeometry& geometry, const LandmarkMap& map,
@@ -127,7 +120,8 @@ std::vector<Pairing> match_in_windows(const StereoGeometry& geometry, const Land
     const Eigen::Vector2d half = window_px(geometry, belief, landmark, covariance, params);
     squares.for_window(expected[k].pixel, half.x(), half.y(), [&](std::size_t i) {
       const double distance = landmark_distance(landmark, features[lifted[i].feature].descriptor, params.metric);
-      if (distance > params.tracking.max_distance || !height_agrees(lifted[i], landmark, covariance, params)) {
+      if (distance > params.tracking.max_distance ||
+          !heights_agree(lifted[i], map, expected[k].landmark, params.tracking.height_tolerance_m, params)) {
         return;
       }
       const auto innovation = innovate(belief, with_landmark(lifted[i], map, expected[k].landmark, 1.0, params));

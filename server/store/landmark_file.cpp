@@ -1,7 +1,7 @@
 #include "server/store/landmark_file.hpp"
 
-#include <bit>
 #include <system_error>
+#include <utility>
 
 #include "server/store/atomic_file.hpp"
 #include "server/store/landmark_rows.hpp"
@@ -45,6 +45,38 @@ Status write_new(const fs::path& file, const LandmarkOrigin& origin, const Landm
   return ok ? transaction->commit() : ok;
 }
 
+/// Changes the file in one transaction; `work` gets the version that is present before.
+template <class Work>
+Status change_file(const fs::path& file, Work work) {
+  Result<Database> database = open_file(file, Access::kChange);
+  if (!database) {
+    return tl::unexpected(database.error());
+  }
+  Result<Transaction> transaction = Transaction::begin(*database);
+  if (!transaction) {
+    return tl::unexpected(transaction.error());
+  }
+  const Result<VersionRow> present = present_version(*database);
+  if (!present) {
+    return tl::unexpected(present.error());
+  }
+  Status ok = work(*database, *present);
+  return ok ? transaction->commit() : ok;
+}
+
+Result<LandmarkHeader> read_header(Database& database, const fs::path& file) {
+  const Result<VersionRow> version = present_version(database);
+  if (!version) {
+    return tl::unexpected(version.error());
+  }
+  const Result<std::optional<VersionRow>> before = read_version(database, kBefore);
+  LandmarkHeader header = version->header;
+  header.can_revert = before && before->has_value();
+  std::error_code error;
+  header.file_bytes = fs::file_size(file, error);
+  return header;
+}
+
 }  // namespace
 
 Status write_landmark_file(const fs::path& file, const LandmarkOrigin& origin, const LandmarkContent& content) {
@@ -62,86 +94,51 @@ Status write_landmark_file(const fs::path& file, const LandmarkOrigin& origin, c
 }
 
 Status update_landmark_file(const fs::path& file, std::int64_t saved_unix_s, const LandmarkContent& content) {
-  Result<Database> database = open_file(file, Access::kChange);
-  if (!database) {
-    return tl::unexpected(database.error());
-  }
-  Result<Transaction> transaction = Transaction::begin(*database);
-  if (!transaction) {
-    return tl::unexpected(transaction.error());
-  }
-  const Result<VersionRow> old = present_version(*database);
-  if (!old) {
-    return tl::unexpected(old.error());
-  }
-  if (Status ok = move_generation(*database, kPresent, kBefore); !ok) {
-    return ok;
-  }
-  LandmarkOrigin origin = old->header.origin;
-  origin.saved_unix_s = saved_unix_s;
-  Status ok = insert_version(*database, old->header.revision + 1, origin, content);
-  return ok ? transaction->commit() : ok;
+  return change_file(file, [&](Database& database, const VersionRow& old) -> Status {
+    if (Status ok = move_generation(database, kPresent, kBefore); !ok) {
+      return ok;
+    }
+    LandmarkOrigin origin = old.header.origin;
+    origin.saved_unix_s = saved_unix_s;
+    return insert_version(database, old.header.revision + 1, origin, content);
+  });
 }
 
 Status revert_landmark_file(const fs::path& file, std::int64_t saved_unix_s) {
-  Result<Database> database = open_file(file, Access::kChange);
-  if (!database) {
-    return tl::unexpected(database.error());
-  }
-  Result<Transaction> transaction = Transaction::begin(*database);
-  if (!transaction) {
-    return tl::unexpected(transaction.error());
-  }
-  const Result<VersionRow> present = present_version(*database);
-  if (!present) {
-    return tl::unexpected(present.error());
-  }
-  const Result<std::optional<VersionRow>> before = read_version(*database, kBefore);
-  if (!before) {
-    return tl::unexpected(before.error());
-  }
-  if (!*before) {
-    return fail(Errc::kNotReady, "no version before the present one is kept");
-  }
-  if (Status ok = move_generation(*database, kBefore, kPresent); !ok) {
-    return ok;
-  }
-  Result<Statement> row = database->prepare("UPDATE versions SET revision = ?, saved_unix_s = ? WHERE generation = 0");
-  if (!row) {
-    return tl::unexpected(row.error());
-  }
-  row->bind(std::bit_cast<std::int64_t>(present->header.revision + 1)).bind(saved_unix_s);
-  Status ok = row->run();
-  return ok ? transaction->commit() : ok;
+  return change_file(file, [&](Database& database, const VersionRow& present) -> Status {
+    const Result<std::optional<VersionRow>> before = read_version(database, kBefore);
+    if (!before) {
+      return tl::unexpected(before.error());
+    }
+    if (!*before) {
+      return fail(Errc::kNotReady, "no version before the present one is kept");
+    }
+    if (Status ok = move_generation(database, kBefore, kPresent); !ok) {
+      return ok;
+    }
+    return renumber_present(database, present.header.revision + 1, saved_unix_s);
+  });
 }
 
 Result<LandmarkHeader> read_landmark_header(const fs::path& file) {
   Result<Database> database = open_file(file, Access::kRead);
-  if (!database) {
-    return tl::unexpected(database.error());
-  }
-  const Result<VersionRow> version = present_version(*database);
-  if (!version) {
-    return tl::unexpected(version.error());
-  }
-  const Result<std::optional<VersionRow>> before = read_version(*database, kBefore);
-  LandmarkHeader header = version->header;
-  header.can_revert = before && before->has_value();
-  std::error_code error;
-  header.file_bytes = fs::file_size(file, error);
-  return header;
+  return database ? read_header(*database, file) : tl::unexpected(database.error());
 }
 
-Result<LandmarkContent> read_landmark_file(const fs::path& file) {
+Result<LandmarkFile> read_landmark_file(const fs::path& file) {
   Result<Database> database = open_file(file, Access::kRead);
   if (!database) {
     return tl::unexpected(database.error());
   }
-  const Result<VersionRow> version = present_version(*database);
-  if (!version) {
-    return tl::unexpected(version.error());
+  Result<LandmarkHeader> header = read_header(*database, file);
+  if (!header) {
+    return tl::unexpected(header.error());
   }
-  return read_content(*database, *version);
+  Result<LandmarkContent> content = read_content(*database);
+  if (!content) {
+    return tl::unexpected(content.error());
+  }
+  return LandmarkFile{std::move(*header), std::move(*content)};
 }
 
 }  // namespace seeker::store

@@ -82,6 +82,12 @@ struct LandmarkHeader {
   friend bool operator==(const LandmarkHeader&, const LandmarkHeader&) = default;
 };
 
+/// A whole file.
+struct LandmarkFile {
+  LandmarkHeader header;
+  LandmarkContent content;  ///< the present version
+};
+
 // Errors of all: kNotFound (no such file), kIo, kCorrupt, kUnsupportedVersion (both versions named), kInvalidArgument
 // (a database of another kind, numbers that are not finite), kTooLarge. A failure leaves the file as it was.
 
@@ -97,6 +103,6 @@ struct LandmarkHeader {
 /// The header alone; the landmarks are not looked at.
 [[nodiscard]] Result<LandmarkHeader> read_landmark_header(const std::filesystem::path& file);
 /// The present version, checked as a whole.
-[[nodiscard]] Result<LandmarkContent> read_landmark_file(const std::filesystem::path& file);
+[[nodiscard]] Result<LandmarkFile> read_landmark_file(const std::filesystem::path& file);
 
 }  // namespace seeker::store

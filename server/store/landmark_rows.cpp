@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "common/core/assert.hpp"
+#include "common/core/hash.hpp"
 
 namespace seeker::store {
 namespace {
@@ -46,46 +47,28 @@ CREATE TABLE sides (
 std::int64_t to_signed(std::uint64_t value) { return std::bit_cast<std::int64_t>(value); }
 std::uint64_t to_unsigned(std::int64_t value) { return std::bit_cast<std::uint64_t>(value); }
 
-/// FNV-1a over everything a version holds: the database's own check knows nothing of changed numbers.
-class Checksum {
- public:
-  void add(std::uint64_t value) {
-    for (unsigned shift = 0; shift < 64U; shift += 8U) {
-      add_byte(static_cast<std::uint8_t>(value >> shift));
+template <class T, std::size_t N>
+void add_all(Fnv1a& sum, const std::array<T, N>& values) {
+  for (const T& value : values) {
+    if constexpr (sizeof(T) == 1) {
+      sum.add_byte(value);
+    } else {
+      sum.add(value);
     }
   }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(std::int64_t value) { add(to_unsigned(value)); }
-  template <class T, std::size_t N>
-  void add(const std::array<T, N>& values) {
-    for (const T& value : values) {
-      if constexpr (sizeof(T) == 1) {
-        add_byte(value);
-      } else {
-        add(value);
-      }
-    }
-  }
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
+}
 
- private:
-  void add_byte(std::uint8_t byte) {
-    constexpr std::uint64_t kPrime = 1099511628211ULL;
-    hash_ = (hash_ ^ byte) * kPrime;
-  }
-  std::uint64_t hash_ = 14695981039346656037ULL;
-};
-
+/// Over everything a version holds: the database's own check knows nothing of changed numbers.
 std::uint64_t checksum_of(const LandmarkContent& content) {
-  Checksum sum;
+  Fnv1a sum;
   sum.add(content.calibration);
   sum.add(content.next_id);
   sum.add(content.sightings);
   for (const LandmarkRecord& r : content.landmarks) {
     sum.add(r.id);
-    sum.add(r.p_map);
-    sum.add(r.information);
-    sum.add(r.to_eye);
+    add_all(sum, r.p_map);
+    add_all(sum, r.information);
+    add_all(sum, r.to_eye);
     sum.add(r.concentration);
     sum.add(r.scale_m);
     sum.add(r.log_odds);
@@ -94,9 +77,9 @@ std::uint64_t checksum_of(const LandmarkContent& content) {
     sum.add(r.misses);
     sum.add(r.last_seen);
     for (const LandmarkSide& side : r.sides) {
-      sum.add(side.to_eye);
+      add_all(sum, side.to_eye);
       sum.add(side.seen);
-      sum.add(side.descriptor);
+      add_all(sum, side.descriptor);
     }
   }
   return sum.value();
@@ -291,11 +274,15 @@ Result<VersionRow> present_version(Database& database) {
   return **version;
 }
 
-Result<LandmarkContent> read_content(Database& database, const VersionRow& version) {
+Result<LandmarkContent> read_content(Database& database) {
+  const Result<VersionRow> version = present_version(database);
+  if (!version) {
+    return tl::unexpected(version.error());
+  }
   LandmarkContent content;
-  content.calibration = version.header.calibration;
-  content.next_id = version.next_id;
-  content.sightings = version.sightings;
+  content.calibration = version->header.calibration;
+  content.next_id = version->next_id;
+  content.sightings = version->sightings;
   Status ok = read_landmarks(database, content.landmarks);
   if (ok) {
     ok = read_sides(database, content.landmarks);
@@ -303,10 +290,19 @@ Result<LandmarkContent> read_content(Database& database, const VersionRow& versi
   if (!ok) {
     return tl::unexpected(ok.error());
   }
-  if (content.landmarks.size() != version.header.landmarks || checksum_of(content) != version.checksum) {
+  if (content.landmarks.size() != version->header.landmarks || checksum_of(content) != version->checksum) {
     return damaged("its landmarks do not match their checksum");
   }
   return content;
+}
+
+Status renumber_present(Database& database, std::uint64_t revision, std::int64_t saved_unix_s) {
+  Result<Statement> row = database.prepare("UPDATE versions SET revision = ?, saved_unix_s = ? WHERE generation = 0");
+  if (!row) {
+    return tl::unexpected(row.error());
+  }
+  row->bind(to_signed(revision)).bind(saved_unix_s);
+  return row->run();
 }
 
 }  // namespace seeker::store

@@ -29,12 +29,15 @@ struct VersionRow {
 /// kCorrupt where there is none.
 [[nodiscard]] Result<VersionRow> present_version(Database& database);
 /// The landmarks of the present version, checked against its checksum.
-[[nodiscard]] Result<LandmarkContent> read_content(Database& database, const VersionRow& version);
+[[nodiscard]] Result<LandmarkContent> read_content(Database& database);
 
 /// As the present version, which must not be there. Asserts that landmarks are sorted by id.
 [[nodiscard]] Status insert_version(Database& database, std::uint64_t revision, const LandmarkOrigin& origin,
                                     const LandmarkContent& content);
 /// Moves one generation over another one, which is gone then.
 [[nodiscard]] Status move_generation(Database& database, std::int64_t from, std::int64_t to);
+
+/// What the present version says of itself when it is an old one again.
+[[nodiscard]] Status renumber_present(Database& database, std::uint64_t revision, std::int64_t saved_unix_s);
 
 }  // namespace seeker::store

@@ -65,19 +65,6 @@ struct BbfTree::Search {
     detours.push_back({detour, dimension, now});
     branches.push({branch_bound, node, static_cast<std::int32_t>(detours.size()) - 1});
   }
-
-  void offer(std::uint32_t candidate, std::uint32_t distance) {
-    const auto index = static_cast<std::int32_t>(candidate);
-    if (distance < nearest.best_distance) {
-      nearest.second = nearest.best;
-      nearest.second_distance = nearest.best_distance;
-      nearest.best = index;
-      nearest.best_distance = distance;
-    } else if (distance < nearest.second_distance) {
-      nearest.second = index;
-      nearest.second_distance = distance;
-    }
-  }
 };
 
 BbfTree::BbfTree(std::span<const Descriptor> candidates, Metric metric, const BbfParams& params)
@@ -147,7 +134,8 @@ std::int32_t BbfTree::build(std::uint32_t first, std::uint32_t last) {
 void BbfTree::look_at(const Node& leaf, Search& search) const {
   ++search.leaves;
   for (std::uint32_t i = leaf.first; i < leaf.last; ++i) {
-    search.offer(order_[i], descriptor_distance(search.query, descriptors_[i], metric_));
+    search.nearest.offer(static_cast<std::int32_t>(order_[i]),
+                         descriptor_distance(search.query, descriptors_[i], metric_));
   }
 }
 

@@ -65,6 +65,19 @@ struct NearestTwo {
   std::int32_t second = kNone;
   std::uint32_t second_distance = kFar;
 
+  /// One more candidate; of equal ones the first stays.
+  void offer(std::int32_t candidate, std::uint32_t distance) {
+    if (distance < best_distance) {
+      second = best;
+      second_distance = best_distance;
+      best = candidate;
+      best_distance = distance;
+    } else if (distance < second_distance) {
+      second = candidate;
+      second_distance = distance;
+    }
+  }
+
   friend bool operator==(const NearestTwo&, const NearestTwo&) = default;
 };
 

@@ -46,19 +46,6 @@ void fill(CandidateBlock& block, std::span<const Descriptor> candidates) {
   }
 }
 
-/// Candidates come in rising order, so that of equal ones the first stays.
-void offer(NearestTwo& nearest, std::int32_t candidate, std::uint32_t distance) {
-  if (distance < nearest.best_distance) {
-    nearest.second = nearest.best;
-    nearest.second_distance = nearest.best_distance;
-    nearest.best = candidate;
-    nearest.best_distance = distance;
-  } else {
-    nearest.second = candidate;
-    nearest.second_distance = distance;
-  }
-}
-
 }  // namespace
 
 const std::vector<NearestKernels>& nearest_kernels() {
@@ -84,9 +71,7 @@ std::vector<NearestTwo> nearest_two_with(const NearestKernels& kernels, std::spa
     for (std::size_t q = 0; q < queries.size(); ++q) {
       const bool any = measure(queries[q], block, distances.data()) < nearest[q].second_distance;
       for (std::size_t i = 0; any && i < block.size; ++i) {
-        if (distances[i] < nearest[q].second_distance) {
-          offer(nearest[q], static_cast<std::int32_t>(first + i), distances[i]);
-        }
+        nearest[q].offer(static_cast<std::int32_t>(first + i), distances[i]);
       }
     }
   }

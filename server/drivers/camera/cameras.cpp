@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/image/jpeg.hpp"
-
 namespace seeker::drivers {
 namespace {
 
@@ -143,15 +141,11 @@ class FolderCamera final : public StereoDriver {
       return fail(Errc::kCancelled, "all " + std::to_string(pairs_.size()) + " recorded pairs have been played");
     }
     const ImagePair& pair = pairs_[next_++];
-    const Result<Image> left = image::read_picture(pair.left);
-    if (!left) {
-      return tl::unexpected<Error>(left.error());
+    const Result<PairPictures> pictures = read_pair(pair);
+    if (!pictures) {
+      return tl::unexpected<Error>(pictures.error());
     }
-    const Result<Image> right = image::read_picture(pair.right);
-    if (!right) {
-      return tl::unexpected<Error>(right.error());
-    }
-    Result<StereoFrame> frame = rectifier_.rectify(now_(), *left, *right);
+    Result<StereoFrame> frame = rectifier_.rectify(now_(), pictures->left, pictures->right);
     if (!frame) {
       return fail_with_context("pair '" + pair.name + "'", frame.error());
     }

@@ -7,50 +7,17 @@
 #include <sstream>
 
 #include "common/core/angle.hpp"
+#include "common/core/natural_order.hpp"
 #include "common/image/files.hpp"
+#include "common/image/jpeg.hpp"
 
 namespace seeker::drivers {
 namespace {
 
 constexpr std::size_t kMaxCsv_bytes = std::size_t{16} << 20U;
 
-/// Names in natural order: runs of digits by their value.
-bool natural_less(const std::string& a, const std::string& b) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (!digit(a[i]) || !digit(b[j])) {
-      if (a[i] != b[j]) {
-        return a[i] < b[j];
-      }
-      ++i;
-      ++j;
-      continue;
-    }
-    const auto run = [&digit](const std::string& s, std::size_t& at) {
-      while (at + 1 < s.size() && s[at] == '0' && digit(s[at + 1])) {
-        ++at;
-      }
-      const std::size_t from = at;
-      while (at < s.size() && digit(s[at])) {
-        ++at;
-      }
-      return s.substr(from, at - from);
-    };
-    const std::string x = run(a, i);
-    const std::string y = run(b, j);
-    if (x != y) {
-      return x.size() != y.size() ? x.size() < y.size() : x < y;
-    }
-  }
-  return a.size() - i < b.size() - j;
-}
-
 struct NaturalLess {
-  bool operator()(const std::string& a, const std::string& b) const {
-    return natural_less(a, b) || (!natural_less(b, a) && a < b);
-  }
+  bool operator()(const std::string& a, const std::string& b) const { return natural_less(a, b); }
 };
 using PairsByName = std::map<std::string, ImagePair, NaturalLess>;
 
@@ -177,6 +144,18 @@ Result<std::vector<ImagePair>> list_image_pairs(const ImageFolderParams& params)
     list.push_back(std::move(pair));
   }
   return list;
+}
+
+Result<PairPictures> read_pair(const ImagePair& pair) {
+  Result<Image> left = image::read_picture(pair.left);
+  if (!left) {
+    return tl::unexpected<Error>(left.error());
+  }
+  Result<Image> right = image::read_picture(pair.right);
+  if (!right) {
+    return tl::unexpected<Error>(right.error());
+  }
+  return PairPictures{std::move(*left), std::move(*right)};
 }
 
 }  // namespace seeker::drivers

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/core/image.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
 
@@ -36,6 +37,14 @@ struct ImageFolderParams {
 /// kInvalidArgument: a picture without its partner, a pattern without `*`, a pose missing; kParse: a line of the CSV;
 /// kTooLarge.
 [[nodiscard]] Result<std::vector<ImagePair>> list_image_pairs(const ImageFolderParams& params);
+
+/// The pictures of a pair as they are in their files.
+struct PairPictures {
+  Image left;
+  Image right;
+};
+/// Errors of image::read_picture().
+[[nodiscard]] Result<PairPictures> read_pair(const ImagePair& pair);
 
 /// What `*` stands for when the name fits the pattern.
 [[nodiscard]] std::optional<std::string> match_pattern(std::string_view name, std::string_view pattern);

@@ -78,5 +78,19 @@ RC_GTEST_PROP(Pose2, JacobiansMatchCentralDifferences, (int ax, int ay, int at, 
   RC_ASSERT((inverse_jacobian(a) - numeric_jacobian([](const Pose2& p) { return inverse(p); }, a)).norm() < kTolerance);
 }
 
+TEST(TwistBetween, LeadsFromOnePoseToTheOther) {
+  const Pose2 from{1.0, -2.0, 0.4};
+  for (const Twist2& velocity : {Twist2{0.3, 0.0}, Twist2{0.3, 0.8}, Twist2{-0.2, 0.5}, Twist2{0.0, -1.0}}) {
+    const double tau_s = 0.5;
+    const double turn = velocity.omega_rad_s * tau_s;
+    const double way = velocity.v_m_s * tau_s;
+    const Point2 chord =
+        turn != 0.0 ? Point2(way / turn * std::sin(turn), way / turn * (1.0 - std::cos(turn))) : Point2(way, 0.0);
+    const Twist2 found = twist_between(from, from * Pose2{chord.x(), chord.y(), turn}, tau_s);
+    EXPECT_NEAR(found.v_m_s, velocity.v_m_s, 1e-9);
+    EXPECT_NEAR(found.omega_rad_s, velocity.omega_rad_s, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace seeker

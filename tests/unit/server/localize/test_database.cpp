@@ -165,7 +165,7 @@ TEST(Association, IsBothWaysOnly) {
     AssociationParams params;
     params.anywhere = anywhere;
     const auto points = see({}, sighting, {}, {});
-    const auto pairs = associate(database, sighting, points, params);
+    const auto pairs = associate(database, sighting.features, points, params);
     ASSERT_EQ(pairs.size(), 1U) << "one landmark, one feature";
     EXPECT_EQ(pairs[0].point, 1U) << "the more alike one";
   }
@@ -180,9 +180,9 @@ TEST(Association, OutsideThePlaceIsOnlyWithThePaper) {
   sighting.features = {feature_of({3.0, 0.0, 0.0}, descriptor)};
   const auto points = see({}, sighting, {}, {});
   AssociationParams params;
-  EXPECT_TRUE(associate(database, sighting, points, params).empty());
+  EXPECT_TRUE(associate(database, sighting.features, points, params).empty());
   params.anywhere = true;
-  EXPECT_EQ(associate(database, sighting, points, params).size(), 1U);
+  EXPECT_EQ(associate(database, sighting.features, points, params).size(), 1U);
 }
 
 TEST(Association, RefusesWhatLooksDifferent) {
@@ -191,7 +191,7 @@ TEST(Association, RefusesWhatLooksDifferent) {
   database.insert(landmark_at({3.0, 0.0, 0.0}, random_descriptor(rng)));
   Sighting sighting;
   sighting.features = {feature_of({3.0, 0.0, 0.0}, random_descriptor(rng))};
-  EXPECT_TRUE(associate(database, sighting, see({}, sighting, {}, {}), {}).empty());
+  EXPECT_TRUE(associate(database, sighting.features, see({}, sighting, {}, {}), {}).empty());
 }
 
 TEST(Sparsity, FollowsEquationsEightAndNine) {

@@ -1,16 +1,14 @@
 #include "server/store/landmark_file.hpp"
 
-#include <csignal>
 #include <fstream>
 #include <limits>
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "server/store/atomic_file.hpp"
 #include "server/store/store.hpp"
+#include "tests/unit/server/store/killed_writer.hpp"
 #include "tests/unit/server/store/landmark_samples.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
@@ -38,7 +36,8 @@ TEST_F(LandmarkFileTest, ReadsWhatWasWrittenAndLeavesNoOtherFileBehind) {
   ASSERT_TRUE(write_landmark_file(file(), origin_, content));
   const auto read = read_landmark_file(file());
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(*read, content);
+  EXPECT_EQ(read->content, content);
+  EXPECT_EQ(read->header, read_landmark_header(file()).value());
   const auto header = read_landmark_header(file());
   ASSERT_TRUE(header) << header.error().message;
   EXPECT_EQ(header->origin, origin_);
@@ -59,12 +58,12 @@ TEST_F(LandmarkFileTest, AnUpdateCanBeTakenBackOnce) {
   ASSERT_TRUE(write_landmark_file(file(), origin_, before));
   EXPECT_EQ(revert_landmark_file(file(), 250).error().code, Errc::kNotReady);
   ASSERT_TRUE(update_landmark_file(file(), 300, after));
-  EXPECT_EQ(read_landmark_file(file()).value(), after);
+  EXPECT_EQ(read_landmark_file(file()).value().content, after);
   EXPECT_TRUE(read_landmark_header(file())->can_revert);
   EXPECT_EQ(read_landmark_header(file())->origin.saved_unix_s, 300);
   EXPECT_EQ(read_landmark_header(file())->origin.created_unix_s, 100);
   ASSERT_TRUE(revert_landmark_file(file(), 400));
-  EXPECT_EQ(read_landmark_file(file()).value(), before);
+  EXPECT_EQ(read_landmark_file(file()).value().content, before);
   EXPECT_EQ(read_landmark_header(file())->revision, 3U);
   EXPECT_EQ(revert_landmark_file(file(), 500).error().code, Errc::kNotReady);
 }
@@ -75,7 +74,7 @@ TEST_F(LandmarkFileTest, OnlyTheVersionBeforeIsKept) {
   ASSERT_TRUE(update_landmark_file(file(), 300, second));
   ASSERT_TRUE(update_landmark_file(file(), 301, some_landmarks(3, 7)));
   ASSERT_TRUE(revert_landmark_file(file(), 302));
-  EXPECT_EQ(read_landmark_file(file()).value(), second);
+  EXPECT_EQ(read_landmark_file(file()).value().content, second);
 }
 
 TEST_F(LandmarkFileTest, WhatIsNoNumberIsRefusedAndChangesNothing) {
@@ -86,7 +85,7 @@ TEST_F(LandmarkFileTest, WhatIsNoNumberIsRefusedAndChangesNothing) {
   const Status refused = update_landmark_file(file(), 300, broken);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("landmark 7"), std::string::npos) << refused.error().message;
-  EXPECT_EQ(read_landmark_file(file()).value(), before);
+  EXPECT_EQ(read_landmark_file(file()).value().content, before);
   EXPECT_FALSE(read_landmark_header(file())->can_revert);
 }
 
@@ -132,47 +131,6 @@ TEST_F(LandmarkFileTest, AFileCutOffAnywhereIsRefused) {
   }
 }
 
-/// Changes the database to and fro, telling of each change once it is done.
-[[noreturn]] void update_until_killed(const std::filesystem::path& file, int progress) {
-  for (std::uint64_t n = 2;; ++n) {
-    const char byte = 1;
-    if (!update_landmark_file(file, static_cast<std::int64_t>(n), some_landmarks(n, 60)) ||
-        ::write(progress, &byte, 1) != 1) {
-      _exit(1);
-    }
-  }
-}
-
-/// Lets a process change the file and kills it after `steps` changes and a little more; how many it told of.
-std::uint64_t kill_an_update(const std::filesystem::path& file, std::uint64_t steps, std::uint64_t extra) {
-  int pipe_ends[2];
-  EXPECT_EQ(::pipe(pipe_ends), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::close(pipe_ends[0]);
-    update_until_killed(file, pipe_ends[1]);
-  }
-  ::close(pipe_ends[1]);
-  std::uint64_t told = 0;
-  char byte = 0;
-  while (told < steps && ::read(pipe_ends[0], &byte, 1) == 1) {
-    ++told;
-  }
-  volatile std::uint64_t turns = 0;
-  while (turns < extra) {
-    turns = turns + 1;
-  }
-  EXPECT_EQ(::kill(child, SIGKILL), 0);
-  int status = 0;
-  EXPECT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFSIGNALED(status)) << "the writer failed by itself";
-  while (::read(pipe_ends[0], &byte, 1) == 1) {
-    ++told;
-  }
-  ::close(pipe_ends[0]);
-  return told;
-}
-
 TEST_F(LandmarkFileTest, KilledInAnUpdateItIsAsBeforeOrAfterNeverBetween) {
   constexpr std::uint64_t kSeed = 20261121;
   constexpr int kKills = 100;
@@ -180,14 +138,17 @@ TEST_F(LandmarkFileTest, KilledInAnUpdateItIsAsBeforeOrAfterNeverBetween) {
   Rng rng(kSeed);
   for (int round = 0; round < kKills; ++round) {
     ASSERT_TRUE(write_landmark_file(file(), origin_, some_landmarks(1, 60)));
-    const std::uint64_t told = kill_an_update(file(), rng.below(3), rng.below(3'000'000));
+    const auto update = [this](std::uint64_t n) {
+      return update_landmark_file(file(), static_cast<std::int64_t>(n + 1), some_landmarks(n + 1, 60)).has_value();
+    };
+    const std::uint64_t told = testing::kill_a_writer(update, rng.below(3), rng.below(3'000'000));
     const auto read = read_landmark_file(file());
     ASSERT_TRUE(read) << read.error().message << ", round " << round;
     // Version n holds the landmarks of seed n, and the first one is 1.
     const std::uint64_t revision = read_landmark_header(file())->revision;
     ASSERT_GE(revision, told + 1) << "a change that was told is lost";
     ASSERT_LE(revision, told + 2);
-    ASSERT_EQ(*read, some_landmarks(revision, 60)) << "round " << round;
+    ASSERT_EQ(read->content, some_landmarks(revision, 60)) << "round " << round;
   }
 }
 

@@ -1,17 +1,13 @@
 #include "server/store/map_file.hpp"
 
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "server/store/atomic_file.hpp"
 #include "tests/support/maps/random_map.hpp"
+#include "tests/unit/server/store/killed_writer.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
 namespace seeker::store {
@@ -138,38 +134,12 @@ TEST(MapFile, FolderThatCannotBeWrittenIsATypedError) {
   EXPECT_EQ(written.error().code, Errc::kIo);
 }
 
-/// Saves maps of rising seed under one name until it is killed; tells each finished one.
-[[noreturn]] void save_until_killed(const std::filesystem::path& path, int progress) {
-  for (std::uint64_t seed = 1;; ++seed) {
-    const char told = 1;
-    if (!write_map_file(path, example(seed)) || ::write(progress, &told, 1) != 1) {
-      _exit(1);
-    }
-  }
-}
-
 TEST(MapFile, KilledWhileSavingTheFileIsOneOfTheMapsAsAWhole) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "map.seekermap";
   for (std::uint64_t run = 0; run < 20; ++run) {
-    int pipe_ends[2];
-    ASSERT_EQ(::pipe(pipe_ends), 0);
-    const pid_t child = ::fork();
-    if (child == 0) {
-      save_until_killed(path, pipe_ends[1]);
-    }
-    char byte = 0;
-    ASSERT_EQ(::read(pipe_ends[0], &byte, 1), 1);
-    // Lands the kill anywhere inside the next save; how long a turn takes does not matter.
-    volatile std::uint64_t turns = 0;
-    while (turns < run * 20'000) {
-      turns = turns + 1;
-    }
-    ASSERT_EQ(::kill(child, SIGKILL), 0);
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    ::close(pipe_ends[0]);
-    ::close(pipe_ends[1]);
+    const auto save = [&path](std::uint64_t seed) { return write_map_file(path, example(seed)).has_value(); };
+    testing::kill_a_writer(save, 1, run * 20'000);
     const Result<MapFile> back = read_map_file(path);
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_TRUE(validate(back->map));

@@ -1,11 +1,10 @@
-#include <csignal>
+#include <memory>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "common/core/rng.hpp"
 #include "server/store/store.hpp"
+#include "tests/unit/server/store/killed_writer.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
 namespace seeker::store {
@@ -15,53 +14,27 @@ using testing::TemporaryFolder;
 
 constexpr std::uint64_t kSeed = 20261121;
 
-/// Writes events 1, 2, 3... with a checkpoint after each, telling the number of each on `progress` once it is written.
-[[noreturn]] void write_until_killed(const std::filesystem::path& folder, int progress) {
-  Result<Store> store = Store::open(folder);
-  if (!store || !store->begin_mission({"m", "search", Blob(100, 1), 0, std::nullopt})) {
-    _exit(1);
-  }
-  for (std::uint64_t n = 1;; ++n) {
-    const auto byte = static_cast<std::uint8_t>(n);
-    if (!store->record_event({"m", n, 0, 0, "INFO", "cell-searched", std::string(50, 'x')}) ||
-        !store->save_checkpoint("m", {static_cast<std::int64_t>(n), Blob(20000, byte)}) ||
-        ::write(progress, &byte, 1) != 1) {
-      _exit(1);
-    }
-  }
-}
+/// Writes events 1, 2, 3... with a checkpoint after each.
+class EventWriter {
+ public:
+  explicit EventWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-/// Starts a writer, kills it after it told of `steps` writes and `extra` more turns of a busy wait; returns how many
-/// writes it had told of in the end.
-std::uint64_t kill_a_writer(const std::filesystem::path& folder, std::uint64_t steps, std::uint64_t extra) {
-  int pipe_ends[2];
-  EXPECT_EQ(::pipe(pipe_ends), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::close(pipe_ends[0]);
-    write_until_killed(folder, pipe_ends[1]);
+  bool operator()(std::uint64_t n) {
+    if (!store_) {
+      store_ = std::make_shared<Result<Store>>(Store::open(folder_));
+      if (!*store_ || !(*store_)->begin_mission({"m", "search", Blob(100, 1), 0, std::nullopt})) {
+        return false;
+      }
+    }
+    const auto byte = static_cast<std::uint8_t>(n);
+    return (*store_)->record_event({"m", n, 0, 0, "INFO", "cell-searched", std::string(50, 'x')}).has_value() &&
+           (*store_)->save_checkpoint("m", {static_cast<std::int64_t>(n), Blob(20000, byte)}).has_value();
   }
-  ::close(pipe_ends[1]);
-  std::uint64_t told = 0;
-  char byte = 0;
-  while (told < steps && ::read(pipe_ends[0], &byte, 1) == 1) {
-    ++told;
-  }
-  // Lands the kill anywhere inside the next write; how long a turn takes does not matter.
-  volatile std::uint64_t turns = 0;
-  while (turns < extra) {
-    turns = turns + 1;
-  }
-  EXPECT_EQ(::kill(child, SIGKILL), 0);
-  int status = 0;
-  EXPECT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFSIGNALED(status)) << "the writer failed by itself";
-  while (::read(pipe_ends[0], &byte, 1) == 1) {
-    ++told;
-  }
-  ::close(pipe_ends[0]);
-  return told;
-}
+
+ private:
+  std::filesystem::path folder_;
+  std::shared_ptr<Result<Store>> store_;
+};
 
 void expect_a_prefix(const std::filesystem::path& folder, std::uint64_t told) {
   const Result<Store> store = Store::open(folder);
@@ -90,7 +63,8 @@ TEST(Store, KilledAtAnyPointHoldsAPrefixOfWhatWasWritten) {
   constexpr int kKills = 25;
   for (int round = 0; round < kKills; ++round) {
     const TemporaryFolder folder;
-    const std::uint64_t told = kill_a_writer(folder.path(), 1 + rng.below(12), rng.below(3'000'000));
+    const std::uint64_t told =
+        testing::kill_a_writer(EventWriter(folder.path()), 1 + rng.below(12), rng.below(3'000'000));
     ASSERT_NO_FATAL_FAILURE(expect_a_prefix(folder.path(), told)) << "round " << round << ", seed " << kSeed;
   }
 }
