@@ -1,0 +1,86 @@
+/// \file
+/// One map of several robots: all their local maps in one graph, optimised together. The maps that went in are not
+/// touched: leaving a relation out is the undo.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "common/core/line_map.hpp"
+#include "server/fleet/pair_check.hpp"
+
+namespace seeker::fleet {
+
+/// Which robot, and its own id of the local map or segment.
+struct Origin {
+  std::uint8_t slot = 0;
+  std::uint64_t id = 0;
+
+  friend bool operator==(const Origin&, const Origin&) = default;
+};
+
+/// Ids in the joint map hold the robot's slot in their upper bits, so that they stay the same while maps grow; those of
+/// slot 0 are the robot's own.
+inline constexpr std::uint32_t kMaxJointNodes = 1U << 24U;
+inline constexpr std::uint64_t kMaxJointSegments = std::uint64_t{1} << 48U;
+[[nodiscard]] std::uint32_t joint_node_id(std::uint8_t slot, std::uint32_t node);
+[[nodiscard]] std::uint64_t joint_segment_id(std::uint8_t slot, std::uint64_t segment);
+[[nodiscard]] Origin origin_of_node(std::uint32_t joint_id);
+[[nodiscard]] Origin origin_of_segment(std::uint64_t joint_id);
+
+/// A robot's own map under the number it has in the fleet.
+struct RobotMap {
+  std::uint8_t slot = 0;
+  const LineMap* map = nullptr;  ///< not null; only read while joining
+};
+
+/// What joins the maps of two robots: node pairs of a MergeHypothesis; `a` and `b` of the pairs are these.
+struct MapRelation {
+  std::uint8_t slot_a = 0;
+  std::uint8_t slot_b = 0;
+  std::vector<NodeRelation> pairs;
+};
+
+/// How a robot's own map lies in the joint one, local map by local map: both may be bent differently.
+struct JointRobot {
+  struct Node {
+    Pose2 map_T_node;
+    Pose2 joint_T_node;
+  };
+  std::map<std::uint32_t, Node> nodes;  ///< by the robot's own id; not empty
+  Pose2 joint_T_map;                    ///< the rigid motion nearest to all of them
+  slam::UncertainPose main_T_first;     ///< its first local map in the frame of the main robot's first one
+
+  /// A pose in the robot's own frame `map` (of the robot, a goal, a detection), carried by the nearest local map.
+  [[nodiscard]] Pose2 to_joint(const Pose2& map_T_x) const;
+  [[nodiscard]] Pose2 from_joint(const Pose2& joint_T_x) const;
+};
+
+/// A pair that the others outvoted when all were optimised together.
+struct SwitchedOff {
+  std::size_t relation = 0;  ///< index of the relation that it belongs to
+  std::size_t pair = 0;
+};
+
+struct JointMap {
+  LineMap map;  ///< frame: that of the first robot's map
+  std::map<std::uint8_t, JointRobot> robots;
+  std::vector<SwitchedOff> switched_off;
+  std::size_t pairs = 0;  ///< that were put in
+};
+
+struct JointParams {
+  double kernel_width = 3.0;  ///< deviations beyond which a pair loses its say
+  int max_iterations = 50;
+};
+
+/// Joins those maps that relations connect to the first; the others are left out. kInvalidArgument: no map, two in one
+/// slot, a first one that is not in the lowest slot, a relation of a robot or node that is not there; kTooLarge: ids
+/// beyond the limits above; errors of slam::PoseGraph. `epoch` of the result is the caller's: it must rise whenever the
+/// map moves.
+[[nodiscard]] Result<JointMap> join(const std::vector<RobotMap>& maps, const std::vector<MapRelation>& relations,
+                                    std::uint32_t epoch, const JointParams& params = {});
+
+}  // namespace seeker::fleet

@@ -1,0 +1,235 @@
+#include "server/fleet/map_merger.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/core/angle.hpp"
+#include "server/fleet/icp.hpp"
+#include "server/slam/covariance.hpp"
+
+namespace seeker::fleet {
+namespace {
+
+using slam::UncertainPose;
+
+/// Indices of nodes by their ids.
+std::map<std::uint32_t, std::size_t> indices_of(const PreparedMap& map) {
+  std::map<std::uint32_t, std::size_t> indices;
+  for (std::size_t k = 0; k < map.nodes().size(); ++k) {
+    indices[map.nodes()[k].id] = k;
+  }
+  return indices;
+}
+
+/// One question: both maps and the relations found between them.
+class Question {
+ public:
+  Question(PreparedMap& a, PreparedMap& b, const MergeParams& params)
+      : a_(a), b_(b), params_(params), index_a_(indices_of(a)), index_b_(indices_of(b)) {}
+
+  void compare(const PairCheck& check, MergeAnswer& answer);
+  [[nodiscard]] std::vector<MergeHypothesis> hypotheses();
+
+ private:
+  [[nodiscard]] Pose2 map_a_T_map_b(const NodeRelation& pair) const;
+  [[nodiscard]] std::vector<NodeRelation> largest_set(const std::vector<NodeRelation>& among);
+  [[nodiscard]] MergeHypothesis hypothesis_of(std::vector<NodeRelation> pairs);
+  [[nodiscard]] UncertainPose transform_of(const std::vector<NodeRelation>& pairs) const;
+  [[nodiscard]] Pose2 place_of(const std::vector<NodeRelation>& pairs, std::size_t node_b) const;
+  [[nodiscard]] const PreparedNode& node_a(const NodeRelation& pair) const {
+    return a_.nodes()[index_a_.at(pair.node_a)];
+  }
+  [[nodiscard]] const PreparedNode& node_b(const NodeRelation& pair) const {
+    return b_.nodes()[index_b_.at(pair.node_b)];
+  }
+
+  PreparedMap& a_;
+  PreparedMap& b_;
+  const MergeParams& params_;
+  std::map<std::uint32_t, std::size_t> index_a_;
+  std::map<std::uint32_t, std::size_t> index_b_;
+  std::vector<NodeRelation> relations_;
+};
+
+void Question::compare(const PairCheck& check, MergeAnswer& answer) {
+  for (const PreparedNode& node : b_.nodes()) {
+    for (const std::size_t region : a_.regions_like(node, params_.regions_per_node)) {
+      PairFindings found = check.find(a_, region, node);
+      ++answer.compared;
+      if (found.relations.empty()) {
+        answer.rejected.push_back({a_.nodes()[a_.regions()[region].node].id, node.id, found.refusal});
+      }
+      relations_.insert(relations_.end(), found.relations.begin(), found.relations.end());
+    }
+  }
+  // The best ones tell; comparing all with all would cost the square of their number.
+  const auto better = [](const NodeRelation& p, const NodeRelation& q) {
+    return p.similarity * p.overlap > q.similarity * q.overlap;
+  };
+  std::stable_sort(relations_.begin(), relations_.end(), better);
+  relations_.resize(std::min(relations_.size(), params_.max_relations));
+}
+
+Pose2 Question::map_a_T_map_b(const NodeRelation& pair) const {
+  return node_a(pair).map_T_node * pair.a_T_b.a_T_b * inverse(node_b(pair).map_T_node);
+}
+
+std::vector<NodeRelation> Question::largest_set(const std::vector<NodeRelation>& among) {
+  const std::size_t first_b = a_.nodes().size();
+  std::vector<slam::LoopEdge> edges;
+  edges.reserve(among.size());
+  for (const NodeRelation& pair : among) {
+    edges.push_back({index_a_.at(pair.node_a), first_b + index_b_.at(pair.node_b), pair.a_T_b});
+  }
+  const auto odometry = [&](std::size_t from, std::size_t to) {
+    if (from == to) {
+      return UncertainPose{};
+    }
+    UncertainPose between = from < first_b ? a_.between(from, to) : b_.between(from - first_b, to - first_b);
+    between.covariance = slam::with_floor(between.covariance, params_.bend_sigma_m, params_.bend_sigma_rad);
+    return between;
+  };
+  std::vector<NodeRelation> members;
+  for (const std::size_t k : slam::largest_consistent_set(edges, odometry, params_.consistency).members) {
+    members.push_back(among[k]);
+  }
+  return members;
+}
+
+UncertainPose Question::transform_of(const std::vector<NodeRelation>& pairs) const {
+  constexpr double kArm_m = 5.0;  // what a node's own heading counts against its place
+  std::vector<Point2> points_a;
+  std::vector<Point2> points_b;
+  Matrix3 information = Matrix3::Zero();
+  for (const NodeRelation& pair : pairs) {
+    const Pose2 a_T_b = map_a_T_map_b(pair);
+    const Point2 middle = node_b(pair).map_T_node * node_b(pair).middle;
+    for (const Point2& arm : {Point2(0.0, 0.0), Point2(kArm_m, 0.0), Point2(0.0, kArm_m)}) {
+      points_b.push_back(middle + arm);
+      points_a.push_back(a_T_b * points_b.back());
+    }
+    const UncertainPose out = slam::compose({node_a(pair).map_T_node, Matrix3::Zero()}, pair.a_T_b);
+    information +=
+        slam::information_of(slam::compose(out, {inverse(node_b(pair).map_T_node), Matrix3::Zero()}).covariance);
+  }
+  return {rigid_fit(points_a, points_b), information.inverse()};
+}
+
+Pose2 Question::place_of(const std::vector<NodeRelation>& pairs, std::size_t node) const {
+  const PreparedNode& wanted = b_.nodes()[node];
+  const Point2 middle = wanted.map_T_node * wanted.middle;
+  const auto nearest = std::min_element(pairs.begin(), pairs.end(), [&](const NodeRelation& p, const NodeRelation& q) {
+    return (node_b(p).map_T_node * node_b(p).middle - middle).squaredNorm() <
+           (node_b(q).map_T_node * node_b(q).middle - middle).squaredNorm();
+  });
+  return map_a_T_map_b(*nearest) * wanted.map_T_node;
+}
+
+MergeHypothesis Question::hypothesis_of(std::vector<NodeRelation> pairs) {
+  MergeHypothesis made;
+  made.a_T_b = transform_of(pairs);
+  const MapOverlap there = overlap_of(
+      a_, b_, [&](std::size_t node) { return place_of(pairs, node); }, params_.overlap);
+  std::vector<NodeRelation> back;
+  back.reserve(pairs.size());
+  for (const NodeRelation& pair : pairs) {
+    back.push_back(reversed(pair));
+  }
+  Question other(b_, a_, params_);
+  const MapOverlap here = overlap_of(
+      b_, a_, [&](std::size_t node) { return other.place_of(back, node); }, params_.overlap);
+  made.shared_wall_m = std::min(there.shared_wall_m, here.shared_wall_m);
+  made.weak_wall_m = std::min(there.weak_wall_m, here.weak_wall_m);
+  made.contradiction = std::max(there.contradiction, here.contradiction);
+  made.residual_m = std::max(there.residual_m, here.residual_m);
+  made.confidence = confidence_of(made, params_);
+  made.pairs = std::move(pairs);
+  return made;
+}
+
+std::vector<MergeHypothesis> Question::hypotheses() {
+  constexpr double kSame_m = 1.0;
+  constexpr double kSame_rad = 0.15;
+  std::vector<MergeHypothesis> made;
+  std::vector<NodeRelation> open = relations_;
+  while (!open.empty() && made.size() < params_.max_hypotheses) {
+    made.push_back(hypothesis_of(largest_set(open)));
+    const Pose2 a_T_b = made.back().a_T_b.a_T_b;
+    // What says nearly the same is no rival.
+    std::erase_if(open, [&](const NodeRelation& pair) {
+      const Point2 middle = node_b(pair).map_T_node * node_b(pair).middle;
+      const Pose2 own = map_a_T_map_b(pair);
+      return (own * middle - a_T_b * middle).norm() < kSame_m &&
+             std::abs(wrap_angle(own.theta_rad - a_T_b.theta_rad)) < kSame_rad;
+    });
+    const std::vector<NodeRelation>& used = made.back().pairs;
+    std::erase_if(open, [&](const NodeRelation& pair) {
+      return std::any_of(used.begin(), used.end(), [&](const NodeRelation& other) {
+        return other.a_T_b.a_T_b == pair.a_T_b.a_T_b && other.node_a == pair.node_a && other.node_b == pair.node_b;
+      });
+    });
+  }
+  std::stable_sort(made.begin(), made.end(),
+                   [](const MergeHypothesis& p, const MergeHypothesis& q) { return p.support() > q.support(); });
+  return made;
+}
+
+}  // namespace
+
+std::string_view to_string(MergeVerdict verdict) {
+  switch (verdict) {
+    case MergeVerdict::kInsufficientOverlap: return "INSUFFICIENT_OVERLAP";
+    case MergeVerdict::kAmbiguous: return "AMBIGUOUS";
+    case MergeVerdict::kContradicted: return "CONTRADICTED";
+    case MergeVerdict::kMerged: return "MERGED";
+  }
+  return "unknown";
+}
+
+double confidence_of(const MergeHypothesis& hypothesis, const MergeParams& params) {
+  const double seen = 1.0 - std::exp(-hypothesis.shared_wall_m / params.sure_shared_wall_m);
+  const double agreed = std::clamp(1.0 - hypothesis.contradiction / (2.0 * params.max_contradiction), 0.0, 1.0);
+  return seen * agreed;
+}
+
+MapMerger::MapMerger(const MergeParams& params) : params_(params), check_(params.pair) {}
+
+MergeAnswer MapMerger::merge(PreparedMap& a, PreparedMap& b) const {
+  MergeAnswer answer;
+  Question question(a, b, params_);
+  question.compare(check_, answer);
+  answer.hypotheses = question.hypotheses();
+  judge(answer, params_);
+  return answer;
+}
+
+void judge(MergeAnswer& answer, const MergeParams& params) {
+  answer.verdict = MergeVerdict::kInsufficientOverlap;
+  answer.reason = "no local map of one robot is to be seen in the map of the other; drive on and ask again";
+  if (answer.hypotheses.empty()) {
+    return;
+  }
+  const MergeHypothesis& best = answer.hypotheses.front();
+  const bool rival = answer.hypotheses.size() > 1 && answer.hypotheses[1].contradiction <= params.max_contradiction &&
+                     answer.hypotheses[1].support() > params.rival_ratio * best.support();
+  if (best.contradiction > params.max_contradiction) {
+    answer.verdict = MergeVerdict::kContradicted;
+    answer.reason = "places look alike, but laid upon each other the maps deny what the other has seen";
+  } else if (best.shared_wall_m < params.min_shared_wall_m || best.weak_wall_m < params.min_weak_wall_m) {
+    answer.reason = "what both robots have seen is too little to be sure of the place; drive on and ask again";
+  } else if (rival) {
+    answer.verdict = MergeVerdict::kAmbiguous;
+    answer.reason = "the maps fit in more than one way; choose one or drive on until they differ";
+  } else if (best.pairs.size() < params.min_pairs || best.shared_wall_m < params.sure_shared_wall_m ||
+             best.contradiction > params.sure_contradiction) {
+    answer.verdict = MergeVerdict::kAmbiguous;
+    answer.reason = "the maps fit in one way, but too little speaks for it; confirm it or drive on";
+  } else {
+    answer.verdict = MergeVerdict::kMerged;
+    answer.reason = "the maps fit in one way only and agree where both have looked";
+  }
+}
+
+}  // namespace seeker::fleet

@@ -1,0 +1,38 @@
+/// \file
+/// Two maps laid upon each other: how much wall both have seen, and how much of what both have looked at one denies.
+#pragma once
+
+#include <functional>
+
+#include "server/fleet/prepared_map.hpp"
+#include "server/slam/scan_matcher.hpp"
+
+namespace seeker::fleet {
+
+struct OverlapParams {
+  double cell_m = 0.15;            ///< walls are counted by cells
+  double partner_m = 0.15;         ///< a wall of one map has its partner in the other within this
+  double min_normal_cosine = 0.7;  ///< and looks the same way
+  /// Maps bend: a node may settle by so much before it is counted.
+  double settle_m = 0.3;
+  double settle_rad = 0.05;
+  slam::MatchParams match;
+  slam::AgreementParams agreement;
+  std::size_t match_points = 300;
+};
+
+struct MapOverlap {
+  double shared_wall_m = 0.0;  ///< that both have seen
+  double weak_wall_m = 0.0;    ///< of it, what tells the place along the direction told worst: little in a corridor
+  double contradiction = 0.0;  ///< 0 to 1: walls where the other looked through, and beams through its walls
+  double residual_m = 0.0;     ///< root mean square distance of the shared walls
+  std::size_t nodes = 0;       ///< of b that share something with a
+};
+
+/// What the nodes of b find in a. `map_a_T_node`: pose of a node of b, by index, in the frame `map` of a. The other
+/// direction is another question: a may deny what b has seen and not the reverse.
+[[nodiscard]] MapOverlap overlap_of(PreparedMap& a, const PreparedMap& b,
+                                    const std::function<Pose2(std::size_t)>& map_a_T_node,
+                                    const OverlapParams& params = {});
+
+}  // namespace seeker::fleet

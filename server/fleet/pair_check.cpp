@@ -1,0 +1,143 @@
+#include "server/fleet/pair_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "server/slam/covariance.hpp"
+
+namespace seeker::fleet {
+namespace {
+
+/// Spec S4.7, eq (7), over the points that lie where the region has looked.
+double similarity_of(const slam::PlaceMap& place, const std::vector<slam::OrientedPoint>& points_base,
+                     const Pose2& region_T_base, double sigma_m, double gate_m) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const slam::OrientedPoint& point : points_base) {
+    const Point2 p = region_T_base * point.p;
+    const slam::OrientedPoint* nearest = place.cloud().nearest(p, gate_m);
+    if (nearest == nullptr && !place.free_space().is_free(p)) {
+      continue;
+    }
+    ++count;
+    sum += nearest == nullptr ? 0.0 : std::exp(-(nearest->p - p).squaredNorm() / (2.0 * sigma_m * sigma_m));
+  }
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+/// The node of a that stands nearest to a point of the region's frame.
+std::size_t nearest_member(const PreparedMap& a, const PreparedRegion& region, const Point2& p_region) {
+  const Pose2& map_T_region = a.nodes()[region.node].map_T_node;
+  const Point2 p_map = map_T_region * p_region;
+  std::size_t best = region.node;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const std::size_t k : region.members) {
+    const PreparedNode& node = a.nodes()[k];
+    const double away_m = (node.map_T_node * node.middle - p_map).norm();
+    if (away_m < best_m) {
+      best = k;
+      best_m = away_m;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+NodeRelation reversed(const NodeRelation& relation) {
+  NodeRelation back = relation;
+  std::swap(back.node_a, back.node_b);
+  back.a_T_b = slam::invert(relation.a_T_b);
+  return back;
+}
+
+/// The node's scans with the origin in their middle, so that a turn moves them little.
+struct PairCheck::Query {
+  const PreparedNode& node;
+  Pose2 node_T_base;
+  std::vector<slam::SeenPoints> seen;
+  std::vector<slam::OrientedPoint> points;
+  std::vector<slam::OrientedPoint> sparse;
+};
+
+PairCheck::PairCheck(const PairCheckParams& params) : params_(params), search_(params.search), matcher_(params.match) {}
+
+PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedNode& node_b) const {
+  PairFindings findings;
+  const std::shared_ptr<const slam::PlaceMap> place = a.place(region);
+  if (!place) {
+    findings.refusal = "nothing was seen there";
+    return findings;
+  }
+  Query query{.node = node_b,
+              .node_T_base = {node_b.middle.x(), node_b.middle.y(), 0.0},
+              .seen = {},
+              .points = {},
+              .sparse = {}};
+  query.seen.reserve(node_b.seen.size());
+  for (const slam::SeenPoints& scan : node_b.seen) {
+    query.seen.push_back(slam::transform(inverse(query.node_T_base), scan));
+    query.points.insert(query.points.end(), query.seen.back().points.begin(), query.seen.back().points.end());
+  }
+  query.sparse = slam::thin_by_cells(query.points, params_.search.thin_cell_m, params_.match_points);
+  findings.refusal = "no place of the region explains the points";
+  for (const slam::GlobalCandidate& start : search_.search(place->pyramid(), query.points).candidates) {
+    NodeRelation relation;
+    const std::string_view refusal = examine(a, region, query, start, relation);
+    if (refusal.empty()) {
+      findings.relations.push_back(relation);
+    } else if (findings.relations.empty()) {
+      findings.refusal = refusal;
+    }
+  }
+  std::stable_sort(findings.relations.begin(), findings.relations.end(),
+                   [](const NodeRelation& p, const NodeRelation& q) { return p.similarity > q.similarity; });
+  if (!findings.relations.empty()) {
+    findings.refusal = {};
+  }
+  return findings;
+}
+
+std::string_view PairCheck::examine(PreparedMap& a, std::size_t region, const Query& query,
+                                    const slam::GlobalCandidate& start, NodeRelation& relation) const {
+  const slam::PlaceMap& place = *a.place(region);
+  const slam::MatchResult match = matcher_.match(place.cloud(), query.sparse, start.map_T_base);
+  if (match.pairs < params_.match.min_pairs || match.inliers < static_cast<int>(params_.min_inliers)) {
+    return "too few points find a partner";
+  }
+  const Pose2& pose = match.map_T_base;
+  const slam::Agreement agreement =
+      slam::agreement_of(place.pyramid(), place.free_space(), query.seen, pose, params_.agreement);
+  const auto near = std::count_if(query.sparse.begin(), query.sparse.end(), [&](const slam::OrientedPoint& point) {
+    return place.cloud().nearest(pose * point.p, params_.match.first_gate_m) != nullptr;
+  });
+  relation.overlap = static_cast<double>(near) / static_cast<double>(query.sparse.size()) + agreement.disagreement();
+  relation.consistency = match.inlier_ratio / std::max(relation.overlap, match.inlier_ratio);
+  relation.similarity =
+      similarity_of(place, query.sparse, pose, params_.similarity_sigma_m, params_.match.first_gate_m);
+  relation.residual_m = match.rms_m;
+  const std::size_t node_a = nearest_member(a, a.regions()[region], pose.translation());
+  const Pose2 a_T_region = inverse(a.nodes()[node_a].map_T_node) * a.nodes()[a.regions()[region].node].map_T_node;
+  const Matrix3 turn = compose_jacobian_b(a_T_region, {});
+  const Matrix3 covariance = turn * match.covariance * turn.transpose();
+  relation.node_a = a.nodes()[node_a].id;
+  relation.node_b = query.node.id;
+  relation.a_T_b =
+      slam::compose({a_T_region * pose, slam::with_floor(covariance, params_.sigma_floor_m, params_.sigma_floor_rad)},
+                    {inverse(query.node_T_base), Matrix3::Zero()});
+  if (relation.overlap < params_.min_overlap) {
+    return "too little of the node was seen in the region";
+  }
+  if (relation.consistency < params_.min_consistency || relation.similarity < params_.min_similarity ||
+      relation.residual_m > params_.max_residual_m) {
+    return "the points do not lie on the walls of the region";
+  }
+  if (agreement.through > params_.max_through) {
+    return "beams pass through walls of the region";
+  }
+  return {};
+}
+
+}  // namespace seeker::fleet

@@ -1,0 +1,71 @@
+/// \file
+/// Where in a part of one robot's map does a local map of another lie? Search, ICP, and what the points say about it.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "server/fleet/prepared_map.hpp"
+#include "server/slam/global_matcher.hpp"
+#include "server/slam/pairwise_consistency.hpp"
+#include "server/slam/scan_matcher.hpp"
+
+namespace seeker::fleet {
+
+/// A local map of robot b seen from one of robot a.
+struct NodeRelation {
+  std::uint32_t node_a = 0;  ///< ids
+  std::uint32_t node_b = 0;
+  slam::UncertainPose a_T_b;  ///< pose of the frame of node b in that of node a
+  double overlap = 0.0;       ///< share of the points of b that lie where a has looked, 0 to 1
+  double consistency = 0.0;   ///< of those, the share that lies on surfaces of a
+  double similarity = 0.0;    ///< spec S4.7, eq (7)
+  double residual_m = 0.0;    ///< root mean square distance of the inliers
+};
+
+/// The same seen from the other robot.
+[[nodiscard]] NodeRelation reversed(const NodeRelation& relation);
+
+struct PairCheckParams {
+  slam::GlobalSearchParams search{.max_points = 200, .min_score = 0.3, .rival_ratio = 0.75, .max_candidates = 4};
+  slam::MatchParams match;
+  slam::AgreementParams agreement;
+  std::size_t match_points = 500;
+  std::size_t min_inliers = 80;   ///< points of the final match
+  double min_overlap = 0.4;       ///< share of the node's points that lie where the region has seen something
+  double min_consistency = 0.75;  ///< of those, the share on the region's surfaces
+  double max_through = 0.12;      ///< beams through the region's walls
+  double min_similarity = 0.6;    ///< spec S4.7 [J]
+  double max_residual_m = 0.08;   ///< spec S4.7 [J]
+  double similarity_sigma_m = 0.10;
+  /// A match is never believed to be better than this: local maps bend.
+  double sigma_floor_m = 0.03;
+  double sigma_floor_rad = 0.006;
+};
+
+/// What came of one comparison: the places where the node fits, or why there is none.
+struct PairFindings {
+  std::vector<NodeRelation> relations;  ///< best first; several where the place looks the same in several ways
+  std::string_view refusal;
+};
+
+/// Deterministic; no state but its parameters.
+class PairCheck {
+ public:
+  explicit PairCheck(const PairCheckParams& params = {});
+
+  /// Looks for a node of b in a region of a.
+  [[nodiscard]] PairFindings find(PreparedMap& a, std::size_t region, const PreparedNode& node_b) const;
+
+ private:
+  struct Query;
+  [[nodiscard]] std::string_view examine(PreparedMap& a, std::size_t region, const Query& query,
+                                         const slam::GlobalCandidate& start, NodeRelation& relation) const;
+
+  PairCheckParams params_;
+  slam::GlobalMatcher search_;
+  slam::ScanMatcher matcher_;
+};
+
+}  // namespace seeker::fleet
