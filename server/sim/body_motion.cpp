@@ -75,7 +75,7 @@ void Encoders::step(const Twist2& twist, double dt_s, const RobotModel& model, R
 Walker::Walker(const PersonPath& path, std::uint64_t serial)
     : path_(path), paint_(make_paint(path.surface, serial)), position_(path.waypoints.front()) {}
 
-void Walker::step(const Point2& robot, double robot_radius_m, double dt_s) {
+void Walker::step(std::span<const Disc> robots, double dt_s) {
   const Point2 to_goal = path_.waypoints[next_] - position_;
   const double way_m = path_.speed_m_s * dt_s;
   const double left_m = to_goal.norm();
@@ -90,11 +90,13 @@ void Walker::step(const Point2& robot, double robot_radius_m, double dt_s) {
     return;
   }
   const Point2 next = position_ + to_goal * (way_m / left_m);
-  const double gap_m = (next - robot).norm() - robot_radius_m - path_.radius_m;
-  if (gap_m < path_.wait_m && (next - robot).norm() < (position_ - robot).norm()) {
-    return;
+  const auto waits_for = [&](const Disc& robot) {
+    const double gap_m = (next - robot.centre).norm() - robot.radius_m - path_.radius_m;
+    return gap_m < path_.wait_m && (next - robot.centre).norm() < (position_ - robot.centre).norm();
+  };
+  if (std::none_of(robots.begin(), robots.end(), waits_for)) {
+    position_ = next;
   }
-  position_ = next;
 }
 
 }  // namespace seeker::sim

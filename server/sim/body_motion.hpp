@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/core/pose2.hpp"
@@ -62,8 +63,8 @@ class Encoders {
 class Walker {
  public:
   Walker(const PersonPath& path, std::uint64_t serial);
-  /// Walks on unless the robot (a disc) is within the waiting distance ahead of the next step.
-  void step(const Point2& robot, double robot_radius_m, double dt_s);
+  /// Walks on unless a robot is within the waiting distance ahead of the next step.
+  void step(std::span<const Disc> robots, double dt_s);
   [[nodiscard]] Disc disc() const { return {position_, path_.radius_m, path_.height_m, paint_}; }
 
  private:

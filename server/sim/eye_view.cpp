@@ -170,7 +170,7 @@ void EyeView::add_floor(const Scene& scene) {
 
 void EyeView::add_people(const Scene& scene) {
   person_faces_.clear();
-  for (const Disc& disc : scene.people()) {
+  for (const Disc& disc : scene.moving()) {
     const std::vector<Point2> corners = cylinder_corners(disc.centre, disc.radius_m);
     double way_m = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -92,7 +92,7 @@ void OmniColumns::add_items(const Scene& scene, const Lighting& lighting, const 
 void OmniColumns::add_people(const Scene& scene, const Lighting& lighting, const CameraPose& camera,
                              const Point2& direction, std::size_t first) {
   bool added = false;
-  for (const Disc& disc : scene.people()) {
+  for (const Disc& disc : scene.moving()) {
     const Point2 to_centre = disc.centre - camera.position;
     const double along = to_centre.dot(direction);
     const double off2 = to_centre.squaredNorm() - along * along;

@@ -170,7 +170,7 @@ std::optional<RayHit> Scene::nearest(const Point2& origin, const Point2& directi
     hit = RayHit{best.distance_m, std::abs(face.normal.dot(direction)),
                  std::min(best.along_m, face.segment.length_m - best.along_m)};
   }
-  for (const Disc& disc : people_) {
+  for (const Disc& disc : moving_) {
     const std::optional<double> distance = meet_disc(disc, origin, direction);
     if (distance && z_m <= disc.height_m && *distance <= (hit ? hit->distance_m : range_max_m)) {
       const Point2 normal = (origin + *distance * direction - disc.centre).normalized();
@@ -201,7 +201,7 @@ double Scene::clearance_m(const Point2& p, double limit_m, const HeightBand& ban
       nearest_m = std::min(nearest_m, distance_to_segment_m(face.segment.a, face.segment.b(), p));
     }
   });
-  for (const Disc& disc : people_) {
+  for (const Disc& disc : moving_) {
     if (band.meets(0.0, disc.height_m)) {
       nearest_m = std::min(nearest_m, std::max(0.0, (p - disc.centre).norm() - disc.radius_m));
     }

@@ -47,7 +47,7 @@ struct Solid {
   Paint cover;  ///< of its top and bottom
 };
 
-/// A walking person at one moment.
+/// Something upright and round that moves, at one moment: a walking person, another robot.
 struct Disc {
   Point2 centre = Point2::Zero();
   double radius_m = 0.0;
@@ -80,10 +80,10 @@ class Scene {
   [[nodiscard]] const FaceGrid& grid() const { return grid_; }
   [[nodiscard]] const Paint& floor() const { return floor_; }
   [[nodiscard]] double ceiling_m() const { return ceiling_m_; }  ///< nothing reaches higher
-  [[nodiscard]] const std::vector<Disc>& people() const { return people_; }
-  void set_people(std::vector<Disc> people) { people_ = std::move(people); }
+  [[nodiscard]] const std::vector<Disc>& moving() const { return moving_; }
+  void set_moving(std::vector<Disc> moving) { moving_ = std::move(moving); }
 
-  /// Nearest face or person that has something at height z, within range_max_m. `direction` has length 1.
+  /// Nearest face or moving thing that has something at height z, within range_max_m. `direction` has length 1.
   [[nodiscard]] std::optional<RayHit> nearest(const Point2& origin, const Point2& direction, double range_max_m,
                                               double z_m) const;
 
@@ -102,7 +102,7 @@ class Scene {
   std::vector<Face> faces_;
   std::vector<Solid> solids_;
   std::vector<PictureTexture> pictures_;
-  std::vector<Disc> people_;
+  std::vector<Disc> moving_;
   Paint floor_;
   FaceGrid grid_;
 };

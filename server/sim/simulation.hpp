@@ -1,60 +1,35 @@
 /// \file
-/// The simulated robot in its world: stands in for the hardware (spec S0.6). Single-threaded and deterministic: the
-/// same world, model, seed and calls give the same readings.
+/// A simulated robot in its world: stands in for the hardware (spec S0.6). Single-threaded and deterministic: the
+/// same world, model, seed and calls give the same readings. It has the world for itself, or shares it (SharedWorld).
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "common/core/image.hpp"
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
 #include "common/core/stereo.hpp"
 #include "common/core/time.hpp"
+#include "server/sim/robot_in_world.hpp"
 #include "server/sim/robot_model.hpp"
 #include "server/sim/world.hpp"
 
 namespace seeker::sim {
 
-/// What the base reports about itself.
-struct BaseReading {
-  Pose2 odom_T_base;  ///< by the encoders, since the start
-  Twist2 velocity;    ///< by the encoders
-  double battery_v = 0.0;
-  bool stalled = false;  ///< the wheels are commanded but something blocks them
-  bool bumped = false;   ///< the body touches something
-};
-
-struct TargetTruth {
-  std::string name;
-  Pose2 world_T_target;
-};
-
-/// What really happened. For scoring only: no driver, estimator or behaviour may look at it.
-struct GroundTruth {
-  Pose2 world_T_base;
-  Pose2 world_T_start;  ///< the frame `map` of a robot that began at its own origin
-  Twist2 velocity;
-  int contacts = 0;              ///< touches since the start, each counted once however long it lasts
-  double path_length_m = 0.0;    ///< way of the robot's centre
-  double min_clearance_m = 0.0;  ///< smallest distance so far between body and anything; 0 after a contact
-  std::vector<TargetTruth> targets;
-};
+class SharedWorld;
 
 class Simulation {
  public:
   /// Fails where world or model are not valid, or where the robot has no room at `start`.
   [[nodiscard]] static Result<Simulation> create(World world, RobotModel model, std::uint64_t seed,
                                                  std::size_t start = 0);
-  Simulation(Simulation&&) noexcept;
-  Simulation& operator=(Simulation&&) noexcept;
-  ~Simulation();
+  /// Robot `index` of a world that others are in too.
+  Simulation(std::shared_ptr<SharedWorld> shared, std::size_t index);
 
   /// The velocity to accelerate to; clamped to the model's limits, held until the next call.
   void command(const Twist2& velocity);
-  /// Lets the world go on, in steps of at most 10 ms. A body that meets an obstacle stops there.
+  /// Lets the world go on for all that are in it, in steps of at most 10 ms. A body that meets an obstacle stops there.
   void advance(Duration period);
   [[nodiscard]] RobotTime now() const;
 
@@ -73,9 +48,8 @@ class Simulation {
   [[nodiscard]] const RobotModel& model() const;
 
  private:
-  struct State;
-  explicit Simulation(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  std::shared_ptr<SharedWorld> shared_;
+  std::size_t index_;
 };
 
 }  // namespace seeker::sim

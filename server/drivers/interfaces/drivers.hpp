@@ -93,6 +93,11 @@ class Clock {
   [[nodiscard]] virtual Status advance(Duration period) = 0;
   /// True where the world stands still unless advance() is called.
   [[nodiscard]] virtual bool lockstep() const = 0;
+  /// Where several robots share a world: it stands still from here until advance() or let_go(). Devices are read and
+  /// commanded in between only.
+  virtual void hold() {}
+  /// This robot does not tick for now: the others' world goes on without it.
+  virtual void let_go() {}
   /// Robot seconds per wall second; 0: as fast as possible.
   [[nodiscard]] virtual double speed() const = 0;
 };

@@ -259,19 +259,23 @@ Result<StereoFrame> SimStereo::grab() {
 
 const StereoGeometry& SimStereo::geometry() const { return simulation_->model().stereo.geometry; }
 
-LockstepClock::LockstepClock(std::shared_ptr<sim::Simulation> simulation, SimBase* base, double speed)
-    : simulation_(std::move(simulation)), base_(base), speed_(speed) {}
+LockstepClock::LockstepClock(std::shared_ptr<sim::Simulation> simulation, SimBase* base, WorldSeat seat, double speed)
+    : simulation_(std::move(simulation)), base_(base), seat_(std::move(seat)), speed_(speed) {}
+
+LockstepClock::~LockstepClock() { seat_.barrier->let_go(seat_.robot); }
 
 RobotTime LockstepClock::now() const { return simulation_->now(); }
+
+void LockstepClock::hold() { seat_.barrier->hold(seat_.robot); }
+
+void LockstepClock::let_go() { seat_.barrier->let_go(seat_.robot); }
 
 Status LockstepClock::advance(Duration period) {
   if (period <= Duration::zero()) {
     return fail(Errc::kInvalidArgument, "the lockstep clock advances by a period above 0");
   }
-  if (base_ != nullptr) {
-    base_->before_advance(period);
-  }
-  simulation_->advance(period);
+  base_->before_advance(period);
+  seat_.barrier->advance(seat_.robot, period);
   if (speed_ > 0.0) {
     const auto wall = std::chrono::steady_clock::now();
     const auto pace = seconds(to_seconds(period) / speed_);
@@ -286,25 +290,43 @@ Status LockstepClock::advance(Duration period) {
   return {};
 }
 
-Result<SimDevices> make_sim_devices(sim::World world, sim::RobotModel model, std::uint64_t seed, double speed,
-                                    const SimDeviceParams& params, std::size_t start) {
+Result<SharedDevices> make_shared_devices(sim::World world, std::vector<sim::RobotPlace> places, double speed,
+                                          const SimDeviceParams& params) {
   if (!std::isfinite(speed) || speed < 0.0) {
     return fail(Errc::kInvalidArgument, "the speed of the simulated clock must be 0 (as fast as possible) or more");
   }
-  auto simulation = sim::Simulation::create(std::move(world), std::move(model), seed, start);
-  if (!simulation) {
-    return tl::unexpected<Error>(simulation.error());
+  Result<std::shared_ptr<sim::SharedWorld>> created = sim::SharedWorld::create(std::move(world), std::move(places));
+  if (!created) {
+    return tl::unexpected<Error>(created.error());
   }
-  SimDevices devices;
-  devices.simulation = std::make_shared<sim::Simulation>(std::move(*simulation));
-  devices.faults = std::make_shared<SimFaults>();
-  devices.base = std::make_unique<SimBase>(devices.simulation, devices.faults, params);
-  devices.lidar = std::make_unique<SimLidar>(devices.simulation, devices.faults, params);
-  devices.sonar = std::make_unique<SimSonar>(devices.simulation, devices.faults, params);
-  devices.camera = std::make_unique<SimCamera>(devices.simulation, devices.faults);
-  devices.stereo = std::make_unique<SimStereo>(devices.simulation, devices.faults);
-  devices.clock = std::make_unique<LockstepClock>(devices.simulation, devices.base.get(), speed);
-  return devices;
+  SharedDevices shared;
+  shared.world = *created;
+  shared.barrier = std::make_shared<TickBarrier>(*created);
+  shared.robots.reserve(shared.world->size());
+  for (std::size_t i = 0; i < shared.world->size(); ++i) {
+    SimDevices devices;
+    devices.simulation = std::make_shared<sim::Simulation>(shared.world, i);
+    devices.faults = std::make_shared<SimFaults>();
+    devices.base = std::make_unique<SimBase>(devices.simulation, devices.faults, params);
+    devices.lidar = std::make_unique<SimLidar>(devices.simulation, devices.faults, params);
+    devices.sonar = std::make_unique<SimSonar>(devices.simulation, devices.faults, params);
+    devices.camera = std::make_unique<SimCamera>(devices.simulation, devices.faults);
+    devices.stereo = std::make_unique<SimStereo>(devices.simulation, devices.faults);
+    devices.clock =
+        std::make_unique<LockstepClock>(devices.simulation, devices.base.get(), WorldSeat{shared.barrier, i}, speed);
+    shared.robots.push_back(std::move(devices));
+  }
+  return shared;
+}
+
+Result<SimDevices> make_sim_devices(sim::World world, sim::RobotModel model, std::uint64_t seed, double speed,
+                                    const SimDeviceParams& params, std::size_t start) {
+  Result<SharedDevices> shared =
+      make_shared_devices(std::move(world), {sim::RobotPlace{std::move(model), seed, start}}, speed, params);
+  if (!shared) {
+    return tl::unexpected<Error>(shared.error());
+  }
+  return std::move(shared->robots.front());
 }
 
 }  // namespace seeker::drivers

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "server/drivers/interfaces/drivers.hpp"
+#include "server/drivers/sim/tick_barrier.hpp"
 #include "server/sim/simulation.hpp"
 
 namespace seeker::drivers {
@@ -129,19 +131,29 @@ class SimStereo final : public StereoDriver {
   Image last_right_;
 };
 
+/// Which robot of which shared world.
+struct WorldSeat {
+  std::shared_ptr<TickBarrier> barrier;
+  std::size_t robot = 0;
+};
+
 /// Robot time of the simulated world. Speed 0: as fast as the machine can; otherwise paced by the wall clock.
 class LockstepClock final : public Clock {
  public:
-  /// `base` may be null; otherwise it must outlive the clock.
-  LockstepClock(std::shared_ptr<sim::Simulation> simulation, SimBase* base, double speed);
+  /// `base` must outlive the clock.
+  LockstepClock(std::shared_ptr<sim::Simulation> simulation, SimBase* base, WorldSeat seat, double speed);
+  ~LockstepClock() override;
   [[nodiscard]] RobotTime now() const override;
   [[nodiscard]] Status advance(Duration period) override;
+  void hold() override;
+  void let_go() override;
   [[nodiscard]] bool lockstep() const override { return true; }
   [[nodiscard]] double speed() const override { return speed_; }
 
  private:
   std::shared_ptr<sim::Simulation> simulation_;
   SimBase* base_;
+  WorldSeat seat_;
   double speed_;
   std::optional<std::chrono::steady_clock::time_point> next_wake_;
 };
@@ -162,5 +174,16 @@ struct SimDevices {
 [[nodiscard]] Result<SimDevices> make_sim_devices(sim::World world, sim::RobotModel model, std::uint64_t seed,
                                                   double speed, const SimDeviceParams& params = {},
                                                   std::size_t start = 0);
+
+/// Devices of every robot of a world, in their order, on one tick barrier.
+struct SharedDevices {
+  std::shared_ptr<sim::SharedWorld> world;
+  std::shared_ptr<TickBarrier> barrier;
+  std::vector<SimDevices> robots;
+};
+
+/// Fails as SharedWorld::create does, or for a speed that is negative or not finite.
+[[nodiscard]] Result<SharedDevices> make_shared_devices(sim::World world, std::vector<sim::RobotPlace> places,
+                                                        double speed, const SimDeviceParams& params = {});
 
 }  // namespace seeker::drivers
