@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <future>
-#include <random>
 #include <utility>
 
 #include <boost/asio/post.hpp>
 
 #include "common/log/log.hpp"
+#include "common/net/random_id.hpp"
 #include "common/wire/convert.hpp"
 #include "common/wire/envelope.hpp"
 #include "common/wire/outcome.hpp"
@@ -31,11 +31,6 @@ constexpr std::size_t kMaxQueuedBytes = 64UL * 1024 * 1024;
 /// Lost after so many heartbeats without a sign of life, as the robot does by default.
 constexpr int kLostHeartbeats = 3;
 
-std::uint64_t random_id() {
-  std::random_device device;
-  return (std::uint64_t{device()} << 32U) | device();
-}
-
 }  // namespace
 
 std::string_view to_string(LinkState state) {
@@ -51,7 +46,7 @@ std::string_view to_string(LinkState state) {
 RobotClient::Impl::Impl(Endpoint endpoint, ClientParams params)
     : endpoint_(std::move(endpoint)),
       params_(std::move(params)),
-      instance_(random_id()),
+      instance_(net::random_id()),
       io_(1),
       work_(asio::make_work_guard(io_)),
       tick_(io_),

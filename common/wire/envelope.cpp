@@ -57,17 +57,24 @@ void put_tag(std::string& out, int field, WireFormat::WireType type) {
 
 }  // namespace
 
-Result<pb::Envelope> parse_envelope(std::string_view payload) {
+Status parse_within_limits(std::string_view payload, google::protobuf::Message& message) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(payload.data());
   CodedInputStream in(bytes, static_cast<int>(payload.size()));
   std::size_t budget = kMaxMessagesPerFrame;
-  if (!count_messages(in, *pb::Envelope::descriptor(), 0, budget)) {
+  if (!count_messages(in, *message.GetDescriptor(), 0, budget)) {
     return budget == 0 ? fail(Errc::kTooLarge, "the frame holds too many messages")
                        : fail(Errc::kParse, "the frame holds no message of this protocol");
   }
-  pb::Envelope envelope;
-  if (!envelope.ParseFromArray(payload.data(), static_cast<int>(payload.size()))) {
+  if (!message.ParseFromArray(payload.data(), static_cast<int>(payload.size()))) {
     return fail(Errc::kParse, "the frame holds no message of this protocol");
+  }
+  return {};
+}
+
+Result<pb::Envelope> parse_envelope(std::string_view payload) {
+  pb::Envelope envelope;
+  if (const Status parsed = parse_within_limits(payload, envelope); !parsed) {
+    return tl::unexpected<Error>(parsed.error());
   }
   if (envelope.body_case() == pb::Envelope::BODY_NOT_SET) {
     return fail(Errc::kParse, "the frame holds an empty message, or one of a kind that is not known here");

@@ -13,8 +13,11 @@
 
 namespace seeker::wire {
 
-/// kParse: not an Envelope, or an empty one. kTooLarge: more messages inside than kMaxMessagesPerFrame, which is
-/// counted before any of them is built.
+/// Parses any message of our protocols. kParse: it is none. kTooLarge: more messages inside than kMaxMessagesPerFrame,
+/// which is counted before any of them is built.
+[[nodiscard]] Status parse_within_limits(std::string_view payload, google::protobuf::Message& message);
+
+/// kParse: not an Envelope, or an empty one. kTooLarge as above.
 [[nodiscard]] Result<seeker::v1::Envelope> parse_envelope(std::string_view payload);
 
 /// kTooLarge when the message does not fit into one frame.

@@ -62,6 +62,20 @@ void set_common_error(pb::Response& response, pb::CommonError::Code code, const 
   error->set_message(clean_text(message));
 }
 
+void set_error(pb::CommonError& error, const Status& outcome) {
+  error.set_code(outcome ? pb::CommonError::CODE_OK : code_of(outcome.error().code));
+  if (!outcome) {
+    error.set_message(clean_text(outcome.error().message));
+  }
+}
+
+Status status_of(const pb::CommonError& error) {
+  if (error.code() == pb::CommonError::CODE_OK) {
+    return {};
+  }
+  return tl::unexpected<Error>(common_error(error));
+}
+
 void set_outcome(pb::Response& response, CallNumber call, const Status& outcome) {
   const auto* field = result_field(call);
   if (field == nullptr) {
@@ -86,9 +100,8 @@ void set_outcome(pb::Response& response, CallNumber call, const Status& outcome)
 }
 
 Status outcome(const pb::Response& response) {
-  const pb::CommonError& error = response.header().error();
-  if (error.code() != pb::CommonError::CODE_OK) {
-    return tl::unexpected<Error>(common_error(error));
+  if (Status common = status_of(response.header().error()); !common) {
+    return common;
   }
   const auto* field = result_field(static_cast<CallNumber>(response.result_case()));
   if (field == nullptr) {

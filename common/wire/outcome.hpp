@@ -20,6 +20,9 @@ void set_outcome(seeker::v1::Response& response, CallNumber call, const Status& 
 void set_common_error(seeker::v1::Response& response, seeker::v1::CommonError::Code code, const std::string& message);
 /// Reads it back. A response without status, or with one that is not known here, is kInternal.
 [[nodiscard]] Status outcome(const seeker::v1::Response& response);
+/// The common error alone, for protocols that have nothing else.
+void set_error(seeker::v1::CommonError& error, const Status& outcome);
+[[nodiscard]] Status status_of(const seeker::v1::CommonError& error);
 /// kInvalidArgument for STATUS_INVALID_ARGUMENT, and so on; nothing for OK, UNSPECIFIED and unknown names.
 [[nodiscard]] bool errc_of(const std::string& enumerator, Errc& code);
 /// "get_info" and so on; "unknown" for a number that is no call.

@@ -1,10 +1,5 @@
 #include "server/app/daemon.hpp"
 
-#include <poll.h>
-#include <sys/signalfd.h>
-#include <unistd.h>
-
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 
@@ -12,6 +7,7 @@
 #include "server/app/device_factory.hpp"
 #include "server/app/robot.hpp"
 #include "server/app/robot_options.hpp"
+#include "server/app/termination_signals.hpp"
 #include "server/net/server.hpp"
 #include "server/store/atomic_file.hpp"
 
@@ -20,32 +16,6 @@ namespace {
 
 constexpr int kExitConfig = 78;  // sysexits EX_CONFIG
 constexpr const char* kPart = "seekerd";
-
-/// SIGTERM and SIGINT as something one can wait for. They are blocked in every thread made afterwards.
-class TerminationSignals {
- public:
-  TerminationSignals() {
-    sigemptyset(&set_);
-    sigaddset(&set_, SIGTERM);
-    sigaddset(&set_, SIGINT);
-    pthread_sigmask(SIG_BLOCK, &set_, nullptr);
-    std::signal(SIGPIPE, SIG_IGN);
-    fd_ = signalfd(-1, &set_, SFD_CLOEXEC);
-  }
-  TerminationSignals(const TerminationSignals&) = delete;
-  TerminationSignals& operator=(const TerminationSignals&) = delete;
-  ~TerminationSignals() { close(fd_); }
-
-  /// True when a signal came within the time.
-  [[nodiscard]] bool wait(std::chrono::milliseconds limit) const {
-    pollfd entry{.fd = fd_, .events = POLLIN, .revents = 0};
-    return poll(&entry, 1, static_cast<int>(limit.count())) > 0;
-  }
-
- private:
-  sigset_t set_{};
-  int fd_ = -1;
-};
 
 int config_error(const Error& error) {
   log::error(kPart, error.message);

@@ -1,10 +1,12 @@
 #include "server/app/device_factory.hpp"
 
 #include "common/core/rng.hpp"
+#include "common/rpc/endpoint.hpp"
 #include "server/app/estimators.hpp"
 #include "server/app/explore_behaviour.hpp"
 #include "server/app/localise_behaviour.hpp"
 #include "server/app/tracker_estimator.hpp"
+#include "server/drivers/emulator/emulator_devices.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
@@ -12,7 +14,8 @@
 namespace seeker::app {
 namespace {
 
-Status make_sim(const RobotOptions& options, Assembly& assembly) {
+/// The world that the robot file names, its target placed.
+Result<sim::World> sim_world(const RobotOptions& options) {
   const SimSettings& settings = options.sim;
   Result<sim::World> world = options::load_world(resolve(options, settings.world));
   if (!world) {
@@ -26,22 +29,66 @@ Status make_sim(const RobotOptions& options, Assembly& assembly) {
       return fail_with_context("sim.random_target", placed.error());
     }
   }
-  Result<drivers::SimDevices> devices =
-      drivers::make_sim_devices(std::move(*world), settings.robot, settings.seed, settings.speed, settings.devices,
-                                static_cast<std::size_t>(settings.start));
-  if (!devices) {
-    return fail_with_context("sim", devices.error());
+  return world;
+}
+
+template <class Parts>
+void take_devices(Parts& parts, const char* type, Devices& out) {
+  out.type = type;
+  out.base = std::move(parts.base);
+  out.lidar = std::move(parts.lidar);
+  out.sonar = std::move(parts.sonar);
+  out.camera = std::move(parts.camera);
+  out.stereo = std::move(parts.stereo);
+  out.clock = std::move(parts.clock);
+}
+
+void use_sim(drivers::SimDevices devices, Assembly& assembly) {
+  assembly.simulation = devices.simulation;
+  assembly.faults = devices.faults;
+  take_devices(devices, "sim", assembly.parts.devices);
+}
+
+Result<drivers::SharedDevices> sim_devices(std::span<const RobotOptions> robots) {
+  Result<sim::World> world = sim_world(robots.front());
+  if (!world) {
+    return tl::unexpected<Error>(world.error());
   }
-  assembly.simulation = devices->simulation;
-  assembly.faults = devices->faults;
-  Devices& out = assembly.parts.devices;
-  out.type = "sim";
-  out.base = std::move(devices->base);
-  out.lidar = std::move(devices->lidar);
-  out.sonar = std::move(devices->sonar);
-  out.camera = std::move(devices->camera);
-  out.stereo = std::move(devices->stereo);
-  out.clock = std::move(devices->clock);
+  std::vector<sim::RobotPlace> places;
+  places.reserve(robots.size());
+  for (const RobotOptions& robot : robots) {
+    places.push_back({robot.sim.robot, robot.sim.seed, static_cast<std::size_t>(robot.sim.start)});
+  }
+  const SimSettings& common = robots.front().sim;
+  Result<drivers::SharedDevices> devices =
+      drivers::make_shared_devices(std::move(*world), std::move(places), common.speed, common.devices);
+  return devices ? std::move(devices) : fail_with_context("sim", devices.error());
+}
+
+Status make_sim(const RobotOptions& options, Assembly& assembly) {
+  Result<drivers::SharedDevices> devices = sim_devices({&options, 1});
+  if (!devices) {
+    return tl::unexpected<Error>(devices.error());
+  }
+  use_sim(std::move(devices->robots.front()), assembly);
+  return {};
+}
+
+Status make_emulator(const RobotOptions& options, Assembly& assembly) {
+  Result<rpc::Endpoint> endpoint = rpc::parse_endpoint(options.emulator.address);
+  if (!endpoint) {
+    return fail_with_context("emulator.address", endpoint.error());
+  }
+  drivers::EmulatorParams params;
+  params.host = endpoint->host;
+  params.port = endpoint->port;
+  params.robot = static_cast<std::uint32_t>(options.emulator.robot);
+  const Result<std::shared_ptr<drivers::EmulatorLink>> link = drivers::EmulatorLink::connect(params);
+  if (!link) {
+    return tl::unexpected<Error>(link.error());
+  }
+  drivers::EmulatorDevices devices = drivers::make_emulator_devices(*link);
+  take_devices(devices, "emulator", assembly.parts.devices);
   return {};
 }
 
@@ -225,15 +272,18 @@ class Behaviours {
   EvidenceMemory memory_ = std::make_shared<std::optional<search::EvidenceGrid>>();
 };
 
-}  // namespace
-
-Result<Assembly> assemble(const RobotOptions& options, LandmarkStorage landmarks) {
-  Assembly assembly;
-  assembly.landmarks.library = std::make_shared<LandmarkLibrary>(std::move(landmarks));
-  const Status made = options.driver == DriverType::kSim ? make_sim(options, assembly) : make_replay(options, assembly);
-  if (!made) {
-    return tl::unexpected<Error>(made.error());
+Status make_devices(const RobotOptions& options, Assembly& assembly) {
+  switch (options.driver) {
+    case DriverType::kSim: return make_sim(options, assembly);
+    case DriverType::kReplay: return make_replay(options, assembly);
+    case DriverType::kEmulator: return make_emulator(options, assembly);
   }
+  return fail(Errc::kInvalidArgument, "driver is not known");
+}
+
+/// Everything but the devices.
+Result<Assembly> complete(const RobotOptions& options, LandmarkStorage landmarks, Assembly assembly) {
+  assembly.landmarks.library = std::make_shared<LandmarkLibrary>(std::move(landmarks));
   if (const Status ok = use_camera(options, assembly.parts.devices); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
@@ -273,6 +323,36 @@ Result<Assembly> assemble(const RobotOptions& options, LandmarkStorage landmarks
   parts.forget_places = [memory = behaviours.memory()] { memory->reset(); };
   parts.behaviours = std::move(behaviours);
   return assembly;
+}
+
+}  // namespace
+
+Result<Assembly> assemble(const RobotOptions& options, LandmarkStorage landmarks) {
+  Assembly assembly;
+  if (const Status made = make_devices(options, assembly); !made) {
+    return tl::unexpected<Error>(made.error());
+  }
+  return complete(options, std::move(landmarks), std::move(assembly));
+}
+
+Result<SharedAssembly> assemble_shared(std::span<const RobotOptions> robots) {
+  SEEKER_ASSERT(!robots.empty());
+  Result<drivers::SharedDevices> devices = sim_devices(robots);
+  if (!devices) {
+    return tl::unexpected<Error>(devices.error());
+  }
+  SharedAssembly shared{devices->world, devices->barrier, {}};
+  shared.robots.reserve(robots.size());
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    Assembly assembly;
+    use_sim(std::move(devices->robots[i]), assembly);
+    Result<Assembly> completed = complete(robots[i], {}, std::move(assembly));
+    if (!completed) {
+      return tl::unexpected<Error>(completed.error());
+    }
+    shared.robots.push_back(std::move(*completed));
+  }
+  return shared;
 }
 
 }  // namespace seeker::app

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "server/app/devices.hpp"
 #include "server/app/landmark_library.hpp"
@@ -22,5 +24,16 @@ struct Assembly {
 
 /// Errors name the file or field that is wrong. Without a folder in `landmarks` there are no databases of landmarks.
 [[nodiscard]] Result<Assembly> assemble(const RobotOptions& options, LandmarkStorage landmarks = {});
+
+/// Several simulated robots in one world: that of the first one's `sim` section, which also gives the speed and the
+/// periods of the devices; seed, start and model are each robot's own.
+struct SharedAssembly {
+  std::shared_ptr<sim::SharedWorld> world;
+  std::shared_ptr<drivers::TickBarrier> barrier;
+  std::vector<Assembly> robots;
+};
+
+/// As assemble(), for at least one robot.
+[[nodiscard]] Result<SharedAssembly> assemble_shared(std::span<const RobotOptions> robots);
 
 }  // namespace seeker::app

@@ -9,6 +9,8 @@ namespace {
 constexpr std::size_t kMailboxCapacity = 4096;
 /// How long an idle loop sleeps before it looks at its sensors again.
 constexpr std::chrono::milliseconds kIdleWait{200};
+/// How long a loop that waits for its world leaves clients without an answer.
+constexpr std::chrono::milliseconds kAwaitSlice{10};
 
 }  // namespace
 
@@ -217,16 +219,23 @@ void Robot::stop() {
 
 void Robot::run(bool wait_for_client) {
   while (!mailbox_.closed()) {
+    loop_.hold_world();
     mailbox_.run_pending();
     if (loop_.idle() || (wait_for_client && !client_seen_)) {
       loop_.publish_idle();
+      loop_.let_world_go();
       mailbox_.wait(kIdleWait);
-      continue;
+    } else {
+      loop_.tick(std::chrono::steady_clock::now());
     }
-    loop_.tick(std::chrono::steady_clock::now());
+    // The others in a shared world may be slow, or the way there cut: clients are served meanwhile.
+    while (!mailbox_.closed() && !loop_.await(kAwaitSlice)) {
+      mailbox_.run_pending();
+    }
     now_ns_ = loop_.now().time_since_epoch().count();
     ended_ = loop_.ended();
   }
+  loop_.hold_world();
   loop_.shut_down();
   mailbox_.run_pending();
 }

@@ -103,6 +103,7 @@ void RobotLoop::shut_down() {
     static_cast<void>(parts_.devices.base->set_motors(false));
   }
   components_.deactivate_all();
+  let_world_go();
 }
 
 bool RobotLoop::realtime() const { return !parts_.devices.clock->lockstep() || parts_.devices.clock->speed() == 1.0; }
@@ -130,14 +131,28 @@ void RobotLoop::tick(WallTime wall_now) {
   keep_checkpoint();
   map_.step();
   publish();
-  const Status advanced = parts_.devices.clock->advance(params_.period);
-  if (!advanced && !ended_) {
-    ended_ = true;
-    const std::string summary = parts_.devices.summary ? parts_.devices.summary() : "";
-    log("source-ended", summary.empty() ? advanced.error().message : summary);
-    republish_ = true;
-    publish();
+  if (const Status advanced = parts_.devices.clock->advance(params_.period); !advanced) {
+    end_source(advanced.error());
   }
+}
+
+bool RobotLoop::await(Duration limit) {
+  const Result<bool> there = parts_.devices.clock->await(limit);
+  if (!there) {
+    end_source(there.error());
+  }
+  return !there || *there;
+}
+
+void RobotLoop::end_source(const Error& error) {
+  if (ended_) {
+    return;
+  }
+  ended_ = true;
+  const std::string summary = parts_.devices.summary ? parts_.devices.summary() : "";
+  log("source-ended", summary.empty() ? error.message : summary);
+  republish_ = true;
+  publish();
 }
 
 template <class Driver, class Sample>

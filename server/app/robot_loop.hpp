@@ -61,6 +61,11 @@ class RobotLoop {
   void start();
   /// One pass, at the end of which robot time has advanced by one period.
   void tick(WallTime wall_now);
+  /// Waits at most `limit` of wall time for the end of the tick in a world that others are in too. False: not yet.
+  [[nodiscard]] bool await(Duration limit);
+  /// See drivers::Clock: a shared world waits for this robot, or goes on without it.
+  void hold_world() { parts_.devices.clock->hold(); }
+  void let_world_go() { parts_.devices.clock->let_go(); }
   /// True when nothing would change by ticking: a simulated world stands still while no mission runs.
   [[nodiscard]] bool idle() const;
   /// The source of a replay has been read to its end.
@@ -136,6 +141,7 @@ class RobotLoop {
   void read(Driver* driver, const std::string& name, Duration timeout, std::optional<Sample>& latest, bool& fresh,
             RobotTime& last);
   void estimate();
+  void end_source(const Error& error);
   [[nodiscard]] Twist2 decide(WallTime wall_now);
   /// Takes a picture and has the mission's recogniser look at it.
   void look();

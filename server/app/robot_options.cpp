@@ -112,6 +112,11 @@ void describe(config::Fields& f, SimSettings& settings) {
   f.section("devices", settings.devices);
 }
 
+void describe(config::Fields& f, EmulatorSettings& settings) {
+  f.field("address", settings.address);
+  f.field("robot", settings.robot);
+}
+
 void describe(config::Fields& f, ReplaySettings& settings) {
   f.field("log", settings.log);
   f.field("speed", settings.speed);
@@ -161,9 +166,11 @@ void describe(config::Fields& f, StereoSettings& settings) {
 void describe(config::Fields& f, RobotOptions& options) {
   f.field("robot_id", options.robot_id);
   f.choice("driver", options.driver,
-           config::Choices<DriverType>{{"sim", DriverType::kSim}, {"replay", DriverType::kReplay}});
+           config::Choices<DriverType>{
+               {"sim", DriverType::kSim}, {"replay", DriverType::kReplay}, {"emulator", DriverType::kEmulator}});
   f.field("robot_radius_m", options.robot_radius_m);
   f.section("sim", options.sim);
+  f.section("emulator", options.emulator);
   f.section("replay", options.replay);
   f.section("loop", options.loop);
   f.choice("estimator", options.estimator, estimator_names());

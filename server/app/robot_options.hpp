@@ -25,7 +25,7 @@
 
 namespace seeker::app {
 
-enum class DriverType : std::uint8_t { kSim, kReplay };
+enum class DriverType : std::uint8_t { kSim, kReplay, kEmulator };
 
 struct SimSettings {
   std::string world = "../worlds/demo.yaml";  ///< relative to the robot file, else to the working directory
@@ -36,6 +36,12 @@ struct SimSettings {
   bool people = false;         ///< people walk
   sim::RobotModel robot;
   drivers::SimDeviceParams devices;
+};
+
+/// A place in the world of a seeker-emulator.
+struct EmulatorSettings {
+  std::string address = "127.0.0.1:7472";  ///< host:port
+  std::uint64_t robot = 0;                 ///< which robot of the world, from 0
 };
 
 struct ReplaySettings {
@@ -61,6 +67,7 @@ struct RobotOptions {
   DriverType driver = DriverType::kSim;
   double robot_radius_m = 0.26;
   SimSettings sim;
+  EmulatorSettings emulator;
   ReplaySettings replay;
   LoopParams loop;
   EstimatorType estimator = EstimatorType::kLineSlam;

@@ -4,7 +4,6 @@
 #include <array>
 #include <future>
 #include <map>
-#include <random>
 #include <set>
 #include <thread>
 #include <utility>
@@ -15,6 +14,8 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "common/log/log.hpp"
+#include "common/net/listen.hpp"
+#include "common/net/random_id.hpp"
 #include "server/net/mailbox.hpp"
 #include "server/net/session.hpp"
 
@@ -48,12 +49,6 @@ std::vector<api::TopicRequest> all_topics() {
   return topics;
 }
 
-std::uint64_t random_id() {
-  std::random_device device;
-  const std::uint64_t id = (std::uint64_t{device()} << 32U) | device();
-  return id == 0 ? 1 : id;
-}
-
 }  // namespace
 
 /// Everything below start() and stop() runs on the network thread, except push of an update.
@@ -68,7 +63,7 @@ class Server::Impl {
         pause_(*io_),
         mailbox_(std::make_shared<Mailbox>(2 * params_.backlog.items)),
         backlogs_(make_backlogs(params_.backlog, std::make_index_sequence<api::kTopicCount>())),
-        hub_{params_, host, io_, backlogs_, {}, random_id(), {}, {}, {}, {}} {
+        hub_{params_, host, io_, backlogs_, {}, net::random_id(), {}, {}, {}, {}} {
     hub_.robot_now = [this] { return params_.robot_now ? params_.robot_now() : newest_; };
     hub_.opened = [this](const std::shared_ptr<Session>& session) { on_opened(session); };
     hub_.ended = [this](const std::shared_ptr<Session>& session, const wire::Ending& end) { on_ended(session, end); };
@@ -80,7 +75,7 @@ class Server::Impl {
     if (!ready) {
       return tl::unexpected<Error>(ready.error());
     }
-    Result<std::uint16_t> port = listen();
+    Result<std::uint16_t> port = net::listen_on(acceptor_, params_.address, params_.port);
     if (!port) {
       return port;
     }
@@ -145,31 +140,6 @@ class Server::Impl {
     }
     hub_.robot = std::move(*info);
     return {};
-  }
-
-  Result<std::uint16_t> listen() {
-    const std::string where = params_.address + " port " + std::to_string(params_.port);
-    error_code error;
-    const auto address = asio::ip::make_address(params_.address, error);
-    if (error) {
-      return fail(Errc::kInvalidArgument, "'" + params_.address + "' is not an IP address of this machine");
-    }
-    const tcp::endpoint endpoint(address, params_.port);
-    acceptor_.open(endpoint.protocol(), error);
-    if (!error) {
-      acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
-    }
-    if (!error) {
-      acceptor_.bind(endpoint, error);
-    }
-    if (!error) {
-      acceptor_.listen(asio::socket_base::max_listen_connections, error);
-    }
-    if (error) {
-      return fail(Errc::kIo, "cannot listen on " + where + ": " + error.message() +
-                                 "; stop what listens there or choose another port");
-    }
-    return acceptor_.local_endpoint().port();
   }
 
   /// One subscription for all clients. Updates come on the robot's thread.

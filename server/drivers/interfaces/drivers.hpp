@@ -91,6 +91,9 @@ class Clock {
   /// Lockstep: the world advances by `period` and the call returns at once (or paces itself to the chosen speed).
   /// Live: sleeps until the next tick. kCancelled: the source has ended (a replay's last record).
   [[nodiscard]] virtual Status advance(Duration period) = 0;
+  /// Waits at most `limit` of wall time for where advance() leads to, so that its caller can do other things meanwhile.
+  /// False: not there yet. Clocks whose advance() itself waits are always there. kCancelled as above.
+  [[nodiscard]] virtual Result<bool> await(Duration /*limit*/) { return true; }
   /// True where the world stands still unless advance() is called.
   [[nodiscard]] virtual bool lockstep() const = 0;
   /// Where several robots share a world: it stands still from here until advance() or let_go(). Devices are read and

@@ -1,0 +1,31 @@
+/// \file
+/// seeker-emulator: hosts a simulated world that several seekerd share.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace seeker::emulator {
+
+/// What the command line says.
+struct EmulatorArguments {
+  std::filesystem::path world;                              ///< a file of config/worlds
+  std::filesystem::path config = "config/robots/sim.yaml";  ///< robot file: its `sim` section is that of every robot
+  std::vector<std::string> overrides;                       ///< key.path=value of it
+  std::size_t robots = 2;
+  std::vector<std::size_t> starts;    ///< index of each robot's start pose; empty: 0, 1, ...
+  std::optional<std::uint16_t> port;  ///< 0: any free one
+  std::string address = "127.0.0.1";  ///< of the interface to listen on
+  std::filesystem::path port_file;    ///< the port is written here once the world can be reached
+  std::filesystem::path truth_file;   ///< where the robots really are is written here; empty: nowhere
+  bool lockstep = false;
+  std::string log_level = "info";
+};
+
+/// Runs until SIGTERM or SIGINT. The exit code: 0 ended on request, 1 failed, 78 wrong configuration.
+[[nodiscard]] int run_emulator(const EmulatorArguments& arguments);
+
+}  // namespace seeker::emulator

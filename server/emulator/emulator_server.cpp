@@ -1,0 +1,249 @@
+#include "server/emulator/emulator_server.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <utility>
+
+#include <boost/asio/post.hpp>
+
+#include "common/log/log.hpp"
+#include "common/net/connection.hpp"
+#include "common/net/listen.hpp"
+#include "common/wire/envelope.hpp"
+#include "common/wire/outcome.hpp"
+#include "server/drivers/emulator/emulator_wire.hpp"
+
+namespace seeker::emulator {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+constexpr std::string_view kPart = "emulator";
+constexpr Duration kLinger = std::chrono::milliseconds(500);
+constexpr Duration kAcceptPause = std::chrono::milliseconds(100);
+/// Replies that a robot has not read yet; it asks one thing at a time, so more is malice.
+constexpr std::size_t kMaxQueued = 64;
+/// After a pause the world starts afresh and does not hurry to catch up.
+constexpr Duration kMaxLag = std::chrono::milliseconds(250);
+
+}  // namespace
+
+/// One connection.
+struct EmulatorServer::Peer {
+  Peer(asio::io_context& io, std::shared_ptr<net::Connection> with) : connection(std::move(with)), hello(io) {}
+  std::shared_ptr<net::Connection> connection;
+  asio::steady_timer hello;  ///< until it must have said who it is
+  std::optional<std::size_t> robot;
+  std::deque<wire::OutFrame> outgoing;
+};
+
+EmulatorServer::EmulatorServer(WorldHost& host, EmulatorServerParams params)
+    : host_(host), params_(std::move(params)), acceptor_(io_), pace_(io_), pause_(io_) {}
+
+EmulatorServer::~EmulatorServer() = default;
+
+Result<std::uint16_t> EmulatorServer::listen() {
+  Result<std::uint16_t> port = net::listen_on(acceptor_, params_.address, params_.port);
+  if (port) {
+    accept();
+    if (!params_.lockstep) {
+      step_live();
+    }
+  }
+  return port;
+}
+
+void EmulatorServer::run() { io_.run(); }
+
+void EmulatorServer::stop() {
+  asio::post(io_, [this] { close_all(); });
+}
+
+void EmulatorServer::close_all() {
+  stopping_ = true;
+  error_code ignored;
+  acceptor_.close(ignored);
+  pace_.cancel();
+  pause_.cancel();
+  for (const auto& peer : std::exchange(peers_, {})) {
+    peer->hello.cancel();
+    peer->connection->close();
+  }
+  robots_.clear();
+}
+
+void EmulatorServer::accept() {
+  acceptor_.async_accept([this](error_code error, tcp::socket socket) {
+    if (stopping_) {
+      return;
+    }
+    if (!error) {
+      admit(std::move(socket));
+      accept();
+      return;
+    }
+    log::warning(kPart, "a connection could not be accepted: " + error.message());
+    pause_.expires_after(kAcceptPause);
+    pause_.async_wait([this](error_code ended) {
+      if (!ended) {
+        accept();
+      }
+    });
+  });
+}
+
+void EmulatorServer::admit(tcp::socket socket) {
+  net::ConnectionParams params;
+  params.max_frame_bytes = drivers::kMaxEmulatorRequestBytes;
+  const auto peer = std::make_shared<Peer>(io_, std::make_shared<net::Connection>(std::move(socket), params));
+  // The handlers hold the peer until its connection is closed.
+  net::Connection::Handlers handlers;
+  handlers.on_frame = [this, peer](std::string_view payload) { on_frame(peer, payload); };
+  handlers.next_frame = [peer]() -> std::optional<wire::OutFrame> {
+    if (peer->outgoing.empty()) {
+      return std::nullopt;
+    }
+    wire::OutFrame frame = std::move(peer->outgoing.front());
+    peer->outgoing.pop_front();
+    return frame;
+  };
+  handlers.on_end = [this, peer](const Error& error) { drop(peer, error.message); };
+  peer->hello.expires_after(params_.hello_timeout);
+  peer->hello.async_wait([this, peer](error_code error) {
+    if (!error && !peer->robot) {
+      drop(peer, "it did not say which robot it is");
+    }
+  });
+  peers_.insert(peer);
+  peer->connection->start(std::move(handlers));
+}
+
+void EmulatorServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_view payload) {
+  v1::EmulatorRequest request;
+  if (const Status parsed = wire::parse_within_limits(payload, request); !parsed) {
+    drop(peer, parsed.error().message);
+    return;
+  }
+  if (!peer->robot) {
+    greet(peer, request);
+    return;
+  }
+  if (const std::optional<v1::EmulatorReply> reply = host_.handle(*peer->robot, request)) {
+    send(peer, *reply);
+  }
+  turn();
+}
+
+void EmulatorServer::greet(const std::shared_ptr<Peer>& peer, const v1::EmulatorRequest& request) {
+  const Result<std::size_t> robot = request.has_hello()
+                                        ? host_.enter(request.hello())
+                                        : fail(Errc::kInvalidArgument, "the first request must be a hello");
+  if (!robot) {
+    v1::EmulatorReply refusal;
+    refusal.set_id(request.id());
+    wire::set_error(*refusal.mutable_error(), tl::unexpected<Error>(robot.error()));
+    log::info(kPart, "a robot was refused: " + robot.error().message);
+    send(peer, refusal);
+    peer->hello.cancel();
+    peer->connection->finish(kLinger);
+    peers_.erase(peer);
+    return;
+  }
+  if (const auto before = robots_.find(*robot); before != robots_.end()) {
+    // The same program has connected again; its former connection may still look alive.
+    before->second->robot.reset();
+    before->second->connection->close();
+    peers_.erase(before->second);
+  }
+  peer->hello.cancel();
+  peer->robot = *robot;
+  robots_[*robot] = peer;
+  log::info(kPart, "robot " + std::to_string(*robot) + " is here");
+  send(peer, host_.welcome(request.id()));
+}
+
+void EmulatorServer::send(const std::shared_ptr<Peer>& peer, const v1::EmulatorReply& reply) {
+  if (peer->outgoing.size() >= kMaxQueued) {
+    drop(peer, "it does not read its replies");
+    return;
+  }
+  peer->outgoing.push_back(wire::make_frame(reply.SerializeAsString()));
+  peer->connection->wake();
+}
+
+void EmulatorServer::drop(const std::shared_ptr<Peer>& peer, const std::string& why) {
+  peer->hello.cancel();
+  peer->connection->close();
+  peers_.erase(peer);
+  if (!peer->robot) {
+    log::info(kPart, "a connection ended: " + why);
+    return;
+  }
+  log::info(kPart, "robot " + std::to_string(*peer->robot) + " is gone: " + why);
+  host_.leave(*peer->robot);
+  robots_.erase(*peer->robot);
+  peer->robot.reset();
+  turn();
+}
+
+void EmulatorServer::turn() {
+  if (stopping_ || !params_.lockstep || turning_ || !host_.next()) {
+    return;
+  }
+  turning_ = true;
+  const auto go = [this] {
+    turning_ = false;
+    if (stopping_) {
+      return;
+    }
+    // Somebody may have come, or come back, meanwhile.
+    if (const std::optional<RobotTime> to = host_.next()) {
+      const Duration period = *to - host_.world().now();
+      step(*to);
+      if (params_.speed > 0.0) {
+        pace(period);
+      }
+    }
+    turn();
+  };
+  if (params_.speed > 0.0 && pace_.expiry() > net::wall_now()) {
+    pace_.async_wait([go](error_code error) {
+      if (!error) {
+        go();
+      }
+    });
+  } else {
+    asio::post(io_, go);
+  }
+}
+
+void EmulatorServer::pace(Duration period) {
+  const auto wall = net::wall_now();
+  const auto last = wall - pace_.expiry() > kMaxLag ? wall : pace_.expiry();
+  pace_.expires_at(last + seconds(to_seconds(period) / params_.speed));
+}
+
+void EmulatorServer::step(RobotTime to) {
+  for (const auto& [robot, reply] : host_.go_on(to)) {
+    if (const auto peer = robots_.find(robot); peer != robots_.end()) {
+      send(std::shared_ptr<Peer>(peer->second), reply);
+    }
+  }
+  if (on_step) {
+    on_step();
+  }
+}
+
+void EmulatorServer::step_live() {
+  pace(params_.live_step);
+  pace_.async_wait([this](error_code error) {
+    if (!error && !stopping_) {
+      step(host_.world().now() + params_.live_step);
+      step_live();
+    }
+  });
+}
+
+}  // namespace seeker::emulator

@@ -1,0 +1,100 @@
+// One world hosted for two robots, each with its own server, over real sockets.
+
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "tests/integration/processes/daemon.hpp"
+
+namespace seeker::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// seeker-emulator with two robots in the corridor world.
+class Emulator {
+ public:
+  explicit Emulator(const fs::path& folder = fresh_folder("emulator")) : truth(folder / "truth.csv") {
+    const fs::path port_file = folder / "port";
+    process.emplace(program("seeker-emulator"),
+                    std::vector<std::string>{"--world", source_file("config/worlds/corridor.yaml"), "--config",
+                                             source_file("config/robots/sim.yaml"), "--robots", "2", "--lockstep",
+                                             "--port", "0", "--port-file", port_file, "--truth", truth},
+                    folder / "log");
+    const std::optional<std::string> text = wait_for_file(port_file, kStart);
+    EXPECT_TRUE(text) << process->output();
+    port = text ? text->substr(0, text->find('\n')) : "";
+  }
+
+  /// What robot `number` is started with.
+  [[nodiscard]] std::vector<std::string> robot(int number) const {
+    return {"--set", "driver=emulator",
+            "--set", "emulator.address=127.0.0.1:" + port,
+            "--set", "emulator.robot=" + std::to_string(number),
+            "--set", "robot_id=r" + std::to_string(number)};
+  }
+
+  /// Where each robot has been, x and y in the frame of the world.
+  [[nodiscard]] std::map<int, std::vector<Point2>> paths() const {
+    std::map<int, std::vector<Point2>> paths;
+    std::ifstream in(truth);
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream words(line);
+      double time_s = 0.0;
+      int robot = 0;
+      Point2 p = Point2::Zero();
+      if (words >> time_s >> robot >> p.x() >> p.y()) {
+        paths[robot].push_back(p);
+      }
+    }
+    return paths;
+  }
+
+  fs::path truth;
+  std::optional<ChildProcess> process;
+  std::string port;
+};
+
+TEST(EmulatorProcesses, TwoRobotsDriveInOneWorldAndOneComesBackAfterItsDeath) {
+  const Emulator emulator;
+  const fs::path folder = fresh_folder("robot1");
+  const Daemon first(emulator.robot(0));
+  std::string output;
+  {
+    Daemon second(emulator.robot(1), folder);
+    // Robot 1 stands by: the world goes on without it.
+    EXPECT_EQ(seeker(first, {"goto", "1.5,0"}, &output), 0) << output;
+    EXPECT_EQ(seeker(second, {"goto", "0.8,0"}, &output), 0) << output;
+    ASSERT_EQ(seeker(second, {"goto", "--detach", "4,0"}, &output), 0) << output;
+    second.process->send(SIGKILL);
+    EXPECT_EQ(second.process->wait(seconds(10)), 128 + SIGKILL);
+  }
+  EXPECT_EQ(seeker(first, {"goto", "0.5,0"}, &output), 0) << output;
+  const Daemon again(emulator.robot(1), folder);
+  EXPECT_EQ(seeker(again, {"goto", "0.5,0"}, &output), 0) << output;
+
+  const auto paths = emulator.paths();
+  ASSERT_EQ(paths.size(), 2U);
+  const Point2 start_of_first(1.0, 1.0);
+  EXPECT_LT((paths.at(0).back() - start_of_first - Point2(0.5, 0.0)).norm(), 0.25);
+  // Robot 1 looks to the south (-90 deg): 0.8 m before its death, some on the way to 4 m, and 0.5 m after it.
+  EXPECT_LT(paths.at(1).back().y(), 11.0 - 1.0);
+  EXPECT_NEAR(paths.at(1).back().x(), 19.0, 0.4);
+}
+
+TEST(EmulatorProcesses, ARobotWithoutAWorldSaysWhatToStart) {
+  const fs::path folder = fresh_folder("nobody");
+  ChildProcess robot(program("seekerd"),
+                     {"--config", source_file("config/robots/sim.yaml"), "--set", "driver=emulator", "--set",
+                      "emulator.address=127.0.0.1:1", "--port", "0", "--state", folder / "state"},
+                     folder / "log");
+  EXPECT_EQ(robot.wait(seconds(30)), 78);
+  EXPECT_NE(robot.output().find("start seeker-emulator there"), std::string::npos) << robot.output();
+}
+
+}  // namespace
+}  // namespace seeker::testing
