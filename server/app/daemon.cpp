@@ -5,6 +5,7 @@
 
 #include "common/log/log.hpp"
 #include "server/app/device_factory.hpp"
+#include "server/app/fleet_part.hpp"
 #include "server/app/robot.hpp"
 #include "server/app/robot_options.hpp"
 #include "server/app/termination_signals.hpp"
@@ -42,6 +43,12 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
   params.port = arguments.port.value_or(params.port);
   params.robot_now = [&robot] { return robot.now(); };
   server_net::Server server(robot, params);
+  const Result<FleetPart> fleet =
+      start_fleet(options.fleet, options.robot_id, SEEKER_VERSION, state / options.robot_id / "fleet",
+                  [&robot](const api::Reply<OwnMap>& reply) { robot.give_own_map(reply); });
+  if (!fleet) {
+    return config_error(fleet.error());
+  }
   robot.start(options.driver == DriverType::kReplay && options.replay.wait_for_client);
   const Result<std::uint16_t> port = server.start();
   if (!port) {

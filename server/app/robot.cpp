@@ -176,6 +176,23 @@ Robot::~Robot() {
   }
 }
 
+void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
+  const bool posted = mailbox_.post([this, reply] {
+    Result<LineMap> map = loop_.robot_map().map();
+    if (!map) {
+      reply(tl::unexpected<Error>(map.error()));
+      return;
+    }
+    const PoseEstimate pose = loop_.status().pose;
+    const bool known =
+        pose.quality == LocalisationQuality::kLocalised || pose.quality == LocalisationQuality::kDegraded;
+    reply(OwnMap{std::move(*map), known ? std::optional<Pose2>(pose.map_T_base) : std::nullopt});
+  });
+  if (!posted) {
+    reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));
+  }
+}
+
 void Robot::keep_journal() {
   loop_.missions().continue_detection_ids(journal_->highest_detection_id());
   loop_.offer_unfinished(journal_->unfinished());

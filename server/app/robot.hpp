@@ -12,6 +12,7 @@
 #include "server/app/landmark_service.hpp"
 #include "server/app/mailbox.hpp"
 #include "server/app/map_service.hpp"
+#include "server/app/own_map.hpp"
 #include "server/app/robot_loop.hpp"
 
 namespace seeker::app {
@@ -36,6 +37,8 @@ class Robot final : public api::RobotHost {
   void stop();
   /// Runs until the source has ended (a replay) or `deadline` robot time; for programs without a network.
   [[nodiscard]] RobotLoop& loop() { return loop_; }
+  /// The map as it is now, for a fleet; any thread.
+  void give_own_map(const api::Reply<OwnMap>& reply);
   /// True once a replay's source has been read to its end.
   [[nodiscard]] bool ended() const { return ended_.load(); }
   /// Robot time of the last tick; any thread.

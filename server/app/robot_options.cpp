@@ -39,15 +39,25 @@ void describe(config::Fields& f, ControlTableParams& params) {
 
 }  // namespace seeker::search
 
-namespace seeker::server_net {
-void describe(config::Fields& f, ServerParams& params) {
-  f.field("address", params.address);
-  int port = params.port;
+namespace seeker {
+namespace {
+
+void describe_port(config::Fields& f, std::uint16_t& number) {
+  int port = number;
   f.field("port", port);
   constexpr int kHighestPort = 65535;
   const bool valid = port >= 0 && port <= kHighestPort;
   f.check("port", valid, "must be from 0 to 65535");
-  params.port = valid ? static_cast<std::uint16_t>(port) : params.port;
+  number = valid ? static_cast<std::uint16_t>(port) : number;
+}
+
+}  // namespace
+}  // namespace seeker
+
+namespace seeker::server_net {
+void describe(config::Fields& f, ServerParams& params) {
+  f.field("address", params.address);
+  describe_port(f, params.port);
   f.seconds("heartbeat_s", params.heartbeat);
   f.seconds("lost_after_s", params.lost_after);
 }
@@ -117,6 +127,15 @@ void describe(config::Fields& f, EmulatorSettings& settings) {
   f.field("robot", settings.robot);
 }
 
+void describe(config::Fields& f, FleetSettings& settings) {
+  f.field("lead", settings.lead);
+  f.field("address", settings.address);
+  describe_port(f, settings.port);
+  f.field("join", settings.join);
+  f.seconds("period_s", settings.period);
+  f.check("period_s", settings.period > Duration::zero(), "must be above 0");
+}
+
 void describe(config::Fields& f, ReplaySettings& settings) {
   f.field("log", settings.log);
   f.field("speed", settings.speed);
@@ -172,6 +191,7 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("sim", options.sim);
   f.section("emulator", options.emulator);
   f.section("replay", options.replay);
+  f.section("fleet", options.fleet);
   f.section("loop", options.loop);
   f.choice("estimator", options.estimator, estimator_names());
   f.section("tracking", options.tracking);

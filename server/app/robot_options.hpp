@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/config/yaml.hpp"
+#include "server/app/fleet_settings.hpp"
 #include "server/app/goto_behaviour.hpp"
 #include "server/app/landmark_estimator.hpp"
 #include "server/app/robot_loop.hpp"
@@ -69,6 +70,7 @@ struct RobotOptions {
   SimSettings sim;
   EmulatorSettings emulator;
   ReplaySettings replay;
+  FleetSettings fleet;
   LoopParams loop;
   EstimatorType estimator = EstimatorType::kLineSlam;
   slam::ScanMapParams tracking;  ///< its `odometry` part also drives pure dead reckoning

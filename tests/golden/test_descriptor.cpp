@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "seeker/v1/emulator.pb.h"
+#include "seeker/v1/fleet.pb.h"
 #include "seeker/v1/session.pb.h"
 #include "tests/support/data.hpp"
 
@@ -67,6 +69,8 @@ void describe(const FileDescriptor& file, Schema& out) {
 Schema present() {
   Schema out;
   describe(*seeker::v1::Envelope::descriptor()->file(), out);
+  describe(*seeker::v1::FleetRequest::descriptor()->file(), out);
+  describe(*seeker::v1::EmulatorRequest::descriptor()->file(), out);
   return out;
 }
 

@@ -1,0 +1,118 @@
+/// \file
+/// Several robots, one map: what a robot that joins another one announces and sends, and what it gets back (spec S4.7).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/core/line_map.hpp"
+#include "common/core/pose2.hpp"
+
+namespace seeker::api {
+
+/// SHA-256 of a piece: its name wherever it goes.
+using PieceHash = std::array<std::uint8_t, 32>;
+
+inline constexpr std::size_t kMaxFleetNodes = 10'000;  ///< of one robot
+inline constexpr std::size_t kMaxFleetEdges = 40'000;
+inline constexpr std::size_t kMaxFleetRobots = 16;  ///< the main one included
+inline constexpr std::size_t kMaxFleetPieceBytes = 8UL << 20U;
+inline constexpr std::size_t kMaxFleetChunkBytes = 1UL << 20U;
+inline constexpr std::size_t kMaxFleetHypotheses = 16;
+
+/// A local map by its piece: segments and scans in its own frame, so that it stays the same when the map around moves.
+struct FleetNode {
+  MapNode node;
+  PieceHash hash{};
+  std::uint64_t piece_bytes = 0;
+  friend bool operator==(const FleetNode&, const FleetNode&) = default;
+};
+
+/// Everything a robot has.
+struct FleetManifest {
+  std::string robot_id;
+  std::uint64_t instance = 0;  ///< random per running program: tells a restart from a namesake
+  std::uint32_t map_epoch = 0;
+  std::uint64_t next_id = 1;  ///< as in LineMap
+  std::vector<FleetNode> nodes;
+  std::vector<MapEdge> edges;
+  std::optional<Pose2> map_T_base;  ///< absent when the robot does not know where it is
+  friend bool operator==(const FleetManifest&, const FleetManifest&) = default;
+};
+
+struct FleetMissing {
+  PieceHash hash{};
+  std::uint64_t offset = 0;  ///< bytes before this are there
+  friend bool operator==(const FleetMissing&, const FleetMissing&) = default;
+};
+
+struct FleetChunk {
+  std::string robot_id;
+  PieceHash hash{};
+  std::uint64_t offset = 0;
+  std::vector<std::uint8_t> data;
+  friend bool operator==(const FleetChunk&, const FleetChunk&) = default;
+};
+
+enum class FleetState : std::uint8_t {
+  kWaiting,  ///< pieces are missing, or are being looked at
+  kMerged,
+  kAmbiguous,  ///< the operator is asked
+  kInsufficientOverlap,
+  kContradicted,  ///< probably another building
+  kSplit,         ///< taken out by the operator
+};
+[[nodiscard]] std::string_view to_string(FleetState state);
+
+/// One way in which a robot's map may lie in that of the main one.
+struct FleetHypothesis {
+  Pose2 main_T_map;
+  double confidence = 0.0;  ///< 0 to 1
+  double shared_wall_m = 0.0;
+  double contradiction = 0.0;  ///< share, 0 to 1
+  std::uint32_t pairs = 0;     ///< local maps that speak for it
+  friend bool operator==(const FleetHypothesis&, const FleetHypothesis&) = default;
+};
+
+struct FleetMember {
+  std::string robot_id;
+  FleetState state = FleetState::kWaiting;
+  std::string reason;
+  double confidence = 0.0;
+  bool by_operator = false;
+  bool linked = false;  ///< it has announced itself lately
+  std::uint32_t nodes = 0;
+  std::uint32_t pieces_missing = 0;
+  std::vector<FleetHypothesis> hypotheses;  ///< best first
+  std::optional<Pose2> main_T_map;          ///< where it is merged
+  std::optional<Pose2> main_T_base;         ///< where it is merged and knows its place
+  std::vector<Point2> places;               ///< its local maps, in its own frame `map`
+  friend bool operator==(const FleetMember&, const FleetMember&) = default;
+};
+
+struct FleetStatus {
+  std::vector<FleetMember> members;  ///< the main one first
+  std::uint32_t revision = 0;        ///< rises with every change of who is merged and how
+  friend bool operator==(const FleetStatus&, const FleetStatus&) = default;
+};
+
+struct FleetAnswer {
+  std::vector<FleetMissing> missing;
+  FleetStatus fleet;
+  friend bool operator==(const FleetAnswer&, const FleetAnswer&) = default;
+};
+
+enum class FleetVerb : std::uint8_t { kMerge, kSplit };
+
+struct FleetDecision {
+  std::string robot_id;
+  FleetVerb verb = FleetVerb::kMerge;
+  std::uint32_t hypothesis = 0;  ///< of FleetMember::hypotheses
+  friend bool operator==(const FleetDecision&, const FleetDecision&) = default;
+};
+
+}  // namespace seeker::api

@@ -1,0 +1,41 @@
+/// \file
+/// One request, one reply, and wait: for programs that do one thing after the other.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <boost/asio/io_context.hpp>
+
+#include "common/core/result.hpp"
+#include "common/net/connection.hpp"
+
+namespace seeker::net {
+
+/// Calls come from one thread, which does the network work while it waits.
+class Exchange {
+ public:
+  /// kLinkLost, kTimeout.
+  [[nodiscard]] static Result<std::unique_ptr<Exchange>> connect(const std::string& host, std::uint16_t port,
+                                                                 Duration timeout);
+  Exchange(const Exchange&) = delete;
+  Exchange& operator=(const Exchange&) = delete;
+  ~Exchange();
+
+  /// The payload of the answer. After an error the connection is of no use any more: kLinkLost, kTimeout, kTooLarge.
+  [[nodiscard]] Result<std::string> ask(std::string payload, Duration timeout);
+
+ private:
+  Exchange() = default;
+  void start(Transport transport);
+
+  boost::asio::io_context io_{1};
+  std::shared_ptr<Connection> connection_;
+  std::optional<wire::OutFrame> request_;
+  std::optional<std::string> reply_;
+  std::optional<Error> broken_;
+};
+
+}  // namespace seeker::net

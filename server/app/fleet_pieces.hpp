@@ -1,0 +1,33 @@
+/// \file
+/// A robot's map cut into pieces that travel, and put together again.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/api/fleet.hpp"
+#include "common/core/line_map.hpp"
+
+namespace seeker::app {
+
+using PieceBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+using Pieces = std::map<api::PieceHash, PieceBytes>;
+
+/// What a robot announces, and what it sends of it when asked.
+struct PackedMap {
+  api::FleetManifest manifest;
+  Pieces pieces;
+};
+
+/// One piece per local map, in its own frame, rounded to a micrometre: a piece changes when its local map does, not
+/// when the map around it moves. Errors of store::encode_map_file(); kTooLarge for more than the wire carries.
+[[nodiscard]] Result<PackedMap> pack_map(const LineMap& map, const std::string& robot_id);
+
+/// The map of a manifest whose pieces are all there. kCorrupt or kParse: a piece is none; kInvalidArgument: together
+/// they are no map.
+[[nodiscard]] Result<LineMap> unpack_map(const api::FleetManifest& manifest, const Pieces& pieces);
+
+}  // namespace seeker::app

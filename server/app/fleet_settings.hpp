@@ -1,0 +1,20 @@
+/// \file
+/// Whether a robot leads a fleet or joins one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/core/time.hpp"
+
+namespace seeker::app {
+
+struct FleetSettings {
+  bool lead = false;                          ///< others may join this robot
+  std::string address = "127.0.0.1";          ///< of the interface to listen on for them
+  std::uint16_t port = 7473;                  ///< 0: any free one
+  std::string join;                           ///< host:port of the main robot's fleet; empty: joins none
+  Duration period = std::chrono::seconds(5);  ///< wall time between announcements
+};
+
+}  // namespace seeker::app
