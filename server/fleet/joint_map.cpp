@@ -33,6 +33,9 @@ class Joiner {
   void spread();
   [[nodiscard]] Status build();
   [[nodiscard]] Status optimise() {
+    if (graph_.edge_count() == 0) {
+      return {};  // one local map: there is nothing to move
+    }
     const auto report = graph_.optimise(params_.max_iterations);
     return report ? Status{} : Status(tl::unexpected<Error>(report.error()));
   }

@@ -140,6 +140,9 @@ MergeHypothesis Question::hypothesis_of(std::vector<NodeRelation> pairs) {
   Question other(b_, a_, params_);
   const MapOverlap here = overlap_of(
       b_, a_, [&](std::size_t node) { return other.place_of(back, node); }, params_.overlap);
+  for (const NodeRelation& pair : pairs) {
+    made.shared_middle_b += node_b(pair).map_T_node * node_b(pair).middle / static_cast<double>(pairs.size());
+  }
   made.shared_wall_m = std::min(there.shared_wall_m, here.shared_wall_m);
   made.weak_wall_m = std::min(there.weak_wall_m, here.weak_wall_m);
   made.contradiction = std::max(there.contradiction, here.contradiction);

@@ -71,6 +71,7 @@ int run_lab(int argc, char** argv) {
   verbs["survey"] = add_survey(app);
   verbs["train-solids"] = add_train_solids(app);
   verbs["slam"] = add_slam(app);
+  verbs["merge"] = add_merge(app);
   verbs["lines"] = add_lines(app);
   verbs["plot"] = add_plot(app);
   verbs["score-map"] = add_score_map(app);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,13 +24,16 @@ class Player {
  public:
   Player(drivers::ReplaySource& source, slam::PoseTracker& tracker) : source_(source), tracker_(tracker) {}
 
-  /// Takes one record; false at the end of the log.
-  bool step() {
-    if (!source_.advance_one()) {
+  /// Takes one record; false at the end of the log or after `to_s` of it. Records before `from_s` pass unseen.
+  bool step(double from_s, double to_s) {
+    if (!source_.advance_one() || to_seconds(source_.now()) > to_s) {
       return false;
     }
     const std::optional<drivers::OdometrySample> odometry = source_.take_odometry();
     const std::optional<LaserScan> scan = source_.take_scan();
+    if (to_seconds(source_.now()) < from_s) {
+      return true;
+    }
     watch.start();
     Status predicted;
     Status updated;
@@ -89,7 +93,8 @@ void Player::finish(const slam::MapTracker* map) {
   if (map == nullptr) {
     return;
   }
-  const LineMap value = map->map();
+  run.map = map->map();
+  const LineMap& value = run.map;
   run.segments = map->segments();
   run.keyframes = value.keyframes.size();
   run.loops = static_cast<std::uint64_t>(std::count_if(value.edges.begin(), value.edges.end(),
@@ -100,20 +105,40 @@ void Player::finish(const slam::MapTracker* map) {
   }
 }
 
+/// Reads the log to its end.
+Result<double> duration_of(const std::filesystem::path& log, const drivers::ReplayParams& geometry) {
+  const auto source = drivers::ReplaySource::open(log, geometry);
+  if (!source) {
+    return tl::unexpected<Error>(source.error());
+  }
+  while ((*source)->advance_one()) {
+    (void)(*source)->take_odometry();
+    (void)(*source)->take_scan();
+  }
+  return to_seconds((*source)->now());
+}
+
 }  // namespace
 
 Result<SlamRun> run_slam(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
-                         slam::PoseTracker& tracker, const SlamProgress& progress) {
+                         slam::PoseTracker& tracker, const SlamProgress& progress, const LogSpan& span) {
   constexpr std::uint64_t kProgressScans = 50;
   const Result<std::shared_ptr<drivers::ReplaySource>> source = drivers::ReplaySource::open(log, geometry);
   if (!source) {
     return tl::unexpected<Error>(source.error());
   }
+  const Result<double> duration_s =
+      span == LogSpan{} ? std::numeric_limits<double>::infinity() : duration_of(log, geometry);
+  if (!duration_s) {
+    return tl::unexpected<Error>(duration_s.error());
+  }
+  const double from_s = span.from > 0.0 ? span.from * *duration_s : 0.0;
+  const double to_s = span.to * *duration_s;
   Player player(**source, tracker);
   player.run.cost.memory_empty_mb = peak_memory_mb();
   const auto start = std::chrono::steady_clock::now();
   const double processor_start_s = process_seconds();
-  while (player.step()) {
+  while (player.step(from_s, to_s)) {
     const std::uint64_t scans = player.run.online.size();
     if (progress && scans % kProgressScans == 0) {
       progress(scans, to_seconds((*source)->now()));

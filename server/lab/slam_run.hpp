@@ -47,18 +47,28 @@ struct SlamRun {
   std::uint64_t refused = 0;  ///< calls that the estimator answered with an error
   std::string first_refusal;
   std::vector<MapSegment> segments;  ///< of an estimator that keeps a map of segments
+  LineMap map;                       ///< the same with its local maps; empty where the estimator keeps none
   std::uint64_t keyframes = 0;       ///< scans kept with that map
   std::uint64_t loops = 0;           ///< closed and believed
+};
+
+/// A part of a log as shares of its duration, 0 to 1: the first half is {0, 0.5}.
+struct LogSpan {
+  double from = 0.0;
+  double to = 1.0;
+
+  friend bool operator==(const LogSpan&, const LogSpan&) = default;
 };
 
 /// Called now and then with the number of scans done and the log's time since its start.
 using SlamProgress = std::function<void(std::uint64_t scans, double time_s)>;
 
 /// Plays the log through the estimator, odometry before the scan it belongs to. It is given odometry and scans only:
-/// poses that a log holds for scoring do not leave the replay driver. Errors of ReplaySource::open(); kParse when the
-/// log has no scan.
+/// poses that a log holds for scoring do not leave the replay driver. What lies outside of the span is never shown to
+/// the estimator. Errors of ReplaySource::open(); kParse when the log, or this part of it, has no scan.
 [[nodiscard]] Result<SlamRun> run_slam(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
-                                       slam::PoseTracker& tracker, const SlamProgress& progress = {});
+                                       slam::PoseTracker& tracker, const SlamProgress& progress = {},
+                                       const LogSpan& span = {});
 
 /// Number of scans and seconds with that quality; a scan lasts until the next one.
 struct QualityShare {

@@ -6,6 +6,7 @@
 
 #include "common/core/angle.hpp"
 #include "server/lab/lines_command.hpp"
+#include "server/lab/merge_command.hpp"
 #include "server/lab/plot_trajectories.hpp"
 #include "server/lab/score_command.hpp"
 #include "server/lab/score_map.hpp"
@@ -48,6 +49,21 @@ Verb add_slam(CLI::App& app) {
     o->config = found_config(o->config);
     o->show_progress = show_progress();
     return exit_code_of(run_slam_command(*o, std::cout));
+  };
+}
+
+Verb add_merge(CLI::App& app) {
+  auto o = std::make_shared<MergeOptions>();
+  CLI::App* verb = app.add_subcommand("merge", "The maps of recorded runs laid upon each other, by lidar alone");
+  verb->add_option("logs", o->logs, "Logs, each taken for a robot of its own")->required();
+  verb->add_option("--span", o->spans, "Part of a log in per cent of its duration, e.g. 0-50; one for each log");
+  verb->add_option("--out", o->out, "Folder for report.json, merged.png and merged.seekmap (default: none is written)");
+  add_geometry(*verb, *o);
+  verb->add_flag("--json", o->json, "Print JSON");
+  return [o] {
+    o->config = found_config(o->config);
+    o->show_progress = show_progress();
+    return exit_code_of(run_merge_command(*o, std::cout));
   };
 }
 
