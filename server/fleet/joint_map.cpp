@@ -96,7 +96,7 @@ Status Joiner::check() const {
   for (const MapRelation& relation : relations_) {
     const LineMap* a = map_of(relation.slot_a);
     const LineMap* b = map_of(relation.slot_b);
-    const bool known = a != nullptr && b != nullptr && a != b &&
+    const bool known = a != nullptr && b != nullptr && relation.slot_a != relation.slot_b &&
                        std::all_of(relation.pairs.begin(), relation.pairs.end(), [&](const NodeRelation& pair) {
                          return find_node(*a, pair.node_a) != nullptr && find_node(*b, pair.node_b) != nullptr;
                        });
@@ -203,7 +203,10 @@ JointRobot Joiner::robot_of(std::uint8_t slot) {
   const std::size_t main = nodes_.at(maps_.front().slot).begin()->second;
   const std::size_t first = nodes_.at(slot).begin()->second;
   robot.main_T_first.a_T_b = inverse(graph_.pose(main)) * graph_.pose(first);
-  if (const auto covariance = graph_.relative_covariance(main, first); covariance && first != main) {
+  if (first == main) {
+    return robot;
+  }
+  if (const Result<Matrix3> covariance = graph_.relative_covariance(main, first)) {
     robot.main_T_first.covariance = *covariance;
   }
   return robot;

@@ -33,6 +33,11 @@ class Question {
   [[nodiscard]] std::vector<MergeHypothesis> hypotheses();
 
  private:
+  struct Proposal {
+    std::size_t region = 0;                ///< of a
+    std::optional<std::size_t> seen_from;  ///< node of a whose pictures look like those of the node of b
+  };
+  [[nodiscard]] std::vector<Proposal> proposals_for(const PreparedNode& node, const vision::PlaceIndex& pictures) const;
   [[nodiscard]] Pose2 map_a_T_map_b(const NodeRelation& pair) const;
   [[nodiscard]] std::vector<NodeRelation> largest_set(const std::vector<NodeRelation>& among);
   [[nodiscard]] MergeHypothesis hypothesis_of(std::vector<NodeRelation> pairs);
@@ -53,13 +58,37 @@ class Question {
   std::vector<NodeRelation> relations_;
 };
 
+std::vector<Question::Proposal> Question::proposals_for(const PreparedNode& node,
+                                                        const vision::PlaceIndex& pictures) const {
+  std::vector<Proposal> proposals;
+  const auto own = b_.features().find(node.id);
+  if (own != b_.features().end() && pictures.size() > 0) {
+    for (const vision::PlaceMatch& match : pictures.best_matches(own->second, params_.regions_per_node)) {
+      const auto like = static_cast<std::size_t>(match.id);
+      proposals.push_back({a_.nodes()[like].region, like});
+    }
+  }
+  for (const std::size_t region : a_.regions_like(node, params_.regions_per_node)) {
+    if (std::none_of(proposals.begin(), proposals.end(), [&](const Proposal& p) { return p.region == region; })) {
+      proposals.push_back({region, std::nullopt});
+    }
+  }
+  return proposals;
+}
+
 void Question::compare(const PairCheck& check, MergeAnswer& answer) {
+  vision::PlaceIndex pictures(params_.pictures);
+  for (const auto& [id, features] : a_.features()) {
+    if (index_a_.contains(id)) {
+      pictures.add(index_a_.at(id), features);
+    }
+  }
   for (const PreparedNode& node : b_.nodes()) {
-    for (const std::size_t region : a_.regions_like(node, params_.regions_per_node)) {
-      PairFindings found = check.find(a_, region, node);
+    for (const Proposal& proposal : proposals_for(node, pictures)) {
+      PairFindings found = check.find(a_, proposal.region, node, proposal.seen_from);
       ++answer.compared;
       if (found.relations.empty()) {
-        answer.rejected.push_back({a_.nodes()[a_.regions()[region].node].id, node.id, found.refusal});
+        answer.rejected.push_back({a_.nodes()[a_.regions()[proposal.region].node].id, node.id, found.refusal});
       }
       relations_.insert(relations_.end(), found.relations.begin(), found.relations.end());
     }
@@ -192,7 +221,7 @@ std::string_view to_string(MergeVerdict verdict) {
 }
 
 double confidence_of(const MergeHypothesis& hypothesis, const MergeParams& params) {
-  const double seen = 1.0 - std::exp(-hypothesis.shared_wall_m / params.sure_shared_wall_m);
+  const double seen = 1.0 - std::exp(-hypothesis.shared_wall_m / (0.5 * params.sure_shared_wall_m));
   const double agreed = std::clamp(1.0 - hypothesis.contradiction / (2.0 * params.max_contradiction), 0.0, 1.0);
   return seen * agreed;
 }
@@ -215,8 +244,11 @@ void judge(MergeAnswer& answer, const MergeParams& params) {
     return;
   }
   const MergeHypothesis& best = answer.hypotheses.front();
-  const bool rival = answer.hypotheses.size() > 1 && answer.hypotheses[1].contradiction <= params.max_contradiction &&
-                     answer.hypotheses[1].support() > params.rival_ratio * best.support();
+  const bool rival =
+      std::any_of(answer.hypotheses.begin() + 1, answer.hypotheses.end(), [&](const MergeHypothesis& other) {
+        return other.contradiction <= params.max_rival_contradiction &&
+               other.support() > params.rival_ratio * best.support();
+      });
   if (best.contradiction > params.max_contradiction) {
     answer.verdict = MergeVerdict::kContradicted;
     answer.reason = "places look alike, but laid upon each other the maps deny what the other has seen";
@@ -226,7 +258,7 @@ void judge(MergeAnswer& answer, const MergeParams& params) {
     answer.verdict = MergeVerdict::kAmbiguous;
     answer.reason = "the maps fit in more than one way; choose one or drive on until they differ";
   } else if (best.pairs.size() < params.min_pairs || best.shared_wall_m < params.sure_shared_wall_m ||
-             best.contradiction > params.sure_contradiction) {
+             best.weak_wall_m < params.sure_weak_wall_m || best.contradiction > params.sure_contradiction) {
     answer.verdict = MergeVerdict::kAmbiguous;
     answer.reason = "the maps fit in one way, but too little speaks for it; confirm it or drive on";
   } else {

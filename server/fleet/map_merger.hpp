@@ -60,6 +60,7 @@ struct MergeAnswer {
 /// One set for every building and every laser.
 struct MergeParams {
   PairCheckParams pair;
+  vision::PlaceParams pictures;
   std::size_t regions_per_node = 4;  ///< of the other map, most alike first, that a node is compared with
   std::size_t max_relations = 64;    ///< the best ones between nodes, that are held against each other
   slam::ConsistencyParams consistency;
@@ -69,11 +70,14 @@ struct MergeParams {
   std::size_t max_hypotheses = 4;
   std::size_t min_pairs = 2;         ///< node pairs that must speak for a merge
   double min_shared_wall_m = 12.0;   ///< less is insufficient overlap
-  double sure_shared_wall_m = 20.0;  ///< less is not certain
-  double min_weak_wall_m = 4.0;      ///< of it, across the direction that has least: corridors say little
+  double sure_shared_wall_m = 30.0;  ///< less is not certain
+  double min_weak_wall_m = 4.0;      ///< of it, what tells the place along the direction told worst,
+  double sure_weak_wall_m = 10.0;    ///< and again: two corridors of one building are alike but for their doors
   double max_contradiction = 0.25;   ///< more is a contradiction
   double sure_contradiction = 0.18;  ///< more is not certain
-  double rival_ratio = 0.6;          ///< another hypothesis with this share of the best one's wall makes it ambiguous
+  /// Another hypothesis with this share of the best one's support, denied by no more than this, makes it ambiguous.
+  double rival_ratio = 0.35;
+  double max_rival_contradiction = 0.4;
 };
 
 [[nodiscard]] double confidence_of(const MergeHypothesis& hypothesis, const MergeParams& params);

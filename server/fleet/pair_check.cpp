@@ -55,6 +55,16 @@ NodeRelation reversed(const NodeRelation& relation) {
 
 /// The node's scans with the origin in their middle, so that a turn moves them little.
 struct PairCheck::Query {
+  Query(const PreparedNode& node_in, const PairCheckParams& params)
+      : node(node_in), node_T_base{node_in.middle.x(), node_in.middle.y(), 0.0} {
+    seen.reserve(node.seen.size());
+    for (const slam::SeenPoints& scan : node.seen) {
+      seen.push_back(slam::transform(inverse(node_T_base), scan));
+      points.insert(points.end(), seen.back().points.begin(), seen.back().points.end());
+    }
+    sparse = slam::thin_by_cells(points, params.search.thin_cell_m, params.match_points);
+  }
+
   const PreparedNode& node;
   Pose2 node_T_base;
   std::vector<slam::SeenPoints> seen;
@@ -64,26 +74,25 @@ struct PairCheck::Query {
 
 PairCheck::PairCheck(const PairCheckParams& params) : params_(params), search_(params.search), matcher_(params.match) {}
 
-PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedNode& node_b) const {
+PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
+                             const std::optional<std::size_t>& seen_from) const {
   PairFindings findings;
   const std::shared_ptr<const slam::PlaceMap> place = a.place(region);
   if (!place) {
     findings.refusal = "nothing was seen there";
     return findings;
   }
-  Query query{.node = node_b,
-              .node_T_base = {node_b.middle.x(), node_b.middle.y(), 0.0},
-              .seen = {},
-              .points = {},
-              .sparse = {}};
-  query.seen.reserve(node_b.seen.size());
-  for (const slam::SeenPoints& scan : node_b.seen) {
-    query.seen.push_back(slam::transform(inverse(query.node_T_base), scan));
-    query.points.insert(query.points.end(), query.seen.back().points.begin(), query.seen.back().points.end());
-  }
-  query.sparse = slam::thin_by_cells(query.points, params_.search.thin_cell_m, params_.match_points);
+  const Query query(node_b, params_);
   findings.refusal = "no place of the region explains the points";
-  for (const slam::GlobalCandidate& start : search_.search(place->pyramid(), query.points).candidates) {
+  std::vector<slam::GlobalCandidate> starts = search_.search(place->pyramid(), query.points).candidates;
+  if (seen_from) {
+    const Pose2& map_T_region = a.nodes()[a.regions()[region].node].map_T_node;
+    const Pose2 guess = inverse(map_T_region) * a.nodes()[*seen_from].map_T_node * query.node_T_base;
+    if (const auto found = icp(place->cloud(), query.sparse, guess, params_.icp)) {
+      starts.push_back({found->a_T_b, found->pair_share});
+    }
+  }
+  for (const slam::GlobalCandidate& start : starts) {
     NodeRelation relation;
     const std::string_view refusal = examine(a, region, query, start, relation);
     if (refusal.empty()) {
@@ -94,9 +103,7 @@ PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedN
   }
   std::stable_sort(findings.relations.begin(), findings.relations.end(),
                    [](const NodeRelation& p, const NodeRelation& q) { return p.similarity > q.similarity; });
-  if (!findings.relations.empty()) {
-    findings.refusal = {};
-  }
+  findings.refusal = findings.relations.empty() ? findings.refusal : std::string_view();
   return findings;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/fleet/icp.hpp"
 #include "server/fleet/prepared_map.hpp"
 #include "server/slam/global_matcher.hpp"
 #include "server/slam/pairwise_consistency.hpp"
@@ -39,6 +40,7 @@ struct PairCheckParams {
   double min_similarity = 0.6;    ///< spec S4.7 [J]
   double max_residual_m = 0.08;   ///< spec S4.7 [J]
   double similarity_sigma_m = 0.10;
+  IcpParams icp;  ///< from where pictures look alike
   /// A match is never believed to be better than this: local maps bend.
   double sigma_floor_m = 0.03;
   double sigma_floor_rad = 0.006;
@@ -55,8 +57,10 @@ class PairCheck {
  public:
   explicit PairCheck(const PairCheckParams& params = {});
 
-  /// Looks for a node of b in a region of a.
-  [[nodiscard]] PairFindings find(PreparedMap& a, std::size_t region, const PreparedNode& node_b) const;
+  /// Looks for a node of b in a region of a, everywhere and with any heading. `seen_from`: the node of a, by index,
+  /// whose pictures look like those of node b: ICP starts from there, too (spec S4.6).
+  [[nodiscard]] PairFindings find(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
+                                  const std::optional<std::size_t>& seen_from = std::nullopt) const;
 
  private:
   struct Query;

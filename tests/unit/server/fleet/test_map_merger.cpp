@@ -1,5 +1,7 @@
 #include "server/fleet/map_merger.hpp"
 
+#include <sstream>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/matchers.hpp"
@@ -9,6 +11,15 @@ namespace seeker::fleet {
 namespace {
 
 using testing::Pose2Near;
+
+std::string figures_of(const MergeAnswer& answer) {
+  std::ostringstream text;
+  for (const MergeHypothesis& h : answer.hypotheses) {
+    text << h.a_T_b.a_T_b << ": " << h.pairs.size() << " pairs, " << h.shared_wall_m << " m shared, " << h.weak_wall_m
+         << " m across, " << h.contradiction << " denied\n";
+  }
+  return text.str();
+}
 
 const std::vector<Point2> kWest{{1.0, 6.0}, {14.0, 6.0}, {2.0, 6.2}};
 const std::vector<Point2> kEast{{23.0, 6.0}, {8.0, 5.9}, {20.0, 6.0}};
@@ -31,6 +42,92 @@ TEST(MapMerger, DoesNotMergeTwoBuildings) {
     const MergeAnswer answer = MapMerger().merge(a, b);
     EXPECT_NE(answer.verdict, MergeVerdict::kMerged) << answer.reason;
   }
+}
+
+TEST(MapMerger, AnswersTheSameWhenAskedAgainAndTheReverseTheOtherWayRound) {
+  const auto walls = office(2);
+  PreparedMap a = prepared(toy_map(walls, drive(kWest), 11));
+  PreparedMap b = prepared(toy_map(walls, drive(kEast), 12));
+  const MergeAnswer first = MapMerger().merge(a, b);
+  const MergeAnswer again = MapMerger().merge(a, b);
+  const MergeAnswer back = MapMerger().merge(b, a);
+  ASSERT_TRUE(first.merged() && again.merged() && back.merged()) << first.reason << back.reason;
+  EXPECT_EQ(first.hypotheses.front().a_T_b.a_T_b, again.hypotheses.front().a_T_b.a_T_b);
+  EXPECT_THAT(inverse(back.hypotheses.front().a_T_b.a_T_b),
+              Pose2Near(first.hypotheses.front().a_T_b.a_T_b, 0.1, 0.015));
+}
+
+TEST(MapMerger, APlaceThatOnlyOneOfThemHasSeenIsTooLittle) {
+  const auto walls = office(1);
+  PreparedMap a = prepared(toy_map(walls, drive({{1.0, 6.0}, {2.0, 6.0}}), 11));
+  PreparedMap b = prepared(toy_map(walls, drive({{22.0, 2.0}, {21.0, 2.0}}), 12));
+  const MergeAnswer answer = MapMerger().merge(a, b);
+  EXPECT_EQ(answer.verdict, MergeVerdict::kInsufficientOverlap) << answer.reason;
+}
+
+TEST(MapMerger, WhereOneOfTwoEqualCorridorsIsMeantNobodyCanTell) {
+  const auto walls = twin_corridors();
+  // The first robot knows both, the other one alone.
+  PreparedMap both = prepared(
+      toy_map(walls, drive({{10.0, 1.0}, {19.0, 1.0}, {-1.0, 1.0}, {-1.0, 11.0}, {19.0, 11.0}, {1.0, 11.0}}), 11));
+  for (const double y : {1.0, 11.0}) {
+    PreparedMap one = prepared(toy_map(walls, drive({{3.0, y}, {19.0, y}, {2.0, y}}), 12));
+    EXPECT_NE(MapMerger().merge(both, one).verdict, MergeVerdict::kMerged) << y;
+    EXPECT_NE(MapMerger().merge(one, both).verdict, MergeVerdict::kMerged) << y;
+  }
+}
+
+TEST(MapMerger, TwoRobotsInTwoEqualCorridorsAreNotTakenForNeighbours) {
+  const auto walls = twin_corridors();
+  PreparedMap a = prepared(toy_map(walls, drive({{3.0, 1.0}, {19.0, 1.0}, {2.0, 1.0}}), 11));
+  PreparedMap b = prepared(toy_map(walls, drive({{5.0, 11.0}, {19.0, 11.0}, {3.0, 11.0}}), 12));
+  const MergeAnswer answer = MapMerger().merge(a, b);
+  EXPECT_NE(answer.verdict, MergeVerdict::kMerged) << figures_of(answer);
+}
+
+TEST(MapMerger, MapsWithoutScansHaveNothingToCompare) {
+  PreparedMap nothing;
+  PreparedMap a = prepared(toy_map(office(1), drive(kWest), 11));
+  EXPECT_EQ(MapMerger().merge(a, nothing).verdict, MergeVerdict::kInsufficientOverlap);
+  EXPECT_EQ(MapMerger().merge(nothing, a).verdict, MergeVerdict::kInsufficientOverlap);
+}
+
+MergeHypothesis hypothesis(double shared_m, double weak_m, double contradiction, std::size_t pairs = 3) {
+  MergeHypothesis made;
+  made.shared_wall_m = shared_m;
+  made.weak_wall_m = weak_m;
+  made.contradiction = contradiction;
+  made.pairs.resize(pairs);
+  return made;
+}
+
+MergeVerdict verdict_of(std::vector<MergeHypothesis> hypotheses) {
+  MergeAnswer answer;
+  answer.hypotheses = std::move(hypotheses);
+  judge(answer, {});
+  EXPECT_FALSE(answer.reason.empty());
+  return answer.verdict;
+}
+
+TEST(MergeJudge, WeighsSharedWallsContradictionAndRivals) {
+  EXPECT_EQ(verdict_of({}), MergeVerdict::kInsufficientOverlap);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05)}), MergeVerdict::kMerged);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05), hypothesis(20.0, 8.0, 0.2)}), MergeVerdict::kMerged);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05), hypothesis(55.0, 20.0, 0.06)}), MergeVerdict::kAmbiguous);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.4)}), MergeVerdict::kContradicted);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.21)}), MergeVerdict::kAmbiguous);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05, 1)}), MergeVerdict::kAmbiguous);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 5.0, 0.05)}), MergeVerdict::kAmbiguous);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 1.0, 0.05)}), MergeVerdict::kInsufficientOverlap);
+  EXPECT_EQ(verdict_of({hypothesis(8.0, 5.0, 0.0)}), MergeVerdict::kInsufficientOverlap);
+}
+
+TEST(MergeConfidence, GrowsWithSharedWallsAndFallsWithContradiction) {
+  const MergeParams params;
+  EXPECT_GT(confidence_of(hypothesis(60.0, 20.0, 0.05), params), confidence_of(hypothesis(20.0, 8.0, 0.05), params));
+  EXPECT_GT(confidence_of(hypothesis(60.0, 20.0, 0.05), params), confidence_of(hypothesis(60.0, 20.0, 0.2), params));
+  EXPECT_EQ(confidence_of(hypothesis(60.0, 20.0, 1.0), params), 0.0);
+  EXPECT_LE(confidence_of(hypothesis(1e6, 1e6, 0.0), params), 1.0);
 }
 
 }  // namespace

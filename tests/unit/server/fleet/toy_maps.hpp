@@ -124,4 +124,25 @@ inline std::vector<Wall> office(std::uint64_t seed) {
   return walls;
 }
 
+/// Two corridors of 20 x 2 m, alike to the last door post, with a passage between them at their left ends.
+inline std::vector<Wall> twin_corridors() {
+  std::vector<Wall> walls{{{-2.0, 0.0}, {-2.0, 12.0}}, {{0.0, 2.0}, {0.0, 10.0}}};
+  for (const double y : {0.0, 10.0}) {
+    walls.push_back({{20.0, y}, {20.0, y + 2.0}});
+    for (const double side_y : {y, y + 2.0}) {
+      const double deep = side_y > y ? 0.3 : -0.3;  // doors stand back from the wall
+      double x = side_y == 2.0 || side_y == 10.0 ? 0.0 : -2.0;
+      for (double door = 2.0; door < 19.0; door += 4.0) {
+        walls.push_back({{x, side_y}, {door, side_y}});
+        walls.push_back({{door, side_y}, {door, side_y + deep}});
+        walls.push_back({{door, side_y + deep}, {door + 1.0, side_y + deep}});
+        walls.push_back({{door + 1.0, side_y + deep}, {door + 1.0, side_y}});
+        x = door + 1.0;
+      }
+      walls.push_back({{x, side_y}, {20.0, side_y}});
+    }
+  }
+  return walls;
+}
+
 }  // namespace seeker::fleet
