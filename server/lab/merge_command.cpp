@@ -16,7 +16,12 @@
 namespace seeker::lab {
 namespace {
 
+constexpr std::size_t kMaxLogs = 16;
+
 using Clock = std::chrono::steady_clock;
+
+/// There are no more than kMaxLogs.
+std::uint8_t slot_of(std::size_t log) { return static_cast<std::uint8_t>(log); }
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -103,7 +108,7 @@ Status write_results(const MergeOptions& o, const MergeRun& run) {
   file.origin.name = "merged";
   file.origin.robot_id = "fleet";
   file.map = run.joint.map;
-  return store::write_map_file(o.out / "merged.seekmap", file);
+  return store::write_map_file(o.out / "merged.seekermap", file);
 }
 
 }  // namespace
@@ -124,7 +129,6 @@ Result<LogSpan> parse_span(const std::string& text) {
 }
 
 Result<MergeRun> merge_logs(const MergeOptions& o) {
-  constexpr std::size_t kMaxLogs = 16;
   if (o.logs.size() < 2 || o.logs.size() > kMaxLogs || (!o.spans.empty() && o.spans.size() != o.logs.size())) {
     return fail(Errc::kInvalidArgument, "merging needs 2 to 16 logs, and with --span one span for each of them");
   }
@@ -142,9 +146,9 @@ Result<MergeRun> merge_logs(const MergeOptions& o) {
   }
   auto start = Clock::now();
   const fleet::MapMerger merger;
-  for (std::uint8_t a = 0; a < run.logs.size(); ++a) {
-    for (std::uint8_t b = a + 1; b < run.logs.size(); ++b) {
-      run.pairs.push_back({a, b, merger.merge((*prepared)[a], (*prepared)[b])});
+  for (std::size_t a = 0; a < run.logs.size(); ++a) {
+    for (std::size_t b = a + 1; b < run.logs.size(); ++b) {
+      run.pairs.push_back({slot_of(a), slot_of(b), merger.merge((*prepared)[a], (*prepared)[b])});
     }
   }
   fleet::demote_open_cycles(run.pairs);
@@ -152,8 +156,8 @@ Result<MergeRun> merge_logs(const MergeOptions& o) {
   start = Clock::now();
   std::vector<fleet::RobotMap> maps;
   maps.reserve(run.logs.size());
-  for (std::uint8_t slot = 0; slot < run.logs.size(); ++slot) {
-    maps.push_back({slot, &run.logs[slot].run.map});
+  for (std::size_t k = 0; k < run.logs.size(); ++k) {
+    maps.push_back({slot_of(k), &run.logs[k].run.map});
   }
   Result<fleet::JointMap> joint = fleet::join(maps, fleet::relations_of(run.pairs), 1);
   if (!joint) {

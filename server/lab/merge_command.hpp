@@ -49,7 +49,7 @@ struct MergeRun {
 [[nodiscard]] std::string merge_json(const MergeRun& run);
 /// The walls of all that were joined and the ways of the robots, in one frame.
 [[nodiscard]] Result<Image> merge_picture(const MergeRun& run);
-/// Runs, writes report.json, merged.png and merged.seekmap into the folder, and prints.
+/// Runs, writes report.json, merged.png and merged.seekermap into the folder, and prints.
 [[nodiscard]] Status run_merge_command(const MergeOptions& options, std::ostream& out);
 
 }  // namespace seeker::lab

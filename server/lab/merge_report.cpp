@@ -116,9 +116,9 @@ ReportPair report_of(const MergeRun& run, const fleet::PairAnswer& pair) {
 
 Report report_of(const MergeRun& run) {
   Report report;
-  for (std::uint8_t slot = 0; slot < run.logs.size(); ++slot) {
-    const MergedLog& log = run.logs[slot];
-    const auto joined = run.joint.robots.find(slot);
+  for (std::size_t k = 0; k < run.logs.size(); ++k) {
+    const MergedLog& log = run.logs[k];
+    const auto joined = run.joint.robots.find(static_cast<std::uint8_t>(k));
     const bool is_joined = joined != run.joint.robots.end();
     report.robots.push_back({log.name, log.run.map.nodes.size(), log.run.map.keyframes.size(), is_joined,
                              is_joined ? joined->second.joint_T_map : Pose2{}});
