@@ -2,6 +2,7 @@
 /// What the user asked for, as values. The parser behind it (CLI11) is in parser.cpp only.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -134,6 +135,20 @@ struct LandmarksDeleteVerb {
   std::string name;
   bool yes = false;
 };
+struct FleetOptions {
+  std::string main;  ///< HOST[:PORT] of the fleet; empty: the robot's host and the usual port
+};
+struct FleetStatusVerb : FleetOptions {};
+struct FleetMergeVerb : FleetOptions {
+  std::string robot;
+  std::uint32_t hypothesis = 0;
+};
+struct FleetSplitVerb : FleetOptions {
+  std::string robot;
+};
+struct FleetMapVerb : FleetOptions {
+  std::string file;
+};
 struct GridVerb {
   std::string evidence;
 };
@@ -158,8 +173,9 @@ struct VersionVerb {};
 using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb, DriveVerb,
                           StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb,
                           MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb,
-                          LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksDeleteVerb, GridVerb,
-                          DetectionsVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+                          LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksDeleteVerb,
+                          FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb, DetectionsVerb,
+                          CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

@@ -179,6 +179,38 @@ void add_landmarks(Parse& parse) {
   remove->add_flag("--yes", d->yes, "Really: it does not come back");
 }
 
+/// A verb of a fleet, with the option that all of them have.
+template <class T>
+std::pair<CLI::App*, std::shared_ptr<T>> add_fleet_verb(Parse& parse, CLI::App& fleet, const std::string& name,
+                                                        const std::string& description, const std::string& example) {
+  auto added = add_verb<T>(parse, fleet, name, description, example);
+  added.first->add_option("--main", added.second->main,
+                          "The main robot's fleet, HOST[:PORT] (default: the host of --robot, port 7473)");
+  return added;
+}
+
+void add_fleet(Parse& parse) {
+  CLI::App* fleet =
+      parse.app.add_subcommand("fleet", "Several robots, one map: who has joined, and how their maps lie");
+  fleet->require_subcommand(1);
+  fleet->fallthrough();
+  fleet->footer("Example:\n  seeker fleet status\n  seeker fleet merge r2 --hypothesis 1");
+  add_fleet_verb<FleetStatusVerb>(parse, *fleet, "status", "Every robot in the frame of the main one",
+                                  "seeker fleet status");
+  auto [merge, m] =
+      add_fleet_verb<FleetMergeVerb>(parse, *fleet, "merge", "Accept a way to lay a robot's map, or take it in again",
+                                     "seeker fleet merge r2 --hypothesis 1");
+  merge->add_option("robot_id", m->robot, "The robot's id")->required();
+  merge->add_option("--hypothesis", m->hypothesis, "Which of those that 'fleet status' lists, from 0")
+      ->capture_default_str();
+  auto [split, s] = add_fleet_verb<FleetSplitVerb>(parse, *fleet, "split", "Take a robot's map out of the joint one",
+                                                   "seeker fleet split r2");
+  split->add_option("robot_id", s->robot, "The robot's id")->required();
+  auto [map, f] = add_fleet_verb<FleetMapVerb>(parse, *fleet, "map", "Download the joint map",
+                                               "seeker fleet map out/all.seekermap");
+  map->add_option("file", f->file, "File to write")->required();
+}
+
 void add_motion(Parse& parse) {
   auto [drive, d] = add_verb<DriveVerb>(
       parse, parse.app, "drive", "Drive by hand: a velocity for some seconds, or the keyboard while a key is held",
@@ -303,6 +335,7 @@ void build(Parse& parse) {
   add_goto(parse);
   add_survey(parse);
   add_landmarks(parse);
+  add_fleet(parse);
   add_motion(parse);
   add_rest(parse);
 }

@@ -98,6 +98,10 @@ class Dispatch {
   VerbResult operator()(const LandmarksDeleteVerb& verb) {
     return with_robot([&] { return delete_landmarks(context_, verb); });
   }
+  VerbResult operator()(const FleetStatusVerb& verb) const { return fleet(context_, robot_, verb); }
+  VerbResult operator()(const FleetMergeVerb& verb) const { return fleet(context_, robot_, verb); }
+  VerbResult operator()(const FleetSplitVerb& verb) const { return fleet(context_, robot_, verb); }
+  VerbResult operator()(const FleetMapVerb& verb) const { return fleet(context_, robot_, verb); }
   VerbResult operator()(const GridVerb& verb) {
     return with_robot([&] { return show_grid(context_, verb); });
   }

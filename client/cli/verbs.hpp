@@ -41,6 +41,11 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult export_landmarks(const Context& context, const LandmarksExportVerb& verb);
 [[nodiscard]] VerbResult prune_landmarks(const Context& context, const LandmarksPruneVerb& verb);
 [[nodiscard]] VerbResult delete_landmarks(const Context& context, const LandmarksDeleteVerb& verb);
+// The calls to a fleet; `robot` is the address given with --robot.
+[[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetStatusVerb& verb);
+[[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetMergeVerb& verb);
+[[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetSplitVerb& verb);
+[[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetMapVerb& verb);
 [[nodiscard]] VerbResult watch(const Context& context, const WatchVerb& verb);
 
 [[nodiscard]] VerbResult stop(const Context& context);

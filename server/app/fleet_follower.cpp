@@ -6,10 +6,6 @@
 #include "common/log/log.hpp"
 #include "common/net/random_id.hpp"
 #include "common/rpc/wait.hpp"
-#include "common/wire/convert.hpp"
-#include "common/wire/convert_fleet.hpp"
-#include "common/wire/envelope.hpp"
-#include "common/wire/outcome.hpp"
 
 namespace seeker::app {
 namespace {
@@ -24,6 +20,7 @@ FleetFollower::FleetFollower(FleetFollowerParams params, OwnMapSource own_map)
     : params_(std::move(params)),
       own_map_(std::move(own_map)),
       instance_(net::random_id()),
+      main_(params_.main, params_.call_timeout),
       last_(fail(Errc::kNotReady, "the main robot has not answered yet")),
       thread_([this] { run(); }) {}
 
@@ -85,57 +82,20 @@ Status FleetFollower::once() {
   }
   packed->manifest.instance = instance_;
   packed->manifest.map_T_base = own->map_T_base;
-  v1::FleetRequest request;
-  wire::write(packed->manifest, request.mutable_announce());
-  const Result<v1::FleetReply> answer = ask(std::move(request));
-  return answer ? take(*answer, *packed) : Status(tl::unexpected<Error>(answer.error()));
-}
-
-Status FleetFollower::take(const v1::FleetReply& answer, const PackedMap& packed) {
-  Result<api::FleetStatus> fleet = wire::from_message<api::FleetStatus>(answer.fleet());
-  if (!fleet) {
-    return tl::unexpected<Error>(fleet.error());
+  Result<api::FleetAnswer> answer = main_.announce(packed->manifest);
+  if (!answer) {
+    return tl::unexpected<Error>(answer.error());
   }
   {
     const std::lock_guard lock(mutex_);
-    fleet_ = std::move(*fleet);
+    fleet_ = std::move(answer->fleet);
   }
-  for (const v1::FleetMissing& message : answer.missing()) {
-    const Result<api::FleetMissing> missing = wire::from_message<api::FleetMissing>(message);
-    if (!missing) {
-      return tl::unexpected<Error>(missing.error());
-    }
-    if (Status sent = send(packed, *missing); !sent) {
+  for (const api::FleetMissing& missing : answer->missing) {
+    if (Status sent = send(*packed, missing); !sent) {
       return sent;
     }
   }
   return {};
-}
-
-Result<v1::FleetReply> FleetFollower::ask(v1::FleetRequest request) {
-  if (!main_) {
-    Result<std::unique_ptr<net::Exchange>> connected =
-        net::Exchange::connect(params_.main.host, params_.main.port, params_.call_timeout);
-    if (!connected) {
-      return tl::unexpected<Error>(connected.error());
-    }
-    main_ = std::move(*connected);
-  }
-  request.set_protocol(wire::kFleetProtocol);
-  const Result<std::string> payload = main_->ask(request.SerializeAsString(), params_.call_timeout);
-  if (!payload) {
-    main_.reset();  // made anew next time
-    return tl::unexpected<Error>(payload.error());
-  }
-  v1::FleetReply reply;
-  if (const Status parsed = wire::parse_within_limits(*payload, reply); !parsed) {
-    main_.reset();
-    return tl::unexpected<Error>(parsed.error());
-  }
-  if (const Status done = wire::status_of(reply.error()); !done) {
-    return tl::unexpected<Error>(done.error());
-  }
-  return reply;
 }
 
 Result<OwnMap> FleetFollower::ask_own_map() const { return rpc::wait<OwnMap>(own_map_, params_.call_timeout); }
@@ -155,16 +115,14 @@ Status FleetFollower::send(const PackedMap& packed, const api::FleetMissing& mis
     const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at);
     const api::FleetChunk chunk{
         params_.robot_id, missing.hash, at, {begin, bytes.begin() + static_cast<std::ptrdiff_t>(end)}};
-    v1::FleetRequest request;
-    wire::write(chunk, request.mutable_chunk());
-    const Result<v1::FleetReply> reply = ask(std::move(request));
-    if (!reply) {
-      return tl::unexpected<Error>(reply.error());
+    const Result<std::uint64_t> received = main_.send(chunk);
+    if (!received) {
+      return tl::unexpected<Error>(received.error());
     }
-    if (reply->received_bytes() <= at) {
+    if (*received <= at) {
       return fail(Errc::kCorrupt, "the main robot does not take a piece of the map");
     }
-    at = reply->received_bytes();
+    at = *received;
   }
   return {};
 }

@@ -12,9 +12,8 @@
 #include <thread>
 
 #include "common/api/fleet.hpp"
-#include "common/net/exchange.hpp"
 #include "common/rpc/endpoint.hpp"
-#include "seeker/v1/fleet.pb.h"
+#include "common/rpc/fleet_client.hpp"
 #include "server/app/fleet_pieces.hpp"
 #include "server/app/own_map.hpp"
 
@@ -41,9 +40,7 @@ class FleetFollower {
  private:
   void run();
   [[nodiscard]] Status once();
-  [[nodiscard]] Result<v1::FleetReply> ask(v1::FleetRequest request);
   [[nodiscard]] Result<OwnMap> ask_own_map() const;
-  [[nodiscard]] Status take(const v1::FleetReply& answer, const PackedMap& packed);
   [[nodiscard]] Status send(const PackedMap& packed, const api::FleetMissing& missing);
   void note(const Status& outcome);
   [[nodiscard]] bool stopping() const;
@@ -51,7 +48,7 @@ class FleetFollower {
   FleetFollowerParams params_;
   OwnMapSource own_map_;
   std::uint64_t instance_;
-  std::unique_ptr<net::Exchange> main_;
+  rpc::FleetClient main_;
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable wake_;
   bool stopping_ = false;

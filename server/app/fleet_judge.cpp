@@ -150,6 +150,9 @@ void FleetLeader::judge(const std::string& robot_id) {
     const std::lock_guard lock(mutex_);
     Member& member = members_.at(robot_id);
     member.waits = false;
+    if (!missing_of(member).empty()) {
+      return;  // it has announced more meanwhile, and is judged when that is here; until then what was found holds
+    }
     member.judged = std::chrono::steady_clock::now();
     manifest = member.manifest;
     pieces = member.pieces;

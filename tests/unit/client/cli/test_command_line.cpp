@@ -26,13 +26,13 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
     }
   };
   visit(tree, {});
-  EXPECT_EQ(names,
-            (std::vector<std::string>{
-                "status", "watch",      "map",      "export",     "save",       "load",   "list",       "info",
-                "verify", "delete",     "download", "upload",     "relocalise", "grid",   "detections", "camera",
-                "grab",   "components", "search",   "explore",    "goto",       "survey", "localise",   "landmarks",
-                "info",   "verify",     "export",   "prune",      "delete",     "drive",  "stop",       "estop",
-                "pause",  "resume",     "run",      "completion", "version"}));
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "status",     "watch",    "map",       "export",     "save",   "load",       "list",
+                       "info",       "verify",   "delete",    "download",   "upload", "relocalise", "grid",
+                       "detections", "camera",   "grab",      "components", "search", "explore",    "goto",
+                       "survey",     "localise", "landmarks", "info",       "verify", "export",     "prune",
+                       "delete",     "fleet",    "status",    "merge",      "split",  "map",        "drive",
+                       "stop",       "estop",    "pause",     "resume",     "run",    "completion", "version"}));
 }
 
 TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
@@ -50,6 +50,9 @@ TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
       {"survey", "lab", "--headings", "0"},
       {"localise"},
       {"landmarks"},
+      {"fleet"},
+      {"fleet", "split"},
+      {"fleet", "merge", "r2", "--hypothesis", "-1"},
       {"landmarks", "prune", "lab", "--min-views", "0"},
       {"drive", "0.2"},
       {"drive", "fast", "0"},
