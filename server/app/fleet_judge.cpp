@@ -146,16 +146,22 @@ Result<OwnMap> FleetLeader::ask_own_map() {
 void FleetLeader::judge(const std::string& robot_id) {
   api::FleetManifest manifest;
   Pieces pieces;
+  bool whole = false;
   {
     const std::lock_guard lock(mutex_);
     Member& member = members_.at(robot_id);
     member.waits = false;
-    if (!missing_of(member).empty()) {
-      return;  // it has announced more meanwhile, and is judged when that is here; until then what was found holds
+    whole = missing_of(member).empty();
+    if (whole) {
+      member.judged = std::chrono::steady_clock::now();
+      manifest = member.manifest;
+      pieces = member.pieces;
     }
-    member.judged = std::chrono::steady_clock::now();
-    manifest = member.manifest;
-    pieces = member.pieces;
+  }
+  if (!whole) {
+    // It has announced more meanwhile, and is judged when that is here; until then what was found holds.
+    join_all();
+    return;
   }
   const Result<LineMap> map = unpack_map(manifest, pieces);
   settle(robot_id, map ? compare(robot_id, *map) : tl::unexpected<Error>(map.error()));

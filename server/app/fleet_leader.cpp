@@ -222,10 +222,9 @@ Result<api::FleetStatus> FleetLeader::decide(const api::FleetDecision& decision)
   }
   ask_for_judgement(decision.robot_id, member);
   ++revision_;
-  if (member.split) {
-    member.state = api::FleetState::kSplit;
-    member.reason = "taken out by the operator; 'seeker fleet merge' takes it in again";
-  }
+  member.state = member.split ? api::FleetState::kSplit : api::FleetState::kWaiting;
+  member.reason = member.split ? "taken out by the operator; 'seeker fleet merge' takes it in again"
+                               : "its map is looked at once more";
   return status_now();
 }
 
