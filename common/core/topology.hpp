@@ -68,4 +68,12 @@ struct RobotTopology {
   friend bool operator==(const RobotTopology&, const RobotTopology&) = default;
 };
 
+/// What a robot knows of its fleet.
+struct FleetView {
+  std::string robot_id;  ///< its own
+  std::vector<RobotTopology> others;
+
+  friend bool operator==(const FleetView&, const FleetView&) = default;
+};
+
 }  // namespace seeker

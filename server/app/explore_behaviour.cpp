@@ -72,7 +72,7 @@ Result<std::unique_ptr<Behaviour>> ExploreBehaviour::create(const explore::Explo
     return tl::unexpected<Error>(grows.error());
   }
   explore::ExploreRequest request;
-  request.strategy = to_explore(mission.strategy);
+  request.strategy = explore::maker_of(to_explore(mission.strategy));
   request.areas.bound = mission.bound;
   request.areas.keep_out = mission.keep_out;
   request.return_to_start = mission.return_to_start;

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "server/explore/exploration_impl.hpp"
-#include "server/explore/make_strategy.hpp"
 
 namespace seeker::explore {
 namespace {
@@ -31,7 +30,7 @@ Result<Exploration> Exploration::create(const ExploreRequest& request, const Exp
   if (const Status valid = validate(request.areas); !valid) {
     return tl::unexpected(valid.error());
   }
-  return Exploration(std::make_unique<Impl>(request, params, make_strategy(request.strategy, params)));
+  return Exploration(std::make_unique<Impl>(request, params, request.strategy(params)));
 }
 
 Exploration::Exploration(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -42,5 +41,6 @@ Exploration::~Exploration() = default;
 ExploreStep Exploration::step(const ExploreInput& input) { return impl_->step(input); }
 void Exploration::resume(RobotTime now) { impl_->resume(now); }
 void Exploration::transform(const Pose2& new_T_old) { impl_->transform(new_T_old); }
+const ExploreStrategy& Exploration::strategy() const { return impl_->strategy(); }
 
 }  // namespace seeker::explore

@@ -12,12 +12,13 @@
 #include "common/core/pose_estimate.hpp"
 #include "common/core/result.hpp"
 #include "server/explore/explore_params.hpp"
+#include "server/explore/make_strategy.hpp"
 #include "server/explore/strategy.hpp"
 
 namespace seeker::explore {
 
 struct ExploreRequest {
-  Strategy strategy = Strategy::kActive;
+  StrategyMaker strategy = maker_of(Strategy::kActive);
   nav::ForbiddenAreas areas;     ///< frame `map`
   bool return_to_start = false;  ///< drive back to where the first step was made
 };
@@ -34,6 +35,7 @@ struct ExploreInput {
   std::uint64_t segments_revision = 0;
   std::optional<slam::LocalBelief> belief;
   std::optional<double> battery_v;
+  const FleetView* fleet = nullptr;  ///< other robots, frame `map`; null: the robot is alone
 };
 
 enum class EndKind : std::uint8_t {
@@ -89,6 +91,8 @@ class Exploration {
   void resume(RobotTime now);
   /// The map moved (new epoch): `new_T_old` takes old map coordinates to new ones.
   void transform(const Pose2& new_T_old);
+  /// The strategy, for what it tells of its topology; valid as long as the exploration is not moved.
+  [[nodiscard]] const ExploreStrategy& strategy() const;
 
  private:
   class Impl;

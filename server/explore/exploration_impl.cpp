@@ -28,7 +28,8 @@ StrategyInput Exploration::Impl::strategy_input(const ExploreInput& input) {
           input.pose.covariance,
           input.segments,
           input.segments_revision,
-          input.belief};
+          input.belief,
+          input.fleet};
 }
 
 ExploreStep Exploration::Impl::step(const ExploreInput& input) {

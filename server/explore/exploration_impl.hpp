@@ -23,6 +23,7 @@ class Exploration::Impl {
   [[nodiscard]] ExploreStep step(const ExploreInput& input);
   void resume(RobotTime now);
   void transform(const Pose2& new_T_old);
+  [[nodiscard]] const ExploreStrategy& strategy() const { return *strategy_; }
 
  private:
   enum class Mode : std::uint8_t { kExplore, kRegain, kReturn };

@@ -19,4 +19,8 @@ std::unique_ptr<ExploreStrategy> make_strategy(Strategy strategy, const ExploreP
   return nullptr;
 }
 
+StrategyMaker maker_of(Strategy strategy) {
+  return [strategy](const ExploreParams& params) { return make_strategy(strategy, params); };
+}
+
 }  // namespace seeker::explore

@@ -11,5 +11,6 @@ namespace seeker::explore {
 
 /// Never null.
 [[nodiscard]] std::unique_ptr<ExploreStrategy> make_strategy(Strategy strategy, const ExploreParams& params);
+[[nodiscard]] StrategyMaker maker_of(Strategy strategy);
 
 }  // namespace seeker::explore

@@ -4,12 +4,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/core/explore_decision.hpp"
 #include "common/core/line_map.hpp"
+#include "common/core/topology.hpp"
 #include "server/nav/planned_driver.hpp"
 #include "server/slam/map_tracker.hpp"
 
@@ -22,6 +25,7 @@ struct StrategyInput : nav::DriveInput {
   const std::vector<MapSegment>& segments;  ///< of the whole map, frame `map`
   std::uint64_t segments_revision = 0;      ///< rises with every change of `segments`
   std::optional<slam::LocalBelief> belief;  ///< the filter behind the newest of them; nothing: the estimator has none
+  const FleetView* fleet = nullptr;         ///< other robots, frame `map`; null: the robot is alone
 };
 
 struct StrategyStep {
@@ -48,8 +52,18 @@ class ExploreStrategy {
   virtual void interrupted(RobotTime now) = 0;
   /// The map moved: `new_T_old` takes places of the map before to the map now.
   virtual void transform(const Pose2& new_T_old) = 0;
+  /// Places it has been at and still means to go to; null where the strategy keeps none.
+  [[nodiscard]] virtual const Topology* topology() const { return nullptr; }
+  /// The goal it drives to, of those in its topology.
+  [[nodiscard]] virtual std::optional<Point2> target_map() const { return std::nullopt; }
 };
 
+struct ExploreParams;
+/// Makes a strategy of numbers that have been validated; never null. Whoever composes an exploration chooses it, so
+/// that strategies may live in folders that this one knows nothing of.
+using StrategyMaker = std::function<std::unique_ptr<ExploreStrategy>(const ExploreParams&)>;
+
+/// The strategies of this folder.
 /// active: one step of the objective, out of traps along walls, then by paths (spec S1.11, S1.12).
 /// horizon: reachable viewpoints over several drives, same objective.
 /// roam, frontier, gain: the baselines.

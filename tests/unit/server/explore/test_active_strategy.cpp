@@ -22,7 +22,7 @@ ToyRun run_in_two_rooms(const ExploreParams& params, Strategy strategy, double l
   world.walls = two_rooms();
   ToyExplorer robot(world, {2.5, 1.2, 0.3}, 7);
   ExploreRequest request;
-  request.strategy = strategy;
+  request.strategy = maker_of(strategy);
   auto exploration = Exploration::create(request, params);
   EXPECT_TRUE(exploration);
   return robot.run(*exploration, limit_s);
@@ -80,7 +80,7 @@ TEST(ActiveStrategy, InAHallItDrivesStraightUntilItSeesAWall) {
   world.walls = box(-4.0, -30.0, 30.0, 30.0);
   ToyExplorer robot(world, {10.0, 0.0, kPi}, 3);
   ExploreRequest request;
-  request.strategy = Strategy::kActive;
+  request.strategy = maker_of(Strategy::kActive);
   auto exploration = Exploration::create(request, {});
   ASSERT_TRUE(exploration);
   const ToyRun run = robot.run(*exploration, 50.0);

@@ -20,7 +20,7 @@ Exploration exploration_of(const ExploreRequest& request, const ExploreParams& p
 
 ExploreRequest request_of(Strategy strategy) {
   ExploreRequest request;
-  request.strategy = strategy;
+  request.strategy = maker_of(strategy);
   return request;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 ToyRun run_in(const ToyWorld& world, const Pose2& start, Strategy strategy, std::uint64_t seed) {
   ExploreRequest request;
-  request.strategy = strategy;
+  request.strategy = maker_of(strategy);
   auto exploration = Exploration::create(request, {});
   EXPECT_TRUE(exploration.has_value());
   ToyExplorer robot(world, start, seed, 6.0);

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/core/text.hpp"
+#include "server/fleet/topological_strategy.hpp"
+
+namespace seeker::fleet {
+namespace {
+
+/// A place so near to the goal is the goal.
+constexpr double kAtGoal_m = 0.4;
+/// The map leads nearer to the goal than it did: worth another drive.
+constexpr double kNearer_m = 0.3;
+/// Nodes of the way so near have been reached.
+constexpr double kAtNode_m = 0.5;
+
+double distance_to(const Pose2& pose, const Point2& p) { return (pose.translation() - p).norm(); }
+
+}  // namespace
+
+void TopologicalStrategy::go(const Input& input, const Scene& scene, PendingGoal goal) {
+  goal_ = std::move(goal);
+  since_ = input.now;
+  std::vector<Point2> way_map = goal_->way_map;
+  while (!way_map.empty() && distance_to(input.map_T_base, way_map.front()) < kAtNode_m) {
+    way_map.erase(way_map.begin());
+  }
+  if (way_map.empty() || scene.corridors.free(input.map_T_base.translation(), goal_->p_map)) {
+    go_to_goal(input, scene);
+    return;
+  }
+  const Point2 next_map = *farthest_visible(input.map_T_base.translation(), way_map, scene.corridors);
+  why_ = "back along the nodes to the goal at " + text(goal_->p_map);
+  state_ = State::kWay;
+  if (!driver_.start(input, next_map)) {
+    failed(input, driver_.reason());
+  }
+}
+
+void TopologicalStrategy::go_to_goal(const Input& input, const Scene& scene) {
+  state_ = State::kGoal;
+  why_ = "driving to the goal at " + text(goal_->p_map);
+  const auto aim_map = nearest_on_line(input, scene);
+  if (!aim_map) {
+    failed(input, "the map leads nowhere near it");
+    return;
+  }
+  aim_map_ = *aim_map;
+  if (!driver_.start(input, aim_map_)) {
+    failed(input, driver_.reason());
+  }
+}
+
+/// Of the straight line from its node to the goal the last place that a way leads to: the goal itself, or where the
+/// known floor ends.
+std::optional<Point2> TopologicalStrategy::nearest_on_line(const Input& input, const Scene& scene) const {
+  const auto costs = nav::DistanceField::build(scene.floor->cost, input.map_T_base.translation());
+  if (!costs) {
+    return std::nullopt;
+  }
+  const Point2 from_map = goal_->way_map.empty() ? map_.current()->map_T_base.translation() : goal_->way_map.back();
+  const Point2 line = from_map - goal_->p_map;
+  const int steps = static_cast<int>(std::ceil(line.norm() / scene.floor->cost.frame().resolution_m));
+  for (int k = 0; k <= steps; ++k) {
+    const Point2 p_map = goal_->p_map + (steps > 0 ? static_cast<double>(k) / steps : 0.0) * line;
+    if (costs->cost_to(p_map)) {
+      return p_map;
+    }
+  }
+  return std::nullopt;
+}
+
+void TopologicalStrategy::drive(const Input& input, Step& out) {
+  const nav::DriveStep driven = driver_.step(input);
+  out.command = driven.command;
+  const auto scene = look(input);
+  switch (driven.state) {
+    case nav::DriveState::kDriving:
+      if (scene) {
+        pass(input, *scene, out);
+      }
+      return;
+    case nav::DriveState::kArrived:
+      if (scene) {
+        arrived(input, *scene, out);
+      } else {
+        change("waiting for a scan", out);
+      }
+      return;
+    case nav::DriveState::kFailed:
+    case nav::DriveState::kIdle: failed(input, driven.reason); return;
+  }
+}
+
+/// Nodes are made on the way too, so that what has been passed is known to have a node.
+void TopologicalStrategy::pass(const Input& input, const Scene& scene, Step& out) {
+  const TopologyNode* before = map_.current();
+  if (before != nullptr && distance_m(before->map_T_base, input.map_T_base) > topological_.map.node_distance_m) {
+    const std::size_t nodes = map_.topology().nodes.size();
+    note_place(input, scene);
+    if (goal_settled(scene)) {
+      change("the goal at " + text(goal_->p_map) + " has been seen on the way", out);
+      return;
+    }
+    if (state_ == State::kWay && map_.topology().nodes.size() > nodes && !map_.current()->goals.empty()) {
+      change("a new goal on the way", out);
+      return;
+    }
+  }
+  if (to_seconds(input.now - considered_) >= topological_.replan_period_s) {
+    considered_ = input.now;
+    reconsider(input, scene, out);
+  }
+}
+
+/// The nodes of others may have settled the goal, another robot may want it too, the map may lead nearer to it; on the
+/// way back a new goal may have come into sight.
+void TopologicalStrategy::reconsider(const Input& input, const Scene& scene, Step& out) {
+  map_.settle(scene.fleet.others, scene.corridors);
+  if (goal_settled(scene)) {
+    change("the goal at " + text(goal_->p_map) + " has been seen meanwhile", out);
+    return;
+  }
+  const bool yields = std::any_of(scene.fleet.others.begin(), scene.fleet.others.end(), [&](const auto& other) {
+    return other.active && other.target_map && other.robot_id < scene.fleet.robot_id &&
+           (*other.target_map - goal_->p_map).norm() < topological_.map.node_distance_m &&
+           !scene.corridors.walled_off(*other.target_map, goal_->p_map);
+  });
+  if (yields) {
+    change("another robot drives to the goal at " + text(goal_->p_map), out);
+    return;
+  }
+  if (state_ == State::kWay) {
+    note_place(input, scene);
+    const std::size_t goals = map_.current()->goals.size();
+    look_again(input, scene);
+    if (map_.current()->goals.size() > goals) {
+      change("a new goal on the way", out);
+    }
+  } else {
+    const double from_goal_m = (aim_map_ - goal_->p_map).norm();
+    const auto aim_map = from_goal_m > kAtGoal_m ? nearest_on_line(input, scene) : std::nullopt;
+    if (aim_map && (*aim_map - goal_->p_map).norm() < from_goal_m - kNearer_m) {
+      go_to_goal(input, scene);
+    }
+  }
+}
+
+void TopologicalStrategy::arrived(const Input& input, const Scene& scene, Step& out) {
+  if (state_ == State::kWay) {
+    note_place(input, scene);
+    change("at a node on the way", out);
+    return;
+  }
+  const double from_goal_m = (aim_map_ - goal_->p_map).norm();
+  if (from_goal_m > kAtGoal_m) {
+    const auto aim_map = nearest_on_line(input, scene);
+    if (aim_map && (*aim_map - goal_->p_map).norm() < from_goal_m - kNearer_m) {
+      go_to_goal(input, scene);
+      return;
+    }
+  }
+  const auto known = map_.node_at(input.map_T_base.translation(), scene.corridors);
+  if (known && distance_m(map_.find(*known)->map_T_base, input.map_T_base) < 0.5 * topological_.map.node_distance_m) {
+    map_.arrive(*known);
+    look_again(input, scene);
+    map_.settle(scene.fleet.others, scene.corridors);
+  } else {
+    create_node(input, scene);
+  }
+  if (!goal_settled(scene)) {  // as near as the map leads
+    if (goal_->robot) {
+      done_map_.push_back(goal_->p_map);
+    } else {
+      map_.close(goal_->id);
+    }
+  }
+  change("at the goal", out);
+}
+
+bool TopologicalStrategy::goal_settled(const Scene& scene) const {
+  if (!goal_->robot) {
+    return !map_.has(goal_->id);
+  }
+  return std::any_of(map_.topology().nodes.begin(), map_.topology().nodes.end(), [&](const TopologyNode& node) {
+    return distance_to(node.map_T_base, goal_->p_map) < topological_.map.node_distance_m &&
+           joined(node, goal_->p_map, scene.corridors);
+  });
+}
+
+}  // namespace seeker::fleet
