@@ -125,13 +125,12 @@ api::SearchMode parse_search_mode(const std::string& name) {
 }
 
 api::ExploreStrategy parse_explore_strategy(const std::string& name) {
-  using enum api::ExploreStrategy;
-  for (const auto strategy : {kHorizon, kRoam, kFrontier, kGain}) {
+  for (const api::ExploreStrategy strategy : api::kExploreStrategies) {
     if (name == to_string(strategy)) {
       return strategy;
     }
   }
-  return kActive;
+  return api::ExploreStrategy::kActive;
 }
 
 }  // namespace seeker::cli

@@ -93,6 +93,15 @@ void add_search(Parse& parse) {
   sub->add_option("--save", o->save, "At the end write PREFIX.png, .pgm and .yaml of the map")->excludes(detach);
 }
 
+std::vector<std::string> strategy_names() {
+  std::vector<std::string> names;
+  names.reserve(api::kExploreStrategies.size());
+  for (const api::ExploreStrategy strategy : api::kExploreStrategies) {
+    names.emplace_back(to_string(strategy));
+  }
+  return names;
+}
+
 void add_explore(Parse& parse) {
   auto [sub, o] = add_verb<ExploreVerb>(
       parse, parse.app, "explore", "Map the building: the robot finds its way by itself until nothing is left to map",
@@ -100,9 +109,10 @@ void add_explore(Parse& parse) {
       "With --json each decision is a line with its candidates and their terms; the last line is the report.\n"
       "Ctrl-C asks the robot to stop the mission before the program ends.");
   sub->add_option("--strategy", o->strategy,
-                  "active: the published rule, a step at a time; horizon: the same aims over several drives; frontier, "
-                  "gain, roam: what these are compared with")
-      ->check(CLI::IsMember({"active", "horizon", "frontier", "gain", "roam"}))
+                  "active: the published rule, a step at a time; horizon: the same aims over several drives; "
+                  "topological: by the goals of a map of places, which robots of a fleet share; frontier, gain, roam: "
+                  "what these are compared with")
+      ->check(CLI::IsMember(strategy_names()))
       ->capture_default_str();
   sub->add_option("--bound", o->bound, "Explore inside only: corners \"x,y x,y ...\" in m, or @FILE with a YAML list");
   repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners as in --bound; repeatable"));

@@ -12,15 +12,21 @@ namespace fs = std::filesystem;
 const config::Choices<api::SearchMode> kModes{{"paper", api::SearchMode::kPaper}, {"plan", api::SearchMode::kPlan}};
 const config::Choices<api::OnFound> kOnFound{
     {"stop", api::OnFound::kStop}, {"approach", api::OnFound::kApproach}, {"continue", api::OnFound::kContinue}};
-const config::Choices<api::ExploreStrategy> kStrategies{{"active", api::ExploreStrategy::kActive},
-                                                        {"horizon", api::ExploreStrategy::kHorizon},
-                                                        {"roam", api::ExploreStrategy::kRoam},
-                                                        {"frontier", api::ExploreStrategy::kFrontier},
-                                                        {"gain", api::ExploreStrategy::kGain}};
 const config::Choices<api::LinkPolicy> kPolicies{{"stop", api::LinkPolicy::kStop},
                                                  {"finish-step", api::LinkPolicy::kFinishStep},
                                                  {"continue", api::LinkPolicy::kContinue},
                                                  {"return", api::LinkPolicy::kReturn}};
+
+const config::Choices<api::ExploreStrategy>& strategies() {
+  static const config::Choices<api::ExploreStrategy> kChoices = [] {
+    config::Choices<api::ExploreStrategy> choices;
+    for (const api::ExploreStrategy strategy : api::kExploreStrategies) {
+      choices.emplace_back(to_string(strategy), strategy);
+    }
+    return choices;
+  }();
+  return kChoices;
+}
 
 /// Outcomes and error codes as they may stand in an expectation.
 const std::vector<std::string>& outcome_names() {
@@ -130,7 +136,7 @@ struct ExploreSection {
   Step step;
 };
 void describe(config::Fields& f, ExploreSection& s) {
-  f.choice("strategy", s.explore.strategy, kStrategies);
+  f.choice("strategy", s.explore.strategy, strategies());
   bound(f, s.explore.bound);
   areas(f, s.explore.keep_out);
   f.field("return_to_start", s.explore.return_to_start);

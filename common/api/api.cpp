@@ -115,7 +115,7 @@ Status validate_task(const GotoMission& go) {
 Status validate_task(const ReturnMission& /*unused*/) { return {}; }
 
 Status validate_task(const ExploreMission& explore) {
-  if (explore.strategy > ExploreStrategy::kGain) {
+  if (explore.strategy > kExploreStrategies.back()) {
     return fail(Errc::kInvalidArgument, "there is no such strategy of exploration");
   }
   return validate_areas(explore.bound, explore.keep_out);
@@ -227,6 +227,7 @@ std::string_view to_string(ExploreStrategy strategy) {
     case ExploreStrategy::kRoam: return "roam";
     case ExploreStrategy::kFrontier: return "frontier";
     case ExploreStrategy::kGain: return "gain";
+    case ExploreStrategy::kTopological: return "topological";
   }
   return "active";
 }

@@ -2,6 +2,7 @@
 /// Missions as values: what can be asked for, how it goes, how it ended.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -66,15 +67,20 @@ struct SearchMission {
   friend bool operator==(const SearchMission&, const SearchMission&) = default;
 };
 
-/// How an exploration chooses its way: the first two build the map actively, the others are what they are compared
-/// with.
+/// How an exploration chooses its way: the first two build the map actively, the next three are what they are compared
+/// with; the last one is shared among the robots of a fleet.
 enum class ExploreStrategy : std::uint8_t {
-  kActive,    ///< one step of the objective of spec S1.11, out of traps along walls
-  kHorizon,   ///< the same objective over several drives to reachable viewpoints
-  kRoam,      ///< straight on until something is near, then turn
-  kFrontier,  ///< nearest border of the unknown
-  kGain,      ///< most unknown ground in sight for the way
+  kActive,       ///< one step of the objective of spec S1.11, out of traps along walls
+  kHorizon,      ///< the same objective over several drives to reachable viewpoints
+  kRoam,         ///< straight on until something is near, then turn
+  kFrontier,     ///< nearest border of the unknown
+  kGain,         ///< most unknown ground in sight for the way
+  kTopological,  ///< goals of space trees, kept at the nodes of a topology map (spec S4.4)
 };
+/// All of them, in order.
+inline constexpr std::array kExploreStrategies{ExploreStrategy::kActive, ExploreStrategy::kHorizon,
+                                               ExploreStrategy::kRoam,   ExploreStrategy::kFrontier,
+                                               ExploreStrategy::kGain,   ExploreStrategy::kTopological};
 
 /// Maps a building by itself.
 struct ExploreMission {

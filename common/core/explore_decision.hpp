@@ -30,7 +30,7 @@ struct DecisionCandidate {
 struct ExploreDecision {
   std::uint64_t number = 0;  ///< counts the decisions of a mission from 1
   RobotTime stamp;
-  std::string rule;                           ///< "one-step", "wall", "horizon", "frontier", "gain", "roam"
+  std::string rule;  ///< "one-step", "wall", "horizon", "frontier", "gain", "roam", "topological"
   std::vector<DecisionCandidate> candidates;  ///< at most kMaxDecisionCandidates, the best where there were more
   std::optional<std::uint32_t> chosen;        ///< index into candidates; nothing: none was available
   std::string why;                            ///< one sentence for people

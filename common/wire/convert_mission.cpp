@@ -128,7 +128,7 @@ void read_search(const pb::SearchMission& from, api::SearchMission& to, Check& c
 }
 
 void read_explore(const pb::ExploreMission& from, api::ExploreMission& to, Check& check) {
-  check.enumerator("strategy", from.strategy(), api::ExploreStrategy::kGain, to.strategy);
+  check.enumerator("strategy", from.strategy(), api::kExploreStrategies.back(), to.strategy);
   read_areas(from, to, check);
   to.return_to_start = from.return_to_start();
 }

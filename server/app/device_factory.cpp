@@ -215,7 +215,7 @@ class Behaviours {
              std::optional<StereoMissions> stereo)
       : go_(options.go),
         search_(options.search),
-        explore_(options.explore),
+        explore_{options.explore, options.topology},
         table_(std::move(table)),
         has_camera_(has_camera),
         stereo_(std::move(stereo)) {}
@@ -258,14 +258,14 @@ class Behaviours {
       if (const Status grows = check_map_grows(situation); !grows) {
         return tl::unexpected<Error>(grows.error());
       }
-      views = std::make_unique<MapViewFinder>(explore_, nav::ForbiddenAreas{mission.bound, mission.keep_out});
+      views = std::make_unique<MapViewFinder>(explore_.params, nav::ForbiddenAreas{mission.bound, mission.keep_out});
     }
     return SearchBehaviour::create(search_, mission, table_, memory_, std::move(views));
   }
 
   GotoParams go_;
   SearchBehaviourParams search_;
-  explore::ExploreParams explore_;
+  ExploreSettings explore_;
   std::shared_ptr<const search::ControlTable> table_;
   bool has_camera_;
   std::optional<StereoMissions> stereo_;
@@ -292,6 +292,9 @@ Result<Assembly> complete(const RobotOptions& options, LandmarkStorage landmarks
   }
   if (const Status ok = explore::validate(options.explore); !ok) {
     return fail_with_context("explore", ok.error());
+  }
+  if (const Status ok = fleet::validate(options.topology); !ok) {
+    return fail_with_context("topology", ok.error());
   }
   Result<search::ControlTable> table = search::ControlTable::create(options.control_table);
   if (!table) {

@@ -8,17 +8,6 @@
 namespace seeker::app {
 namespace {
 
-explore::Strategy to_explore(api::ExploreStrategy strategy) {
-  switch (strategy) {
-    case api::ExploreStrategy::kActive: return explore::Strategy::kActive;
-    case api::ExploreStrategy::kHorizon: return explore::Strategy::kHorizon;
-    case api::ExploreStrategy::kRoam: return explore::Strategy::kRoam;
-    case api::ExploreStrategy::kFrontier: return explore::Strategy::kFrontier;
-    case api::ExploreStrategy::kGain: return explore::Strategy::kGain;
-  }
-  return explore::Strategy::kActive;
-}
-
 api::Outcome to_api(explore::EndKind kind) {
   switch (kind) {
     case explore::EndKind::kComplete: return api::Outcome::kComplete;
@@ -45,6 +34,22 @@ std::string describe(const DecisionCandidate& c) {
 
 }  // namespace
 
+explore::StrategyMaker maker_of(api::ExploreStrategy strategy, const fleet::TopologicalParams& topology) {
+  switch (strategy) {
+    case api::ExploreStrategy::kActive: return explore::maker_of(explore::Strategy::kActive);
+    case api::ExploreStrategy::kHorizon: return explore::maker_of(explore::Strategy::kHorizon);
+    case api::ExploreStrategy::kRoam: return explore::maker_of(explore::Strategy::kRoam);
+    case api::ExploreStrategy::kFrontier: return explore::maker_of(explore::Strategy::kFrontier);
+    case api::ExploreStrategy::kGain: return explore::maker_of(explore::Strategy::kGain);
+    case api::ExploreStrategy::kTopological:
+      return [topology](const explore::ExploreParams& params) -> std::unique_ptr<explore::ExploreStrategy> {
+        return std::make_unique<fleet::TopologicalStrategy>(params, topology);
+      };
+  }
+  SEEKER_ASSERT(false);
+  return {};
+}
+
 Status check_map_grows(const Situation& situation) {
   if (situation.tracker == nullptr) {
     return fail(Errc::kRefused,
@@ -65,22 +70,22 @@ std::string describe(const ExploreDecision& decision) {
   return text + "; " + std::to_string(decision.candidates.size()) + " candidates";
 }
 
-Result<std::unique_ptr<Behaviour>> ExploreBehaviour::create(const explore::ExploreParams& params,
+Result<std::unique_ptr<Behaviour>> ExploreBehaviour::create(const ExploreSettings& settings,
                                                             const api::ExploreMission& mission,
                                                             const Situation& situation) {
   if (const Status grows = check_map_grows(situation); !grows) {
     return tl::unexpected<Error>(grows.error());
   }
   explore::ExploreRequest request;
-  request.strategy = explore::maker_of(to_explore(mission.strategy));
+  request.strategy = maker_of(mission.strategy, settings.topology);
   request.areas.bound = mission.bound;
   request.areas.keep_out = mission.keep_out;
   request.return_to_start = mission.return_to_start;
-  Result<explore::Exploration> core = explore::Exploration::create(request, params);
+  Result<explore::Exploration> core = explore::Exploration::create(request, settings.params);
   if (!core) {
     return tl::unexpected<Error>(core.error());
   }
-  return std::unique_ptr<Behaviour>(new ExploreBehaviour(std::move(*core), seconds(params.segments_period_s)));
+  return std::unique_ptr<Behaviour>(new ExploreBehaviour(std::move(*core), seconds(settings.params.segments_period_s)));
 }
 
 void ExploreBehaviour::map_moved(const Pose2& new_T_old) {

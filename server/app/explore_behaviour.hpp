@@ -7,6 +7,7 @@
 #include "server/app/behaviour.hpp"
 #include "server/app/segment_view.hpp"
 #include "server/explore/exploration.hpp"
+#include "server/fleet/topological_strategy.hpp"
 
 namespace seeker::app {
 
@@ -16,10 +17,19 @@ namespace seeker::app {
 /// The sentence of a decision in the mission's log: what was chosen and what spoke for it.
 [[nodiscard]] std::string describe(const ExploreDecision& decision);
 
+/// Numbers of the exploration, and of the strategies that have their own.
+struct ExploreSettings {
+  explore::ExploreParams params;
+  fleet::TopologicalParams topology;
+};
+
+/// What makes the strategy that a mission names.
+[[nodiscard]] explore::StrategyMaker maker_of(api::ExploreStrategy strategy, const fleet::TopologicalParams& topology);
+
 class ExploreBehaviour final : public Behaviour {
  public:
   /// Errors of check_map_grows() and of explore::Exploration::create().
-  [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(const explore::ExploreParams& params,
+  [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(const ExploreSettings& settings,
                                                                  const api::ExploreMission& mission,
                                                                  const Situation& situation);
 

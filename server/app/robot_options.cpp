@@ -3,6 +3,7 @@
 #include "server/app/estimators.hpp"
 #include "server/options/camera_options.hpp"
 #include "server/options/explore_options.hpp"
+#include "server/options/fleet_options.hpp"
 #include "server/options/line_slam_options.hpp"
 #include "server/options/nav_options.hpp"
 #include "server/options/search_options.hpp"
@@ -201,6 +202,7 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("search", options.search);
   f.section("control_table", options.control_table);
   f.section("explore", options.explore);
+  f.section("topology", options.topology);
   f.section("stereo", options.stereo);
   f.section("server", options.server);
 }

@@ -19,6 +19,7 @@
 #include "server/drivers/replay/replay.hpp"
 #include "server/drivers/sim/sim_devices.hpp"
 #include "server/explore/explore_params.hpp"
+#include "server/fleet/topological_strategy.hpp"
 #include "server/net/server.hpp"
 #include "server/sim/robot_model.hpp"
 #include "server/slam/line_slam_params.hpp"
@@ -80,6 +81,7 @@ struct RobotOptions {
   SearchBehaviourParams search;
   search::ControlTableParams control_table;
   explore::ExploreParams explore;
+  fleet::TopologicalParams topology;
   StereoSettings stereo;
   server_net::ServerParams server;
   std::filesystem::path folder;  ///< of the robot file; not a field

@@ -11,11 +11,16 @@
 namespace seeker::lab {
 namespace {
 
-const std::map<std::string, api::ExploreStrategy> kStrategies = {{"active", api::ExploreStrategy::kActive},
-                                                                 {"horizon", api::ExploreStrategy::kHorizon},
-                                                                 {"roam", api::ExploreStrategy::kRoam},
-                                                                 {"frontier", api::ExploreStrategy::kFrontier},
-                                                                 {"gain", api::ExploreStrategy::kGain}};
+const std::map<std::string, api::ExploreStrategy>& strategies() {
+  static const std::map<std::string, api::ExploreStrategy> kByName = [] {
+    std::map<std::string, api::ExploreStrategy> by_name;
+    for (const api::ExploreStrategy strategy : api::kExploreStrategies) {
+      by_name.emplace(to_string(strategy), strategy);
+    }
+    return by_name;
+  }();
+  return kByName;
+}
 
 struct ExploreOptions {
   CommonOptions common;
@@ -80,7 +85,7 @@ Result<std::vector<ExploreSpec>> specs_of(const ExploreOptions& o) {
   for (const std::string& world : o.worlds) {
     spec.world_file = world_file(o.common, world);
     for (const std::string& strategy : o.strategies) {
-      spec.strategy = kStrategies.at(strategy);
+      spec.strategy = strategies().at(strategy);
       for (const std::uint64_t seed : *seeds) {
         spec.seed = seed;
         specs.push_back(spec);
@@ -118,8 +123,8 @@ Status run(const ExploreOptions& o) {
 
 std::vector<std::string> explore_strategies() {
   std::vector<std::string> names;
-  names.reserve(kStrategies.size());
-  for (const auto& [name, strategy] : kStrategies) {
+  names.reserve(strategies().size());
+  for (const auto& [name, strategy] : strategies()) {
     names.push_back(name);
   }
   return names;

@@ -171,10 +171,11 @@ TEST(Names, EveryTopicAndOutcomeHasItsOwn) {
 
 TEST(Names, EveryStrategyAndTaskHasItsOwn) {
   std::set<std::string> strategies;
-  for (int i = 0; i <= static_cast<int>(ExploreStrategy::kGain); ++i) {
-    strategies.insert(std::string(to_string(static_cast<ExploreStrategy>(i))));
+  for (const ExploreStrategy strategy : kExploreStrategies) {
+    strategies.insert(std::string(to_string(strategy)));
   }
-  EXPECT_EQ(strategies.size(), static_cast<std::size_t>(ExploreStrategy::kGain) + 1);
+  EXPECT_EQ(strategies.size(), kExploreStrategies.size());
+  EXPECT_EQ(static_cast<std::size_t>(kExploreStrategies.back()) + 1, kExploreStrategies.size());
   EXPECT_EQ(task_name(ExploreMission{}), "explore");
 }
 

@@ -131,7 +131,7 @@ api::MissionRequest ValueMaker::mission() {
       break;
     }
     case 2: {
-      api::ExploreMission explore{one_of(api::ExploreStrategy::kGain), {}, {points()}, flag()};
+      api::ExploreMission explore{one_of(api::kExploreStrategies.back()), {}, {points()}, flag()};
       if (flag()) {
         explore.bound = points();
       }

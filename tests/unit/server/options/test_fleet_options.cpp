@@ -1,0 +1,44 @@
+#include "server/options/fleet_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/config/yaml.hpp"
+
+namespace seeker::fleet {
+namespace {
+
+Status read(const std::string& text, TopologicalParams& params) {
+  const auto document = config::Document::parse(text, "topology.yaml");
+  return document ? document->read(params) : Status(tl::unexpected<Error>(document.error()));
+}
+
+TEST(TopologyOptions, ReadWhatAFileSaysAndKeepTheRest) {
+  TopologicalParams params;
+  ASSERT_TRUE(
+      read("tree: {corridor_width_m: 0.8, max_goal_span_deg: 90}\nnode_distance_m: 3\nauction: {near_m: 4}\n", params));
+  EXPECT_DOUBLE_EQ(params.map.tree.corridor_width_m, 0.8);
+  EXPECT_NEAR(params.map.tree.max_goal_span_rad, kPi / 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(params.map.node_distance_m, 3.0);
+  EXPECT_DOUBLE_EQ(params.auction.near_m, 4.0);
+  EXPECT_EQ(params.map.tree.layers, TopologicalParams{}.map.tree.layers);
+}
+
+TEST(TopologyOptions, PrintWhatTheyRead) {
+  TopologicalParams params;
+  params.map.max_edge_m = 6.25;
+  params.retry_s = 12.5;
+  TopologicalParams again;
+  ASSERT_TRUE(read(config::print(params), again));
+  EXPECT_DOUBLE_EQ(again.map.max_edge_m, 6.25);
+  EXPECT_EQ(config::print(again), config::print(params));
+}
+
+TEST(TopologyOptions, RefuseWhatNobodyKnows) {
+  TopologicalParams params;
+  for (const char* text : {"trees: {}\n", "tree: {width_m: 1}\n", "auction: {price: 1}\n"}) {
+    EXPECT_FALSE(read(text, params)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace seeker::fleet
