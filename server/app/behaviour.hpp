@@ -12,6 +12,7 @@
 #include "common/api/robot_state.hpp"
 #include "common/core/pose_estimate.hpp"
 #include "common/core/scan.hpp"
+#include "common/core/topology.hpp"
 #include "server/app/stereo_look.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/slam/map_tracker.hpp"
@@ -30,9 +31,10 @@ struct Situation {
   const slam::MapTracker* tracker = nullptr;  ///< keeper of the map of segments; null: the estimator keeps none
   bool map_is_read_only = false;              ///< the robot only localises in the map of segments
   std::optional<double> battery_v;
-  Pose2 odom_T_base;        ///< by dead reckoning: goes on where the pose is not known
-  std::string map_name;     ///< under which the map of segments was saved or loaded; empty: neither
-  bool has_stereo = false;  ///< there is a stereo camera to look with
+  Pose2 odom_T_base;                 ///< by dead reckoning: goes on where the pose is not known
+  std::string map_name;              ///< under which the map of segments was saved or loaded; empty: neither
+  bool has_stereo = false;           ///< there is a stereo camera to look with
+  const FleetView* fleet = nullptr;  ///< other robots, frame `map`; null: the robot is alone
 };
 
 /// A line for the mission's log, without stamps: the executor adds them.
@@ -87,6 +89,9 @@ class Behaviour {
   /// Time passes without steps while paused.
   virtual void resumed(RobotTime /*now*/) {}
   [[nodiscard]] virtual std::optional<api::GridReport> grid() const { return std::nullopt; }
+  /// Of an exploration by topology: places it has been at and still means to go to, and the goal it drives to.
+  [[nodiscard]] virtual const Topology* topology() const { return nullptr; }
+  [[nodiscard]] virtual std::optional<Point2> target_map() const { return std::nullopt; }
   /// Everything found so far, with ids from 1 that stay.
   [[nodiscard]] virtual std::vector<api::Detection> detections() const { return {}; }
 };

@@ -106,7 +106,8 @@ Decision ExploreBehaviour::step(const Situation& situation) {
                                                  .segments = segments,
                                                  .segments_revision = segments_.revision(),
                                                  .belief = tracker.local_belief(),
-                                                 .battery_v = situation.battery_v});
+                                                 .battery_v = situation.battery_v,
+                                                 .fleet = situation.fleet});
   Decision decision;
   decision.command = step.command;
   decision.step_done = step.step_done;

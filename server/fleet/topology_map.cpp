@@ -169,13 +169,18 @@ bool TopologyMap::has(std::uint64_t goal) const {
   });
 }
 
-void TopologyMap::transform(const Pose2& new_T_old) {
-  for (TopologyNode& node : map_.nodes) {
+Topology moved(Topology topology, const Pose2& new_T_old) {
+  for (TopologyNode& node : topology.nodes) {
     node.map_T_base = new_T_old * node.map_T_base;
     for (TopologyGoal& goal : node.goals) {
       goal.p_map = new_T_old * goal.p_map;
     }
   }
+  return topology;
+}
+
+void TopologyMap::transform(const Pose2& new_T_old) {
+  map_ = moved(std::move(map_), new_T_old);
   for (Point2& p_map : closed_map_) {
     p_map = new_T_old * p_map;
   }

@@ -69,6 +69,9 @@ struct RuleInput {
 };
 [[nodiscard]] std::vector<RuledGoal> apply_rules(std::vector<RuledGoal> goals, const RuleInput& input);
 
+/// The same places in another frame.
+[[nodiscard]] Topology moved(Topology topology, const Pose2& new_T_old);
+
 /// One robot's topology; ids count from 1. Not thread-safe.
 class TopologyMap {
  public:

@@ -14,10 +14,16 @@ class Watched final : public app::Behaviour {
 
   app::Decision step(const app::Situation& situation) override {
     const double before_s = thread_seconds();
-    app::Decision decision = inner_->step(situation);
+    app::Situation seen = situation;
+    seen.fleet = log_->fleet ? &*log_->fleet : situation.fleet;
+    app::Decision decision = inner_->step(seen);
     log_->processor_s += thread_seconds() - before_s;
     log_->decisions += decision.exploration ? 1 : 0;
     log_->phase = decision.phase;
+    if (const Topology* topology = inner_->topology()) {
+      log_->topology = *topology;
+      log_->target_map = inner_->target_map();
+    }
     return decision;
   }
   std::shared_ptr<const vision::Recogniser> recogniser() const override { return inner_->recogniser(); }
@@ -26,6 +32,8 @@ class Watched final : public app::Behaviour {
   void resumed(RobotTime now) override { inner_->resumed(now); }
   std::optional<api::GridReport> grid() const override { return inner_->grid(); }
   std::vector<api::Detection> detections() const override { return inner_->detections(); }
+  const Topology* topology() const override { return inner_->topology(); }
+  std::optional<Point2> target_map() const override { return inner_->target_map(); }
 
  private:
   std::unique_ptr<app::Behaviour> inner_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/core/angle.hpp"
 #include "common/image/map_layers.hpp"
@@ -22,6 +23,9 @@ constexpr image::Stroke kTruth{{205, 205, 200}, 5.0};
 constexpr image::Stroke kFurniture{{226, 220, 208}, 2.0};
 constexpr image::Stroke kMissing{image::kRed, 3.0};
 constexpr image::Stroke kMapped{image::look::kWall, 1.8};
+constexpr image::Stroke kEdge{image::kOrange, 1.0};
+constexpr image::Stroke kGoal{image::kRed, 1.5};
+constexpr double kNode_px = 5.0;
 constexpr image::Stroke kFree{image::kBlue, 1.6};
 constexpr image::Stroke kAlongWall{image::kPurple, 2.2, image::LineStyle::kDashDot};
 
@@ -81,6 +85,23 @@ void draw_map(Sheet& sheet, const ExploreRecord& record) {
   }
 }
 
+/// Nodes, the ways between them, and goals that were left.
+void draw_topology(Sheet& sheet, const ExploreRecord& record) {
+  std::map<std::uint64_t, Point2> nodes;
+  for (const TopologyNode& node : record.topology.nodes) {
+    nodes[node.id] = sheet.px(record.walls.world_T_map * node.map_T_base.translation());
+  }
+  for (const TopologyEdge& edge : record.topology.edges) {
+    sheet.canvas().line(nodes.at(edge.a), nodes.at(edge.b), kEdge);
+  }
+  for (const TopologyNode& node : record.topology.nodes) {
+    sheet.canvas().fill_circle(nodes.at(node.id), kNode_px, image::kOrange);
+    for (const TopologyGoal& goal : node.goals) {
+      sheet.canvas().circle(sheet.px(record.walls.world_T_map * goal.p_map), kNode_px, kGoal);
+    }
+  }
+}
+
 /// Stretch by stretch, since a dash pattern must not start anew at every step.
 void draw_path(Sheet& sheet, const ExploreRecord& record) {
   const std::vector<PathPlace>& path = record.true_path;
@@ -128,6 +149,9 @@ void draw_text(Sheet& sheet, const ExploreRecord& record, const std::string& tit
   entry("not mapped", kMissing);
   entry("path", kFree);
   entry("path along a wall", kAlongWall);
+  if (!record.topology.nodes.empty()) {
+    entry("node", kEdge);
+  }
   entry("1 m", {image::kBlack, 3.0});
 }
 
@@ -156,6 +180,7 @@ Image draw_exploration(const ExploreRecord& record, const std::string& title) {
   Sheet sheet(record.world);
   draw_truth(sheet, record);
   draw_map(sheet, record);
+  draw_topology(sheet, record);
   draw_path(sheet, record);
   draw_text(sheet, record, title);
   return sheet.canvas().image();

@@ -7,7 +7,6 @@
 #include "common/config/yaml.hpp"
 #include "server/app/device_factory.hpp"
 #include "server/app/update_hub.hpp"
-#include "server/lab/behaviour_timer.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -48,6 +47,7 @@ class Observer {
     samples_.push_back(sample());
     add_curves(samples_, result);
     result.max_error_m = watch_.max_error_m();
+    record.topology = log_->topology;
     record.events = watch_.events();
     record.samples = std::move(samples_);
     record.true_path = std::move(path_);
@@ -151,7 +151,7 @@ Result<std::string> settings_of(const ExploreSpec& spec) {
   return hash.hex();
 }
 
-Result<ExploreRecord> run_explore(const ExploreSpec& spec) {
+Result<ExploreRecord> run_explore(const ExploreSpec& spec, const ExploreWatcher& watcher) {
   const Result<app::RobotOptions> options = sim_options(spec);
   if (!options) {
     return tl::unexpected<Error>(options.error());
@@ -170,7 +170,12 @@ Result<ExploreRecord> run_explore(const ExploreSpec& spec) {
   app::UpdateHub hub;
   app::RobotLoop loop(options->loop, std::move(assembly->parts), hub);
   Observer observer(loop, *simulation, log);
-  const Result<double> wall_time_s = run_mission(loop, request_of(spec), [&observer] { observer.look(); });
+  const Result<double> wall_time_s = run_mission(loop, request_of(spec), [&] {
+    observer.look();
+    if (watcher) {
+      watcher(loop, *simulation, *log);
+    }
+  });
   if (!wall_time_s) {
     return tl::unexpected<Error>(wall_time_s.error());
   }

@@ -8,6 +8,7 @@
 
 #include "common/api/mission.hpp"
 #include "common/core/line_map.hpp"
+#include "server/lab/behaviour_timer.hpp"
 #include "server/lab/explore_result.hpp"
 #include "server/lab/sim_run.hpp"
 #include "server/lab/wall_share.hpp"
@@ -36,6 +37,7 @@ struct ExploreRecord {
   std::vector<Pose2> believed_path;  ///< frame `map`
   std::vector<MapSegment> segments;  ///< frame `map`
   std::vector<Point2> unreachable;   ///< frame `map`
+  Topology topology;                 ///< frame `map`; empty where the strategy keeps none
   WallShare walls;
   TrueWalls truth_walls;
   sim::GroundTruth truth;
@@ -46,7 +48,10 @@ struct ExploreRecord {
 /// Hash of everything that shapes a run, seed excepted.
 [[nodiscard]] Result<std::string> settings_of(const ExploreSpec& spec);
 
+/// Called before every pass of the loop.
+using ExploreWatcher = std::function<void(const app::RobotLoop&, sim::Simulation&, const DecisionLog&)>;
+
 /// Runs to the mission's end. Errors: those of the files, and a refused mission.
-[[nodiscard]] Result<ExploreRecord> run_explore(const ExploreSpec& spec);
+[[nodiscard]] Result<ExploreRecord> run_explore(const ExploreSpec& spec, const ExploreWatcher& watcher = {});
 
 }  // namespace seeker::lab

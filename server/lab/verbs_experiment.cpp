@@ -9,6 +9,7 @@
 #include "server/lab/reproduce.hpp"
 #include "server/lab/s1_reproduce.hpp"
 #include "server/lab/s2_reproduce.hpp"
+#include "server/lab/s4_reproduce.hpp"
 #include "server/lab/s5_reproduce.hpp"
 #include "server/lab/solids_study.hpp"
 #include "server/lab/summary.hpp"
@@ -30,8 +31,9 @@ struct Reproduction {
   const char* seeds;  ///< where the command line names none
 };
 const std::map<std::string, Reproduction> kReproductions = {
-    {"r2", {&reproduce_r2, "1-50"}}, {"s1", {&reproduce_s1, "1-20"}},  {"s2", {&reproduce_s2, "1-10"}},
-    {"s3", {&reproduce_s3, "1-20"}}, {"s5", {&reproduce_s5, "1-100"}}, {"s6", {&reproduce_s6, "1"}}};
+    {"r2", {&reproduce_r2, "1-50"}}, {"s1", {&reproduce_s1, "1-20"}}, {"s2", {&reproduce_s2, "1-10"}},
+    {"s3", {&reproduce_s3, "1-20"}}, {"s4", {&reproduce_s4, "1-4"}},  {"s5", {&reproduce_s5, "1-100"}},
+    {"s6", {&reproduce_s6, "1"}}};
 
 std::vector<std::string> reproduction_ids() {
   std::vector<std::string> ids;
@@ -220,7 +222,8 @@ Verb add_reproduce(CLI::App& app) {
       app.add_subcommand("reproduce", "Figures, tables and pass conditions of a paper; PASS and FAIL lines");
   verb->add_option("paper", o->id,
                    "r2: consistency of the line filter; s1: active exploration; s2: localisation from stereo "
-                   "landmarks; s3: autonomous search; s5: line detection with automatic thresholds")
+                   "landmarks; s3: autonomous search; s4: one map of several robots; s5: line detection with automatic "
+                   "thresholds")
       ->check(CLI::IsMember(reproduction_ids()))
       ->capture_default_str();
   o->common.seeds.clear();
