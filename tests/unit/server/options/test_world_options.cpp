@@ -40,8 +40,8 @@ TEST_P(ShippedWorld, LoadsAndHasRoomForTheRobotAtEveryStart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedWorld,
-                         ::testing::Values("paper-a", "paper-b", "no-target", "office", "office-no-target", "demo",
-                                           "corridor", "hospital", "hall", "closet", "closet-gap", "open-door",
+                         ::testing::Values("arena-20", "paper-a", "paper-b", "no-target", "office", "office-no-target",
+                                           "demo", "corridor", "hospital", "hall", "closet", "closet-gap", "open-door",
                                            "laboratory", "laboratory-moved"));
 
 TEST(ShippedWorlds, AreAllInTheTestAbove) {
