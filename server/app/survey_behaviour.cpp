@@ -1,6 +1,7 @@
 #include "server/app/survey_behaviour.hpp"
 
 #include "common/core/text.hpp"
+#include "server/localize/survey_adjustment.hpp"
 
 namespace seeker::app {
 namespace {
@@ -15,8 +16,11 @@ std::vector<Point2> places_around(const Pose2& map_T_base, double spacing_m) {
 }
 
 /// In the order in which the pictures were taken, then only what was seen often enough.
-Result<localize::LandmarkDatabase> build(const SurveySettings& settings,
-                                         const std::vector<localize::Sighting>& sightings) {
+Result<localize::LandmarkDatabase> build(const SurveySettings& settings, std::vector<localize::Sighting> sightings) {
+  const auto adjusted = localize::adjust_poses(settings.geometry, settings.database, sightings);
+  if (!adjusted) {
+    return tl::unexpected<Error>(adjusted.error());
+  }
   localize::SurveyBuilder builder(settings.geometry, settings.database);
   for (const localize::Sighting& sighting : sightings) {
     if (const Result<localize::SightingCounts> added = builder.add(sighting); !added) {

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "common/core/angle.hpp"
+#include "server/localize/survey_adjustment.hpp"
 
 namespace seeker::lab::s2 {
 namespace {
@@ -52,6 +53,10 @@ Result<std::vector<localize::Sighting>> survey_views(const Bench& bench, const s
                                    .asDiagonal();
     views[i].eye_height_m = bench.model.stereo.height_m;
     views[i].features = std::move((*seen)[i].features);
+  }
+  const auto adjusted = localize::adjust_poses(bench.model.stereo.geometry, bench.database, views);
+  if (!adjusted) {
+    return tl::unexpected<Error>(adjusted.error());
   }
   return views;
 }

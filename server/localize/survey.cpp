@@ -18,6 +18,8 @@ DatabaseParams paper_database_params() {
   params.sparsity.outer_radius_m = 0.50;
   params.sparsity.min_distance = 2.5;
   params.fusion.running_mean = true;
+  params.adjustment.on = false;
+  params.salient_seen = 3;
   return params;
 }
 
@@ -43,6 +45,11 @@ Status validate(const DatabaseParams& params) {
   }
   if (!(params.fusion.view_cluster_rad > 0.0) || !(params.fusion.sigma_floor_m >= 0.0)) {
     return bad("fusion.view_cluster_deg must be above zero, sigma_floor_m at least zero");
+  }
+  const AdjustmentParams& adjustment = params.adjustment;
+  if (adjustment.rounds < 1 || adjustment.iterations < 1 || !positive(adjustment.huber_sigmas) ||
+      !positive(adjustment.point_sigma_m) || !positive(adjustment.offset_sigma_px)) {
+    return bad("adjustment: rounds and iterations must be at least 1, huber_sigmas and the sigmas above zero");
   }
   return params.salient_seen >= 1 ? Status() : bad("salient_seen must be at least 1");
 }
@@ -92,11 +99,13 @@ Result<SightingCounts> SurveyBuilder::add(const Sighting& sighting) {
   const std::vector<Pairing> pairs = associate(database_, sighting.features, points, params_.association);
   const std::uint64_t number = database_.begin_sighting();
   fates_.assign(sighting.features.size(), FeatureFate::kOutOfRange);
+  landmarks_.assign(sighting.features.size(), 0);
   std::vector<bool> paired(points.size(), false);
   for (const Pairing& pair : pairs) {
     const SeenPoint& point = points[pair.point];
     paired[pair.point] = true;
     fates_[point.feature] = FeatureFate::kMatched;
+    landmarks_[point.feature] = database_.at(pair.landmark).id;
     database_.change(pair.landmark, [&](Landmark& landmark) {
       fuse(landmark, point, sighting.features[point.feature].descriptor, params_.fusion);
       landmark.last_seen = number;
@@ -115,7 +124,7 @@ Result<SightingCounts> SurveyBuilder::add(const Sighting& sighting) {
     if (is_new) {
       Landmark landmark = make_landmark(points[i], descriptor);
       landmark.last_seen = number;
-      database_.insert(std::move(landmark));
+      landmarks_[points[i].feature] = database_.insert(std::move(landmark));
     }
   }
   return counts;
@@ -130,6 +139,7 @@ LandmarkDatabase SurveyBuilder::salient() const {
 void SurveyBuilder::clear() {
   database_.erase_if([](const Landmark&) { return true; });
   fates_.clear();
+  landmarks_.clear();
 }
 
 }  // namespace seeker::localize

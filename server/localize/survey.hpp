@@ -11,13 +11,27 @@
 
 namespace seeker::localize {
 
+/// How the poses of a survey are made to agree with each other before the database is built (adjust_poses()).
+struct AdjustmentParams {
+  bool on = true;
+  int rounds = 2;                ///< of telling anew what is the same point
+  int iterations = 4;            ///< of the least squares in each
+  double huber_sigmas = 2.0;     ///< observations farther off weigh less
+  double point_sigma_m = 0.01;   ///< of every observation, beside its pixels: blobs differ from side to side
+  double offset_sigma_px = 0.2;  ///< of the error that all disparities share
+
+  friend bool operator==(const AdjustmentParams&, const AdjustmentParams&) = default;
+};
+
 struct DatabaseParams {
   PixelNoise noise;
   RangeLimits range;
   AssociationParams association;
   SparsityParams sparsity;
   FusionParams fusion;
-  int salient_seen = 3;  ///< spec S2.7: landmarks seen less often are dropped at the end; 1 keeps all
+  AdjustmentParams adjustment;
+  /// Spec S2.7: landmarks seen less often are dropped at the end; 1 keeps all. 3 in the paper.
+  int salient_seen = 2;
 
   friend bool operator==(const DatabaseParams&, const DatabaseParams&) = default;
 };
@@ -52,6 +66,8 @@ class SurveyBuilder {
   [[nodiscard]] Result<SightingCounts> add(const Sighting& sighting);
   /// Of each feature of the newest sighting.
   [[nodiscard]] const std::vector<FeatureFate>& fates() const { return fates_; }
+  /// Which landmark each feature of the newest sighting was taken for, or has become; 0: none.
+  [[nodiscard]] const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
   /// All so far, salient or not.
   [[nodiscard]] const LandmarkDatabase& database() const { return database_; }
   /// Spec S2.7: those that were seen often enough.
@@ -64,6 +80,7 @@ class SurveyBuilder {
   DatabaseParams params_;
   LandmarkDatabase database_;
   std::vector<FeatureFate> fates_;
+  std::vector<LandmarkId> landmarks_;
 };
 
 /// kInvalidArgument for a sighting whose pose cannot be one.

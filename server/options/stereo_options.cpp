@@ -80,12 +80,22 @@ void describe(config::Fields& f, FusionParams& params) {
   f.field("sigma_floor_m", params.sigma_floor_m);
 }
 
+void describe(config::Fields& f, AdjustmentParams& params) {
+  f.field("on", params.on);
+  f.field("rounds", params.rounds);
+  f.field("iterations", params.iterations);
+  f.field("huber_sigmas", params.huber_sigmas);
+  f.field("point_sigma_m", params.point_sigma_m);
+  f.field("offset_sigma_px", params.offset_sigma_px);
+}
+
 void describe(config::Fields& f, DatabaseParams& params) {
   f.section("noise", params.noise);
   f.section("range", params.range);
   f.section("association", params.association);
   f.section("sparsity", params.sparsity);
   f.section("fusion", params.fusion);
+  f.section("adjustment", params.adjustment);
   f.field("salient_seen", params.salient_seen);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/core/angle.hpp"
+#include "common/core/assert.hpp"
 #include "server/sim/placement.hpp"
 #include "server/sim/scene.hpp"
 
@@ -213,6 +214,34 @@ Result<std::size_t> move_objects(World& world, double share, Rng& rng) {
     return fail(Errc::kUnreachable, "world '" + world.name + "' has no object that another place can be found for");
   }
   return moved;
+}
+
+void stretch(World& world, const Point2& factors) {
+  SEEKER_ASSERT(factors.minCoeff() > 0.0);
+  const auto moved = [&](const Pose2& pose) {
+    return Pose2{factors.x() * pose.x_m, factors.y() * pose.y_m, pose.theta_rad};
+  };
+  for (const Piece& piece : pieces_of(world)) {
+    const Pose2 from = footprint_of(world, piece).world_T_piece;
+    move_parts(world, piece, from, moved(from));
+  }
+  world.min_corner = world.min_corner.cwiseProduct(factors);
+  world.max_corner = world.max_corner.cwiseProduct(factors);
+  for (Wall& wall : world.walls) {
+    wall.a = wall.a.cwiseProduct(factors);
+    wall.b = wall.b.cwiseProduct(factors);
+  }
+  for (Target& target : world.targets) {
+    target.world_T_target = moved(target.world_T_target);
+  }
+  for (PersonPath& person : world.people) {
+    for (Point2& place : person.waypoints) {
+      place = place.cwiseProduct(factors);
+    }
+  }
+  for (Pose2& start : world.starts) {
+    start = moved(start);
+  }
 }
 
 }  // namespace seeker::sim

@@ -109,25 +109,32 @@ class LandmarkRoom {
   std::vector<RoomPoint> points_;
 };
 
-/// Five places, twelve headings each (spec S2.4), poses known to `sigma_m` and `sigma_rad`.
+/// Five places, twelve headings each (spec S2.4).
+inline std::vector<Pose2> survey_truth() {
+  constexpr int kHeadings = 12;
+  std::vector<Pose2> truth;
+  for (const Point2& place :
+       {Point2(5.0, 5.0), Point2(3.0, 3.0), Point2(7.0, 3.0), Point2(7.0, 7.0), Point2(3.0, 7.0)}) {
+    for (int k = 0; k < kHeadings; ++k) {
+      truth.push_back({place.x(), place.y(), wrap_angle(k * kTwoPi / kHeadings)});
+    }
+  }
+  return truth;
+}
+
+/// From there, poses known to `sigma_m` and `sigma_rad`.
 inline std::vector<Sighting> survey_sightings(const LandmarkRoom& room, const StereoGeometry& geometry,
                                               const ViewNoise& noise, Rng& rng, double sigma_m = 0.005,
                                               double sigma_rad = 0.002) {
-  constexpr int kHeadings = 12;
-  const std::array<Point2, 5> places = {Point2(5.0, 5.0), Point2(3.0, 3.0), Point2(7.0, 3.0), Point2(7.0, 7.0),
-                                        Point2(3.0, 7.0)};
   std::vector<Sighting> sightings;
-  for (const Point2& place : places) {
-    for (int k = 0; k < kHeadings; ++k) {
-      const Pose2 truth{place.x(), place.y(), wrap_angle(k * kTwoPi / kHeadings)};
-      Sighting sighting;
-      sighting.map_T_eye = {truth.x_m + rng.normal(sigma_m), truth.y_m + rng.normal(sigma_m),
-                            truth.theta_rad + rng.normal(sigma_rad)};
-      sighting.pose_covariance =
-          Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
-      sighting.features = room.view(truth, geometry, noise, rng);
-      sightings.push_back(std::move(sighting));
-    }
+  for (const Pose2& truth : survey_truth()) {
+    Sighting sighting;
+    sighting.map_T_eye = {truth.x_m + rng.normal(sigma_m), truth.y_m + rng.normal(sigma_m),
+                          truth.theta_rad + rng.normal(sigma_rad)};
+    sighting.pose_covariance =
+        Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+    sighting.features = room.view(truth, geometry, noise, rng);
+    sightings.push_back(std::move(sighting));
   }
   return sightings;
 }

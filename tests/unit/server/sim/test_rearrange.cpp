@@ -84,5 +84,21 @@ TEST(MoveObjects, RefusesWhatMakesNoSense) {
   EXPECT_EQ(move_objects(empty, 0.5, rng).error().code, Errc::kUnreachable);
 }
 
+TEST(Stretch, PlacesGoWithTheRoomAndSizesStay) {
+  const World before = furnished();
+  World world = before;
+  stretch(world, {1.5, 0.8});
+  EXPECT_TRUE(validate(world)) << validate(world).error().message;
+  EXPECT_DOUBLE_EQ(world.max_corner.x(), 1.5 * before.max_corner.x());
+  EXPECT_DOUBLE_EQ(world.walls[0].a.y(), 0.8 * before.walls[0].a.y());
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_DOUBLE_EQ(world.boxes[i].world_T_box.x_m, 1.5 * before.boxes[i].world_T_box.x_m);
+    EXPECT_DOUBLE_EQ(world.boxes[i].length_m, before.boxes[i].length_m);
+  }
+  const Pose2 leg = inverse(before.boxes[4].world_T_box) * before.boxes[5].world_T_box;
+  const Pose2 leg_now = inverse(world.boxes[4].world_T_box) * world.boxes[5].world_T_box;
+  EXPECT_NEAR(distance_m(leg, leg_now), 0.0, 1e-9) << "the table is still a table";
+}
+
 }  // namespace
 }  // namespace seeker::sim

@@ -1,0 +1,29 @@
+/// \file
+/// The poses of a survey made to agree with each other: what several sightings show pulls them together.
+#pragma once
+
+#include <vector>
+
+#include "server/localize/survey.hpp"
+
+namespace seeker::localize {
+
+/// Residuals are those of points seen in two sightings or more, from the mean place of their observations.
+struct AdjustmentReport {
+  int points = 0;
+  int observations = 0;
+  double rms_before_m = 0.0;
+  double rms_after_m = 0.0;
+  double offset_px = 0.0;  ///< that all disparities had too much
+};
+
+/// Least squares over the planar poses of all sightings and the points that more than one of them shows, the points
+/// eliminated (Triggs et al., Bundle Adjustment, 2000, section 6.1); the poses as they came, with their covariances,
+/// hold the survey where it is. Errors of a tripod's or of SLAM's poses are shared by all features of a sighting:
+/// without this they go into the landmarks. Poses, their covariances and disparities are replaced; a sighting that
+/// shares nothing with others keeps its own pose. Nothing is done with params.adjustment.on == false. Asserts valid
+/// parameters. kInvalidArgument: as SurveyBuilder::add(); nothing is changed then.
+[[nodiscard]] Result<AdjustmentReport> adjust_poses(const StereoGeometry& geometry, const DatabaseParams& params,
+                                                    std::vector<Sighting>& sightings);
+
+}  // namespace seeker::localize

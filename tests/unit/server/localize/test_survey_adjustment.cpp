@@ -1,0 +1,115 @@
+#include "server/localize/survey_adjustment.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include "common/core/angle.hpp"
+#include "tests/unit/server/localize/landmark_room.hpp"
+
+namespace seeker::localize {
+namespace {
+
+constexpr double kTripod_m = 0.02;
+const double kDial_rad = deg_to_rad(0.5);
+const StereoGeometry kEyes;
+
+struct PoseError {
+  double rms_m = 0.0;
+  double rms_rad = 0.0;
+  double mean_nees = 0.0;
+};
+
+PoseError error_of(const std::vector<Sighting>& sightings) {
+  const std::vector<Pose2> truth = testing::survey_truth();
+  PoseError error;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Pose2& pose = sightings[i].map_T_eye;
+    const Eigen::Vector3d off(pose.x_m - truth[i].x_m, pose.y_m - truth[i].y_m,
+                              wrap_angle(pose.theta_rad - truth[i].theta_rad));
+    error.rms_m += off.head<2>().squaredNorm();
+    error.rms_rad += off(2) * off(2);
+    error.mean_nees += off.dot(sightings[i].pose_covariance.inverse() * off);
+  }
+  const auto count = static_cast<double>(truth.size());
+  return {std::sqrt(error.rms_m / count), std::sqrt(error.rms_rad / count), error.mean_nees / count};
+}
+
+std::vector<Sighting> rough_survey(std::uint64_t seed, const testing::ViewNoise& noise = {}) {
+  const testing::LandmarkRoom room(seed, 600);
+  Rng rng(seed);
+  return testing::survey_sightings(room, kEyes, noise, rng, kTripod_m, kDial_rad);
+}
+
+TEST(SurveyAdjustment, PosesAgreeBetterWithEachOtherAndWithTheTruth) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    std::vector<Sighting> sightings = rough_survey(seed);
+    const PoseError before = error_of(sightings);
+    const auto report = adjust_poses(kEyes, {}, sightings);
+    ASSERT_TRUE(report) << report.error().message;
+    const PoseError after = error_of(sightings);
+    EXPECT_GT(report->points, 100);
+    EXPECT_LT(report->rms_after_m, report->rms_before_m);
+    EXPECT_LT(after.rms_m, 0.5 * before.rms_m);
+    EXPECT_LT(after.rms_rad, 0.5 * before.rms_rad);
+    EXPECT_LT(after.mean_nees, 6.0) << "3 on average for a covariance that tells the error";
+  }
+}
+
+TEST(SurveyAdjustment, FindsWhatAllDisparitiesErrBy) {
+  testing::ViewNoise noise;
+  noise.disparity_offset_px = 0.3;
+  std::vector<Sighting> sightings = rough_survey(8, noise);
+  const double before_px = sightings[0].features[0].disparity_px;
+  const auto report = adjust_poses(kEyes, {}, sightings);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->offset_px, 0.3, 0.06);
+  EXPECT_NEAR(sightings[0].features[0].disparity_px, before_px - report->offset_px, 1e-9);
+}
+
+TEST(SurveyAdjustment, APoseWithoutDoubtStays) {
+  std::vector<Sighting> sightings = rough_survey(4);
+  for (Sighting& sighting : sightings) {
+    sighting.pose_covariance.setZero();
+  }
+  const std::vector<Sighting> before = sightings;
+  ASSERT_TRUE(adjust_poses(kEyes, {}, sightings));
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    EXPECT_LT(distance_m(sightings[i].map_T_eye, before[i].map_T_eye), 0.001);
+  }
+}
+
+TEST(SurveyAdjustment, SightingsThatShareNothingKeepTheirPoses) {
+  std::vector<Sighting> all = rough_survey(5);
+  std::vector<Sighting> opposite = {all[0], all[6]};  // back to back
+  const std::vector<Sighting> before = opposite;
+  const auto report = adjust_poses(kEyes, {}, opposite);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->points, 0);
+  for (std::size_t i = 0; i < opposite.size(); ++i) {
+    EXPECT_EQ(opposite[i].map_T_eye, before[i].map_T_eye);
+    EXPECT_EQ(opposite[i].pose_covariance, before[i].pose_covariance);
+  }
+}
+
+TEST(SurveyAdjustment, ThePaperTakesPosesAsTheyAre) {
+  std::vector<Sighting> sightings = rough_survey(6);
+  const Pose2 before = sightings[7].map_T_eye;
+  ASSERT_TRUE(adjust_poses(kEyes, paper_database_params(), sightings));
+  EXPECT_EQ(sightings[7].map_T_eye, before);
+}
+
+TEST(SurveyAdjustment, RefusesAPoseThatIsNone) {
+  std::vector<Sighting> sightings = rough_survey(7);
+  sightings[3].map_T_eye.x_m = std::nan("");
+  const Pose2 before = sightings[7].map_T_eye;
+  const auto report = adjust_poses(kEyes, {}, sightings);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(sightings[7].map_T_eye, before) << "nothing is changed";
+}
+
+}  // namespace
+}  // namespace seeker::localize
