@@ -55,6 +55,8 @@ api::Reply<T> reply_with(const Responder& responder, Fill fill) {
           if (result) {
             fill(*result, response);
           }
+        } else {
+          static_cast<void>(fill);
         }
         to->respond(response, responder.call);
       }
