@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <string>
 
 #include "common/core/angle.hpp"
 #include "common/image/files.hpp"
 #include "common/image/png.hpp"
+#include "server/lab/experiment.hpp"
 #include "server/lab/image_tools.hpp"
 #include "server/lab/table.hpp"
 #include "server/options/solids_options.hpp"
@@ -140,16 +142,29 @@ std::string confusion_csv(const SolidsStudy& study) {
   return table.csv();
 }
 
-Check check_solids(const SolidsStudy& study, std::uint64_t seed) {
-  Check check{.id = "R11", .passed = study.mean_time_s <= kTimeLimit_s, .figures = {{"seed", std::to_string(seed)}}};
+Check check_solids(const std::vector<SolidsStudy>& studies, const std::vector<std::uint64_t>& seeds) {
+  Confusion all{};
+  double time_s = 0.0;
+  for (const SolidsStudy& study : studies) {
+    time_s += study.mean_time_s / static_cast<double>(studies.size());
+    for (std::size_t row = 0; row < all.size(); ++row) {
+      std::transform(all[row].begin(), all[row].end(), study.confusion[row].begin(), all[row].begin(), std::plus<>());
+    }
+  }
+  Check check{.id = "R11", .passed = time_s <= kTimeLimit_s, .figures = {{"seeds", print_seeds(seeds)}}};
   for (const vision::SolidClass solid : kSolids) {
-    const double share = accuracy(study.confusion, solid);
+    const double share = accuracy(all, solid);
     const double limit = kPaperAccuracy[static_cast<std::size_t>(solid)] - kSlack;
+    double worst = 1.0;
+    for (const SolidsStudy& study : studies) {
+      worst = std::min(worst, accuracy(study.confusion, solid));
+    }
     check.passed = check.passed && share >= limit - 1e-9;
     check.figures.emplace_back(std::string(to_string(solid)), fixed(share, 3));
+    check.figures.emplace_back("worst", fixed(worst, 2));
     check.figures.emplace_back("limit", fixed(limit, 2));
   }
-  check.figures.emplace_back("time_s", fixed(study.mean_time_s, 3));
+  check.figures.emplace_back("time_s", fixed(time_s, 3));
   check.figures.emplace_back("limit_s", fixed(kTimeLimit_s, 1));
   return check;
 }
@@ -170,7 +185,7 @@ Status run_train_solids(const TrainSolidsOptions& options, std::ostream& report)
 
 namespace {
 
-Status reproduce_seed(const std::filesystem::path& out, std::uint64_t seed, Report& report) {
+Result<SolidsStudy> study_seed(const std::filesystem::path& out, std::uint64_t seed) {
   const std::string number = std::to_string(seed);
   const Result<TrainedSolids> trained = train_solids(training_pictures(seed));
   if (!trained) {
@@ -178,7 +193,7 @@ Status reproduce_seed(const std::filesystem::path& out, std::uint64_t seed, Repo
   }
   const std::filesystem::path file = out / ("solids-" + number + ".yaml");
   if (Status ok = image::write_file(file, options::print_solid_model(trained->model)); !ok) {
-    return ok;
+    return tl::unexpected<Error>(ok.error());
   }
   // From the file, as a robot would have it.
   const Result<vision::SolidModel> model = options::load_solid_model(file);
@@ -187,14 +202,13 @@ Status reproduce_seed(const std::filesystem::path& out, std::uint64_t seed, Repo
   }
   const SolidsStudy study = test_solids(*model, test_pictures(seed));
   if (Status ok = image::write_file(out / ("confusion-" + number + ".csv"), confusion_csv(study)); !ok) {
-    return ok;
+    return tl::unexpected<Error>(ok.error());
   }
   const Image sheet = examples(*model, test_pictures(seed));
   if (Status ok = image::write_png(out / ("examples-" + number + ".png"), sheet); !ok) {
-    return ok;
+    return tl::unexpected<Error>(ok.error());
   }
-  report.add(check_solids(study, seed));
-  return {};
+  return study;
 }
 
 }  // namespace
@@ -202,13 +216,19 @@ Status reproduce_seed(const std::filesystem::path& out, std::uint64_t seed, Repo
 Status reproduce_s6(const ReproduceParams& params, Report& report) {
   std::error_code error;
   std::filesystem::create_directories(params.out, error);
+  std::vector<SolidsStudy> studies;
   for (const std::uint64_t seed : params.seeds) {
     if (seed == 0) {
       return fail(Errc::kInvalidArgument, "the seeds of s6 begin with 1");
     }
-    if (Status ok = reproduce_seed(params.out, seed, report); !ok) {
-      return ok;
+    Result<SolidsStudy> study = study_seed(params.out, seed);
+    if (!study) {
+      return tl::unexpected<Error>(study.error());
     }
+    studies.push_back(std::move(*study));
+  }
+  if (!studies.empty()) {
+    report.add(check_solids(studies, params.seeds));
   }
   return {};
 }

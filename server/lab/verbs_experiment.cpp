@@ -33,7 +33,7 @@ struct Reproduction {
 const std::map<std::string, Reproduction> kReproductions = {
     {"r2", {&reproduce_r2, "1-50"}}, {"s1", {&reproduce_s1, "1-20"}}, {"s2", {&reproduce_s2, "1-10"}},
     {"s3", {&reproduce_s3, "1-20"}}, {"s4", {&reproduce_s4, "1-4"}},  {"s5", {&reproduce_s5, "1-100"}},
-    {"s6", {&reproduce_s6, "1"}}};
+    {"s6", {&reproduce_s6, "1-5"}}};
 
 std::vector<std::string> reproduction_ids() {
   std::vector<std::string> ids;

@@ -19,7 +19,6 @@ DatabaseParams paper_database_params() {
   params.sparsity.min_distance = 2.5;
   params.fusion.running_mean = true;
   params.adjustment.on = false;
-  params.salient_seen = 3;
   return params;
 }
 

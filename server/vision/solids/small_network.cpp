@@ -156,10 +156,34 @@ void standardise(const std::vector<TrainingSample>& samples, SmallNetwork& netwo
   }
 }
 
+/// Hidden units of all members beside each other, the outputs before the softmax averaged.
+TrainedNetwork mean_of(const std::vector<Attempt>& members, SmallNetwork network) {
+  const auto count = static_cast<double>(members.size());
+  const Eigen::Index hidden = members.front().weights.first.rows();
+  Matrix first(hidden * static_cast<Eigen::Index>(members.size()), network.inputs + 1);
+  Matrix second = Matrix::Zero(network.outputs, first.rows() + 1);
+  TrainedNetwork mean;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Weights& w = members[i].weights;
+    const Eigen::Index at = hidden * static_cast<Eigen::Index>(i);
+    first.middleRows(at, hidden) = w.first;
+    second.middleCols(at, hidden) = w.second.leftCols(hidden) / count;
+    second.rightCols(1) += w.second.rightCols(1) / count;
+    mean.training_loss += members[i].loss / count;
+    mean.validation_accuracy += members[i].accuracy / count;
+  }
+  network.hidden = static_cast<int>(first.rows());
+  network.first.assign(first.data(), first.data() + first.size());
+  network.second.assign(second.data(), second.data() + second.size());
+  mean.network = std::move(network);
+  return mean;
+}
+
 Status check_samples(const std::vector<TrainingSample>& samples, int labels, const TrainingParams& params) {
-  if (samples.size() < 2 || labels < 2 || params.hidden < 1 || params.epochs < 1 || params.restarts < 1 ||
-      !(params.validation_share > 0.0 && params.validation_share < 1.0)) {
-    return fail(Errc::kInvalidArgument, "training needs two samples and two labels at least, and sizes above 0");
+  if (labels < 2 || params.hidden < 1 || params.epochs < 1 || params.members < 2 ||
+      samples.size() < static_cast<std::size_t>(params.members)) {
+    return fail(Errc::kInvalidArgument,
+                "training needs two labels and two members at least, as many samples as members, and sizes above 0");
   }
   for (const TrainingSample& sample : samples) {
     if (sample.input.size() != samples.front().input.size() || sample.input.empty() || !finite(sample.input) ||
@@ -207,7 +231,6 @@ Result<TrainedNetwork> train_network(const std::vector<TrainingSample>& samples,
   }
   SmallNetwork network;
   network.inputs = static_cast<int>(samples.front().input.size());
-  network.hidden = params.hidden;
   network.outputs = labels;
   standardise(samples, network);
   std::vector<std::size_t> order(samples.size());
@@ -215,21 +238,17 @@ Result<TrainedNetwork> train_network(const std::vector<TrainingSample>& samples,
   for (std::size_t i = order.size() - 1; i > 0; --i) {
     std::swap(order[i], order[rng.below(i + 1)]);
   }
-  const auto held = std::clamp<std::size_t>(
-      static_cast<std::size_t>(params.validation_share * static_cast<double>(order.size())), 1, order.size() - 1);
-  const auto cut = order.begin() + static_cast<std::ptrdiff_t>(held);
-  const Batch validation = batch_of(samples, {order.begin(), cut}, network);
-  const Batch training = batch_of(samples, {cut, order.end()}, network);
-  Attempt best;
-  for (int i = 0; i < params.restarts; ++i) {
-    Attempt attempt = train_once(training, validation, labels, params, rng);
-    if (attempt.accuracy > best.accuracy) {
-      best = std::move(attempt);
+  std::vector<Attempt> members;
+  for (std::size_t fold = 0; fold < static_cast<std::size_t>(params.members); ++fold) {
+    std::vector<std::size_t> kept;
+    std::vector<std::size_t> used;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      (i % static_cast<std::size_t>(params.members) == fold ? kept : used).push_back(order[i]);
     }
+    members.push_back(
+        train_once(batch_of(samples, used, network), batch_of(samples, kept, network), labels, params, rng));
   }
-  network.first.assign(best.weights.first.data(), best.weights.first.data() + best.weights.first.size());
-  network.second.assign(best.weights.second.data(), best.weights.second.data() + best.weights.second.size());
-  return TrainedNetwork{std::move(network), best.loss, best.accuracy};
+  return mean_of(members, std::move(network));
 }
 
 }  // namespace seeker::vision

@@ -44,20 +44,22 @@ struct TrainingParams {
   double worse = 0.04;
   double weight_decay = 1e-4;  ///< against learning the samples by heart
   double initial_weight = 0.3;
-  double validation_share = 0.2;  ///< of the samples: choose among the restarts and when to stop
-  int restarts = 3;
+  /// Networks trained from random beginnings, each with another share of the samples (1 / members) kept to tell when to
+  /// stop. Their mean is a network of members * hidden units.
+  int members = 5;
 
   friend bool operator==(const TrainingParams&, const TrainingParams&) = default;
 };
 
 struct TrainedNetwork {
   SmallNetwork network;
-  double training_loss = 0.0;  ///< cross-entropy per sample
-  double validation_accuracy = 0.0;
+  double training_loss = 0.0;        ///< cross-entropy per sample
+  double validation_accuracy = 0.0;  ///< of the members, each on the samples that were kept from it
 };
 
-/// Full-batch training from `restarts` random beginnings; the best on the validation share is kept. kInvalidArgument:
-/// no samples, samples of different sizes, labels outside 0 .. labels - 1.
+/// Full-batch training of a committee whose members' outputs before the softmax are averaged: one network of one hidden
+/// layer all the same. kInvalidArgument: fewer samples than members, samples of different sizes, labels outside
+/// 0 .. labels - 1.
 [[nodiscard]] Result<TrainedNetwork> train_network(const std::vector<TrainingSample>& samples, int labels,
                                                    const TrainingParams& params, Rng& rng);
 

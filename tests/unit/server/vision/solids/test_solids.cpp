@@ -88,8 +88,9 @@ TEST(SmallNetwork, TrainsTheSameFromTheSameSeed) {
 TEST(SmallNetwork, RefusesWhatDoesNotFit) {
   Rng rng(1);
   EXPECT_EQ(train_network({}, 2, {}, rng).error().code, Errc::kInvalidArgument);
-  EXPECT_FALSE(train_network({{{1.0}, 0}, {{1.0, 2.0}, 1}}, 2, {}, rng));
-  EXPECT_FALSE(train_network({{{1.0}, 0}, {{2.0}, 5}}, 2, {}, rng));
+  EXPECT_FALSE(train_network({{{1.0}, 0}, {{1.0, 2.0}, 1}}, 2, {.members = 2}, rng));
+  EXPECT_FALSE(train_network({{{1.0}, 0}, {{2.0}, 5}}, 2, {.members = 2}, rng));
+  EXPECT_FALSE(train_network({{{1.0}, 0}, {{2.0}, 1}}, 2, {.members = 3}, rng)) << "a member without samples";
   SmallNetwork network = train_network(rings(10, rng), 2, {.epochs = 5}, rng)->network;
   network.first.pop_back();
   EXPECT_FALSE(validate(network));
