@@ -57,7 +57,8 @@ Verb add_merge(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("merge", "The maps of recorded runs laid upon each other, by lidar alone");
   verb->add_option("logs", o->logs, "Logs, each taken for a robot of its own")->required();
   verb->add_option("--span", o->spans, "Part of a log in per cent of its duration, e.g. 0-50; one for each log");
-  verb->add_option("--out", o->out, "Folder for report.json, merged.png and merged.seekermap (default: none is written)");
+  verb->add_option("--out", o->out,
+                   "Folder for report.json, merged.png and merged.seekermap (default: none is written)");
   add_geometry(*verb, *o);
   verb->add_flag("--json", o->json, "Print JSON");
   return [o] {

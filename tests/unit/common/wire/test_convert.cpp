@@ -131,7 +131,7 @@ TEST(Convert, RefusalsNameTheField) {
   expect_refused<api::DriveCommand>(drive, "ttl_ns", Errc::kInvalidArgument);
   pb::MissionRequest explore;
   explore.set_id("m");
-  explore.mutable_explore()->set_strategy(static_cast<pb::ExploreStrategy>(6));
+  explore.mutable_explore()->set_strategy(static_cast<pb::ExploreStrategy>(pb::ExploreStrategy_MAX + 1));
   expect_refused<api::MissionRequest>(explore, "explore.strategy", Errc::kInvalidArgument);
   pb::MissionRequest survey;
   survey.set_id("m");
