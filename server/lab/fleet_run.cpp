@@ -181,6 +181,7 @@ Result<drivers::SharedDevices> devices_of(const FleetSpec& spec, const app::Robo
                                             " starts; name as many robots, two at least");
   }
   std::vector<sim::RobotPlace> places;
+  places.reserve(static_cast<std::size_t>(spec.robots));
   for (int k = 0; k < spec.robots; ++k) {
     places.push_back({options.sim.robot, spec.seed + static_cast<std::uint64_t>(k), static_cast<std::size_t>(k)});
   }

@@ -221,11 +221,11 @@ Status reproduce_s6(const ReproduceParams& params, Report& report) {
     if (seed == 0) {
       return fail(Errc::kInvalidArgument, "the seeds of s6 begin with 1");
     }
-    Result<SolidsStudy> study = study_seed(params.out, seed);
+    const Result<SolidsStudy> study = study_seed(params.out, seed);
     if (!study) {
       return tl::unexpected<Error>(study.error());
     }
-    studies.push_back(std::move(*study));
+    studies.push_back(*study);
   }
   if (!studies.empty()) {
     report.add(check_solids(studies, params.seeds));

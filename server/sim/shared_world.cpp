@@ -46,21 +46,23 @@ Result<std::shared_ptr<SharedWorld>> SharedWorld::create(World world, std::vecto
     return tl::unexpected<Error>(valid.error());
   }
   const std::shared_ptr<SharedWorld> shared(new SharedWorld(std::move(world)));
-  for (const RobotPlace& place : places) {
-    if (const Status added = shared->add(place); !added) {
+  for (RobotPlace& place : places) {
+    if (const Status added = shared->add(std::move(place)); !added) {
       return tl::unexpected<Error>(added.error());
     }
   }
   return shared;
 }
 
-Status SharedWorld::add(const RobotPlace& place) {
+Status SharedWorld::add(RobotPlace place) {
   const Pose2& world_T_start = world_.starts[place.start];
-  robots_.push_back(std::make_unique<RobotInWorld>(world_, place.model, place.seed, world_T_start, robots_.size()));
-  show_surroundings();
   const double reach_m = place.model.radius_m;
+  const HeightBand body = body_band(place.model);
+  robots_.push_back(
+      std::make_unique<RobotInWorld>(world_, std::move(place.model), place.seed, world_T_start, robots_.size()));
+  show_surroundings();
   const Scene& scene = robots_.back()->scene();
-  if (scene.clearance_m(world_T_start.translation(), 2.0 * reach_m, body_band(place.model)) < reach_m) {
+  if (scene.clearance_m(world_T_start.translation(), 2.0 * reach_m, body) < reach_m) {
     return fail(Errc::kInvalidArgument, "world '" + world_.name + "': start " + std::to_string(place.start) +
                                             " leaves no room for a robot of radius " + std::to_string(reach_m) +
                                             " m; move it away from walls, furniture and other robots");

@@ -46,7 +46,7 @@ class SharedWorld {
 
  private:
   explicit SharedWorld(World world);
-  [[nodiscard]] Status add(const RobotPlace& place);
+  [[nodiscard]] Status add(RobotPlace place);
   void step(Duration period);
   /// Tells every robot where all others and the people are now.
   void show_surroundings();
