@@ -3,17 +3,40 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 
+#include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include "common/core/result.hpp"
 
 namespace seeker::net {
 
-/// Opens `acceptor` on an interface of this machine; port 0 takes any free one. The answer is the port; kIo and
-/// kInvalidArgument name the address and the cause.
-[[nodiscard]] Result<std::uint16_t> listen_on(boost::asio::ip::tcp::acceptor& acceptor, const std::string& address,
-                                              std::uint16_t port);
+/// Lets connections in until it is closed. After one that could not be taken in (no file descriptor left) it rests a
+/// moment and goes on. All calls, and `on_socket`, are made on the io_context's single thread once that runs; the
+/// listener outlives what runs there.
+class Listener {
+ public:
+  /// `part`: whose log a failure goes into; its characters must outlive this.
+  Listener(boost::asio::io_context& io, std::string_view part,
+           std::function<void(boost::asio::ip::tcp::socket)> on_socket);
+
+  /// Opens an interface of this machine; port 0 takes any free one. The answer is the port; kIo and kInvalidArgument
+  /// name the address and the cause.
+  [[nodiscard]] Result<std::uint16_t> open(const std::string& address, std::uint16_t port);
+  /// From now on; what has come since open() included.
+  void accept();
+  void close();
+
+ private:
+  std::string_view part_;
+  std::function<void(boost::asio::ip::tcp::socket)> on_socket_;
+  boost::asio::ip::tcp::acceptor acceptor_;
+  boost::asio::steady_timer pause_;
+  bool closed_ = false;
+};
 
 }  // namespace seeker::net

@@ -1,13 +1,12 @@
 #include "server/app/fleet_server.hpp"
 
-#include <deque>
 #include <utility>
 
 #include <boost/asio/post.hpp>
 
 #include "common/log/log.hpp"
 #include "common/net/connection.hpp"
-#include "common/net/listen.hpp"
+#include "common/net/frame_queue.hpp"
 #include "common/wire/convert.hpp"
 #include "common/wire/convert_fleet.hpp"
 #include "common/wire/envelope.hpp"
@@ -18,10 +17,8 @@ namespace {
 
 namespace asio = boost::asio;
 using asio::ip::tcp;
-using boost::system::error_code;
 
 constexpr std::string_view kPart = "fleet";
-constexpr Duration kAcceptPause = std::chrono::milliseconds(100);
 constexpr std::size_t kMaxPeers = 64;
 /// Replies that a peer has not read yet; it asks one thing at a time, so more is malice.
 constexpr std::size_t kMaxQueued = 16;
@@ -90,10 +87,11 @@ v1::FleetReply answer_of(FleetLeader& leader, const v1::FleetRequest& request) {
 /// One connection.
 struct FleetServer::Peer {
   std::shared_ptr<net::Connection> connection;
-  std::deque<wire::OutFrame> outgoing;
+  net::FrameQueue outgoing{kMaxQueued};
 };
 
-FleetServer::FleetServer(FleetLeader& leader) : leader_(leader) {}
+FleetServer::FleetServer(FleetLeader& leader)
+    : leader_(leader), listener_(io_, kPart, [this](tcp::socket socket) { admit(std::move(socket)); }) {}
 
 FleetServer::~FleetServer() {
   if (thread_.joinable()) {
@@ -103,9 +101,9 @@ FleetServer::~FleetServer() {
 }
 
 Result<std::uint16_t> FleetServer::start(const std::string& address, std::uint16_t port) {
-  Result<std::uint16_t> opened = net::listen_on(acceptor_, address, port);
+  Result<std::uint16_t> opened = listener_.open(address, port);
   if (opened) {
-    accept();
+    listener_.accept();
     thread_ = std::thread([this] { io_.run(); });
   }
   return opened;
@@ -113,32 +111,10 @@ Result<std::uint16_t> FleetServer::start(const std::string& address, std::uint16
 
 void FleetServer::close_all() {
   stopping_ = true;
-  error_code ignored;
-  acceptor_.close(ignored);
-  pause_.cancel();
+  listener_.close();
   for (const auto& peer : std::exchange(peers_, {})) {
     peer->connection->close();
   }
-}
-
-void FleetServer::accept() {
-  acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-    if (stopping_) {
-      return;
-    }
-    if (!error) {
-      admit(std::move(socket));
-      accept();
-      return;
-    }
-    log::warning(kPart, "a connection could not be accepted: " + error.message());
-    pause_.expires_after(kAcceptPause);
-    pause_.async_wait([this](error_code ended) {
-      if (!ended) {
-        accept();
-      }
-    });
-  });
 }
 
 void FleetServer::admit(tcp::socket socket) {
@@ -152,14 +128,7 @@ void FleetServer::admit(tcp::socket socket) {
   // The handlers hold the peer until its connection is closed.
   net::Connection::Handlers handlers;
   handlers.on_frame = [this, peer](std::string_view payload) { on_frame(peer, payload); };
-  handlers.next_frame = [peer]() -> std::optional<wire::OutFrame> {
-    if (peer->outgoing.empty()) {
-      return std::nullopt;
-    }
-    wire::OutFrame frame = std::move(peer->outgoing.front());
-    peer->outgoing.pop_front();
-    return frame;
-  };
+  handlers.next_frame = [peer] { return peer->outgoing.pop(); };
   handlers.on_end = [this, peer](const Error& /*error*/) { drop(peer); };
   peers_.insert(peer);
   peer->connection->start(std::move(handlers));
@@ -188,11 +157,11 @@ void FleetServer::send(const std::shared_ptr<Peer>& peer, const v1::FleetReply& 
   if (peer->connection->closed()) {
     return;
   }
-  if (peer->outgoing.size() >= kMaxQueued || reply.ByteSizeLong() > wire::kMaxFrameBytes) {
+  if (reply.ByteSizeLong() > wire::kMaxFrameBytes ||
+      !peer->outgoing.push(wire::make_frame(reply.SerializeAsString()))) {
     drop(peer);
     return;
   }
-  peer->outgoing.push_back(wire::make_frame(reply.SerializeAsString()));
   peer->connection->wake();
 }
 

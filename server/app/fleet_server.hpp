@@ -10,8 +10,8 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 
+#include "common/net/listen.hpp"
 #include "seeker/v1/fleet.pb.h"
 #include "server/app/fleet_leader.hpp"
 
@@ -32,7 +32,6 @@ class FleetServer {
 
  private:
   struct Peer;
-  void accept();
   void admit(boost::asio::ip::tcp::socket socket);
   void on_frame(const std::shared_ptr<Peer>& peer, std::string_view payload);
   void send(const std::shared_ptr<Peer>& peer, const v1::FleetReply& reply);
@@ -41,8 +40,7 @@ class FleetServer {
 
   FleetLeader& leader_;
   boost::asio::io_context io_{1};
-  boost::asio::ip::tcp::acceptor acceptor_{io_};
-  boost::asio::steady_timer pause_{io_};
+  net::Listener listener_;
   std::set<std::shared_ptr<Peer>> peers_;
   bool stopping_ = false;
   std::thread thread_;

@@ -1,14 +1,13 @@
 #include "server/emulator/emulator_server.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <utility>
 
 #include <boost/asio/post.hpp>
 
 #include "common/log/log.hpp"
 #include "common/net/connection.hpp"
-#include "common/net/listen.hpp"
+#include "common/net/frame_queue.hpp"
 #include "common/wire/envelope.hpp"
 #include "common/wire/outcome.hpp"
 #include "server/drivers/emulator/emulator_wire.hpp"
@@ -22,7 +21,6 @@ using boost::system::error_code;
 
 constexpr std::string_view kPart = "emulator";
 constexpr Duration kLinger = std::chrono::milliseconds(500);
-constexpr Duration kAcceptPause = std::chrono::milliseconds(100);
 /// Replies that a robot has not read yet; it asks one thing at a time, so more is malice.
 constexpr std::size_t kMaxQueued = 64;
 /// After a pause the world starts afresh and does not hurry to catch up.
@@ -36,18 +34,21 @@ struct EmulatorServer::Peer {
   std::shared_ptr<net::Connection> connection;
   asio::steady_timer hello;  ///< until it must have said who it is
   std::optional<std::size_t> robot;
-  std::deque<wire::OutFrame> outgoing;
+  net::FrameQueue outgoing{kMaxQueued};
 };
 
 EmulatorServer::EmulatorServer(WorldHost& host, EmulatorServerParams params)
-    : host_(host), params_(std::move(params)), acceptor_(io_), pace_(io_), pause_(io_) {}
+    : host_(host),
+      params_(std::move(params)),
+      listener_(io_, kPart, [this](tcp::socket socket) { admit(std::move(socket)); }),
+      pace_(io_) {}
 
 EmulatorServer::~EmulatorServer() = default;
 
 Result<std::uint16_t> EmulatorServer::listen() {
-  Result<std::uint16_t> port = net::listen_on(acceptor_, params_.address, params_.port);
+  Result<std::uint16_t> port = listener_.open(params_.address, params_.port);
   if (port) {
-    accept();
+    listener_.accept();
     if (!params_.lockstep) {
       step_live();
     }
@@ -63,35 +64,13 @@ void EmulatorServer::stop() {
 
 void EmulatorServer::close_all() {
   stopping_ = true;
-  error_code ignored;
-  acceptor_.close(ignored);
+  listener_.close();
   pace_.cancel();
-  pause_.cancel();
   for (const auto& peer : std::exchange(peers_, {})) {
     peer->hello.cancel();
     peer->connection->close();
   }
   robots_.clear();
-}
-
-void EmulatorServer::accept() {
-  acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-    if (stopping_) {
-      return;
-    }
-    if (!error) {
-      admit(std::move(socket));
-      accept();
-      return;
-    }
-    log::warning(kPart, "a connection could not be accepted: " + error.message());
-    pause_.expires_after(kAcceptPause);
-    pause_.async_wait([this](error_code ended) {
-      if (!ended) {
-        accept();
-      }
-    });
-  });
 }
 
 void EmulatorServer::admit(tcp::socket socket) {
@@ -101,14 +80,7 @@ void EmulatorServer::admit(tcp::socket socket) {
   // The handlers hold the peer until its connection is closed.
   net::Connection::Handlers handlers;
   handlers.on_frame = [this, peer](std::string_view payload) { on_frame(peer, payload); };
-  handlers.next_frame = [peer]() -> std::optional<wire::OutFrame> {
-    if (peer->outgoing.empty()) {
-      return std::nullopt;
-    }
-    wire::OutFrame frame = std::move(peer->outgoing.front());
-    peer->outgoing.pop_front();
-    return frame;
-  };
+  handlers.next_frame = [peer] { return peer->outgoing.pop(); };
   handlers.on_end = [this, peer](const Error& error) { drop(peer, error.message); };
   peer->hello.expires_after(params_.hello_timeout);
   peer->hello.async_wait([this, peer](error_code error) {
@@ -165,11 +137,10 @@ void EmulatorServer::greet(const std::shared_ptr<Peer>& peer, const v1::Emulator
 }
 
 void EmulatorServer::send(const std::shared_ptr<Peer>& peer, const v1::EmulatorReply& reply) {
-  if (peer->outgoing.size() >= kMaxQueued) {
+  if (!peer->outgoing.push(wire::make_frame(reply.SerializeAsString()))) {
     drop(peer, "it does not read its replies");
     return;
   }
-  peer->outgoing.push_back(wire::make_frame(reply.SerializeAsString()));
   peer->connection->wake();
 }
 

@@ -14,6 +14,7 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "common/core/result.hpp"
+#include "common/net/listen.hpp"
 #include "server/emulator/world_host.hpp"
 
 namespace seeker::emulator {
@@ -47,7 +48,6 @@ class EmulatorServer {
  private:
   struct Peer;
   void close_all();
-  void accept();
   void admit(boost::asio::ip::tcp::socket socket);
   void on_frame(const std::shared_ptr<Peer>& peer, std::string_view payload);
   void greet(const std::shared_ptr<Peer>& peer, const v1::EmulatorRequest& request);
@@ -62,9 +62,8 @@ class EmulatorServer {
   WorldHost& host_;
   EmulatorServerParams params_;
   boost::asio::io_context io_{1};
-  boost::asio::ip::tcp::acceptor acceptor_;
+  net::Listener listener_;
   boost::asio::steady_timer pace_;
-  boost::asio::steady_timer pause_;
   std::set<std::shared_ptr<Peer>> peers_;
   std::map<std::size_t, std::shared_ptr<Peer>> robots_;  ///< those that have said hello
   bool turning_ = false;                                 ///< a step is to come

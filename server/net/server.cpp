@@ -32,8 +32,6 @@ constexpr int kTicksPerHeartbeat = 5;
 constexpr Duration kMinTick = std::chrono::milliseconds(5);
 /// Wall time for the robot to tell who it is at the start.
 constexpr Duration kInfoTimeout = std::chrono::seconds(10);
-/// After an accept that failed (no file descriptor left): the listener must not die, nor spin.
-constexpr Duration kAcceptPause = std::chrono::milliseconds(100);
 constexpr std::string_view kOwnName = "seekerd/net";
 
 template <std::size_t... I>
@@ -58,9 +56,8 @@ class Server::Impl {
       : params_(std::move(params)),
         io_(std::make_shared<asio::io_context>(1)),
         work_(asio::make_work_guard(*io_)),
-        acceptor_(*io_),
+        listener_(*io_, kPart, [this](tcp::socket socket) { admit(std::move(socket)); }),
         tick_(*io_),
-        pause_(*io_),
         mailbox_(std::make_shared<Mailbox>(2 * params_.backlog.items)),
         backlogs_(make_backlogs(params_.backlog, std::make_index_sequence<api::kTopicCount>())),
         hub_{params_, host, io_, backlogs_, {}, net::random_id(), {}, {}, {}, {}} {
@@ -75,7 +72,7 @@ class Server::Impl {
     if (!ready) {
       return tl::unexpected<Error>(ready.error());
     }
-    Result<std::uint16_t> port = net::listen_on(acceptor_, params_.address, params_.port);
+    Result<std::uint16_t> port = listener_.open(params_.address, params_.port);
     if (!port) {
       return port;
     }
@@ -83,7 +80,7 @@ class Server::Impl {
     if (!ready) {
       return tl::unexpected<Error>(ready.error());
     }
-    accept();
+    listener_.accept();
     tick();
     thread_ = std::thread([this] { run(); });
     log::info(kPart, "listening on " + params_.address + " port " + std::to_string(*port));
@@ -155,26 +152,6 @@ class Server::Impl {
     }
     subscription_ = std::move(*subscription);
     return {};
-  }
-
-  void accept() {
-    acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-      if (stopping_) {
-        return;
-      }
-      if (error) {
-        log::warning(kPart, "a connection could not be accepted: " + error.message());
-        pause_.expires_after(kAcceptPause);
-        pause_.async_wait([this](error_code ended) {
-          if (!ended) {
-            accept();
-          }
-        });
-        return;
-      }
-      admit(std::move(socket));
-      accept();
-    });
   }
 
   void admit(tcp::socket socket) {
@@ -299,10 +276,8 @@ class Server::Impl {
 
   void close_all() {
     stopping_ = true;
-    error_code ignored;
-    acceptor_.close(ignored);
+    listener_.close();
     tick_.cancel();
-    pause_.cancel();
     for (const auto& session : snapshot()) {
       session->end({::seeker::v1::Close::REASON_SHUTTING_DOWN, "the robot's server is shutting down", false, true});
     }
@@ -312,9 +287,8 @@ class Server::Impl {
   ServerParams params_;
   std::shared_ptr<asio::io_context> io_;
   asio::executor_work_guard<asio::io_context::executor_type> work_;
-  tcp::acceptor acceptor_;
+  net::Listener listener_;
   asio::steady_timer tick_;
-  asio::steady_timer pause_;
   std::shared_ptr<Mailbox> mailbox_;
   wire::Backlogs backlogs_;
   SessionHub hub_;
