@@ -134,21 +134,17 @@ api::MissionRequest request_of(const ExploreSpec& spec) {
 }  // namespace
 
 Result<std::string> settings_of(const ExploreSpec& spec) {
-  Result<app::RobotOptions> options = sim_options(spec);
-  if (!options) {
-    return tl::unexpected<Error>(options.error());
+  Result<TextHash> hash = settings_hash(sim_options(spec), spec);
+  if (!hash) {
+    return tl::unexpected<Error>(hash.error());
   }
-  TextHash hash;
-  if (const Status ok = add_settings(hash, std::move(*options), spec); !ok) {
-    return tl::unexpected<Error>(ok.error());
-  }
-  hash.add(to_string(spec.strategy));
+  hash->add(to_string(spec.strategy));
   for (const Point2& p : spec.bound.value_or(Polygon{})) {
-    hash.add(std::to_string(p.x()) + " " + std::to_string(p.y()));
+    hash->add(std::to_string(p.x()) + " " + std::to_string(p.y()));
   }
-  hash.add(spec.return_to_start ? "return" : "");
-  hash.add(std::to_string(spec.wall_near_m));
-  return hash.hex();
+  hash->add(spec.return_to_start ? "return" : "");
+  hash->add(std::to_string(spec.wall_near_m));
+  return hash->hex();
 }
 
 Result<ExploreRecord> run_explore(const ExploreSpec& spec, const ExploreWatcher& watcher) {

@@ -226,16 +226,12 @@ void describe(config::Fields& f, FleetResult& result) {
 }
 
 Result<std::string> settings_of(const FleetSpec& spec) {
-  Result<app::RobotOptions> options = sim_options(spec);
-  if (!options) {
-    return tl::unexpected<Error>(options.error());
+  Result<TextHash> hash = settings_hash(sim_options(spec), spec);
+  if (!hash) {
+    return tl::unexpected<Error>(hash.error());
   }
-  TextHash hash;
-  if (const Status ok = add_settings(hash, std::move(*options), spec); !ok) {
-    return tl::unexpected<Error>(ok.error());
-  }
-  hash.add(std::to_string(spec.robots) + " " + std::to_string(spec.merge_period_s));
-  return hash.hex();
+  hash->add(std::to_string(spec.robots) + " " + std::to_string(spec.merge_period_s));
+  return hash->hex();
 }
 
 Result<FleetResult> run_fleet(const FleetSpec& spec) {

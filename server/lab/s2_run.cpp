@@ -228,17 +228,13 @@ Status S2Run::relocalise() {
 
 Result<std::string> settings_of(const S2Spec& spec) {
   const SimSpec sim = sim_spec_of(spec);
-  Result<app::RobotOptions> options = sim_options(sim);
-  if (!options) {
-    return tl::unexpected<Error>(options.error());
+  Result<TextHash> hash = settings_hash(sim_options(sim), sim);
+  if (!hash) {
+    return tl::unexpected<Error>(hash.error());
   }
-  TextHash hash;
-  if (const Status ok = add_settings(hash, std::move(*options), sim); !ok) {
-    return tl::unexpected<Error>(ok.error());
-  }
-  hash.add(spec.paper ? "paper" : "default");
-  hash.add("poses adjusted, foreign rooms stretched");  // what a run is has changed with these
-  return hash.hex();
+  hash->add(spec.paper ? "paper" : "default");
+  hash->add("poses adjusted, foreign rooms stretched");  // what a run is has changed with these
+  return hash->hex();
 }
 
 Result<S2Record> run_s2(const S2Spec& spec) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/core/angle.hpp"
-#include "common/core/assert.hpp"
+#include "server/fleet/icp.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -17,34 +17,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-Point2 mean_of(const std::vector<Point2>& points) {
-  Point2 sum = Point2::Zero();
-  for (const Point2& point : points) {
-    sum += point;
-  }
-  return sum / static_cast<double>(points.size());
-}
-
 }  // namespace
-
-Pose2 fit_motion(const std::vector<Point2>& points_a, const std::vector<Point2>& points_b) {
-  SEEKER_ASSERT(points_a.size() == points_b.size() && !points_a.empty());
-  const Point2 centre_a = mean_of(points_a);
-  const Point2 centre_b = mean_of(points_b);
-  double dot = 0.0;
-  double cross = 0.0;
-  for (std::size_t k = 0; k < points_a.size(); ++k) {
-    const Point2 a = points_a[k] - centre_a;
-    const Point2 b = points_b[k] - centre_b;
-    dot += a.dot(b);
-    cross += b.x() * a.y() - b.y() * a.x();
-  }
-  Pose2 a_T_b{0.0, 0.0, std::atan2(cross, dot)};
-  const Point2 shift = centre_a - a_T_b * centre_b;
-  a_T_b.x_m = shift.x();
-  a_T_b.y_m = shift.y();
-  return a_T_b;
-}
 
 Result<ReferenceReport> score_reference(const Trajectory& trajectory, const Trajectory& reference, double max_gap_s) {
   std::vector<Pose2> estimates;
@@ -66,7 +39,7 @@ Result<ReferenceReport> score_reference(const Trajectory& trajectory, const Traj
   ReferenceReport report;
   report.used = estimates.size();
   report.missed = trajectory.size() - estimates.size();
-  report.reference_T_map = fit_motion(true_points, estimated_points);
+  report.reference_T_map = fleet::rigid_fit(true_points, estimated_points);
   std::vector<double> translation_m;
   std::vector<double> rotation_deg;
   for (std::size_t k = 0; k < estimates.size(); ++k) {

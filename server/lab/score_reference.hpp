@@ -27,9 +27,6 @@ struct ReferenceReport {
 [[nodiscard]] Result<ReferenceReport> score_reference(const Trajectory& trajectory, const Trajectory& reference,
                                                       double max_gap_s);
 
-/// The rigid motion a_T_b that brings the points of b nearest to those of a, pair by pair, in the least squares sense.
-[[nodiscard]] Pose2 fit_motion(const std::vector<Point2>& points_a, const std::vector<Point2>& points_b);
-
 /// map_T_base from a localiser's map_T_odom and the odometry, at the stamps of the odometry that it covers; between
 /// its entries the correction is interpolated.
 [[nodiscard]] Trajectory apply_corrections(const Trajectory& map_T_odom, const Trajectory& odometry, double max_gap_s);

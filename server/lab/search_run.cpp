@@ -202,18 +202,14 @@ Result<app::RobotOptions> options_of(const RunSpec& spec) {
 }
 
 Result<std::string> settings_of(const RunSpec& spec) {
-  Result<app::RobotOptions> options = options_of(spec);
-  if (!options) {
-    return tl::unexpected<Error>(options.error());
+  Result<TextHash> hash = settings_hash(options_of(spec), spec);
+  if (!hash) {
+    return tl::unexpected<Error>(hash.error());
   }
-  TextHash hash;
-  if (const Status ok = add_settings(hash, std::move(*options), spec); !ok) {
-    return tl::unexpected<Error>(ok.error());
-  }
-  hash.add(to_string(spec.strategy));
-  hash.add(to_string(spec.on_found));
-  hash.add(spec.explore ? "explore" : "");
-  return hash.hex();
+  hash->add(to_string(spec.strategy));
+  hash->add(to_string(spec.on_found));
+  hash->add(spec.explore ? "explore" : "");
+  return hash->hex();
 }
 
 Result<api::TargetSpec> target_of(const sim::World& world, const RunSpec& spec) {

@@ -45,15 +45,19 @@ Result<app::RobotOptions> sim_options(const SimSpec& spec) {
   return options;
 }
 
-Status add_settings(TextHash& hash, app::RobotOptions options, const SimSpec& spec) {
-  options.sim.world = spec.world_file.filename().string();
-  options.sim.seed = 0;
-  hash.add(config::print(options));
-  if (Status ok = add_world(hash, spec.world_file); !ok) {
-    return ok;
+Result<TextHash> settings_hash(Result<app::RobotOptions> options, const SimSpec& spec) {
+  if (!options) {
+    return tl::unexpected<Error>(options.error());
+  }
+  options->sim.world = spec.world_file.filename().string();
+  options->sim.seed = 0;
+  TextHash hash;
+  hash.add(config::print(*options));
+  if (const Status ok = add_world(hash, spec.world_file); !ok) {
+    return tl::unexpected<Error>(ok.error());
   }
   hash.add(std::to_string(spec.time_limit_s));
-  return {};
+  return hash;
 }
 
 RunWatch::RunWatch(app::RobotLoop& loop, const sim::Simulation& simulation) : loop_(loop), simulation_(simulation) {

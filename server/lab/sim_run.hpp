@@ -29,9 +29,9 @@ struct SimSpec {
 /// The robot file with the run's world, seed and overrides; as fast as the machine can.
 [[nodiscard]] Result<app::RobotOptions> sim_options(const SimSpec& spec);
 
-/// Adds to the hash what shapes a run: the options (world by name, seed left out), the world's file and its base, the
-/// time limit.
-[[nodiscard]] Status add_settings(TextHash& hash, app::RobotOptions options, const SimSpec& spec);
+/// Of what shapes every run: the options (world by name, seed left out), the world's file and its base, the time limit.
+/// A kind of run adds what else shapes it. Errors: those of the options, and of the world's files.
+[[nodiscard]] Result<TextHash> settings_hash(Result<app::RobotOptions> options, const SimSpec& spec);
 
 /// Where the robot really was at one step.
 struct TrueStep {
