@@ -238,7 +238,19 @@ Situation RobotLoop::situation() const {
   s.odom_T_base = odometry_ ? odometry_->odom_T_base : Pose2{};
   s.map_name = map_.identity().name;
   s.has_stereo = parts_.devices.stereo != nullptr && parts_.stereo != nullptr;
+  s.fleet = fleet_ ? &*fleet_ : nullptr;
   return s;
+}
+
+void RobotLoop::note_topology() {
+  const Behaviour* behaviour = missions_.behaviour();
+  const Topology* topology = behaviour != nullptr ? behaviour->topology() : nullptr;
+  own_topology_.map_T_base = pose_.map_T_base;
+  own_topology_.active = topology != nullptr;
+  own_topology_.target_map = topology != nullptr ? behaviour->target_map() : std::nullopt;
+  if (topology != nullptr) {
+    own_topology_.topology = *topology;
+  }
 }
 
 Twist2 RobotLoop::decide(WallTime wall_now) {
@@ -246,6 +258,7 @@ Twist2 RobotLoop::decide(WallTime wall_now) {
   take_look();
   const Situation here = situation();
   const Decision decision = missions_.step(here, faults_.blocking(), wall_now);
+  note_topology();
   if (decision.wants_image && missions_.running()) {
     look();
   }

@@ -119,6 +119,11 @@ class RobotLoop {
   void client_closed(const std::string& client);
   /// The mission that a crash cut off: `resume` starts it again while no other has been started.
   void offer_unfinished(std::optional<api::MissionRequest> request) { unfinished_ = std::move(request); }
+  /// What the robot knows of its fleet from now on, frame `map`; nothing: it is alone.
+  void set_fleet(std::optional<FleetView> fleet) { fleet_ = std::move(fleet); }
+  /// What it tells its fleet of its newest exploration by topology, frame `map`; inactive after that has ended. Its id
+  /// is the teller's.
+  [[nodiscard]] const RobotTopology& own_topology() const { return own_topology_; }
   /// A fault from outside the loop's own parts (the journal).
   void report_fault(const api::Fault& fault);
   /// Everything a new subscriber needs is published in the next pass.
@@ -143,6 +148,7 @@ class RobotLoop {
   void estimate();
   void end_source(const Error& error);
   [[nodiscard]] Twist2 decide(WallTime wall_now);
+  void note_topology();
   /// Takes a picture and has the mission's recogniser look at it.
   void look();
   // Looking with both eyes (robot_stereo.cpp).
@@ -197,6 +203,8 @@ class RobotLoop {
 
   PoseEstimate pose_;
   std::optional<Pose2> odom_T_base_at_pose_;
+  std::optional<FleetView> fleet_;
+  RobotTopology own_topology_;  ///< set in every tick
   Twist2 command_;
   std::string safety_reason_;
   bool motors_on_ = false;

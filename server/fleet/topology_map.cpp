@@ -179,6 +179,15 @@ Topology moved(Topology topology, const Pose2& new_T_old) {
   return topology;
 }
 
+RobotTopology moved(RobotTopology robot, const Pose2& new_T_old) {
+  robot.map_T_base = new_T_old * robot.map_T_base;
+  robot.topology = moved(std::move(robot.topology), new_T_old);
+  if (robot.target_map) {
+    robot.target_map = new_T_old * *robot.target_map;
+  }
+  return robot;
+}
+
 void TopologyMap::transform(const Pose2& new_T_old) {
   map_ = moved(std::move(map_), new_T_old);
   for (Point2& p_map : closed_map_) {

@@ -71,6 +71,7 @@ struct RuleInput {
 
 /// The same places in another frame.
 [[nodiscard]] Topology moved(Topology topology, const Pose2& new_T_old);
+[[nodiscard]] RobotTopology moved(RobotTopology robot, const Pose2& new_T_old);
 
 /// One robot's topology; ids count from 1. Not thread-safe.
 class TopologyMap {

@@ -14,16 +14,10 @@ class Watched final : public app::Behaviour {
 
   app::Decision step(const app::Situation& situation) override {
     const double before_s = thread_seconds();
-    app::Situation seen = situation;
-    seen.fleet = log_->fleet ? &*log_->fleet : situation.fleet;
-    app::Decision decision = inner_->step(seen);
+    app::Decision decision = inner_->step(situation);
     log_->processor_s += thread_seconds() - before_s;
     log_->decisions += decision.exploration ? 1 : 0;
     log_->phase = decision.phase;
-    if (const Topology* topology = inner_->topology()) {
-      log_->topology = *topology;
-      log_->target_map = inner_->target_map();
-    }
     return decision;
   }
   std::shared_ptr<const vision::Recogniser> recogniser() const override { return inner_->recogniser(); }

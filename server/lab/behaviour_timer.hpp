@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "server/app/mission_executor.hpp"
@@ -14,9 +13,6 @@ struct DecisionLog {
   int decisions = 0;         ///< of explorations
   double processor_s = 0.0;  ///< of the thread, in all steps of behaviours
   std::string phase;         ///< of the newest step
-  Topology topology;         ///< of an exploration by topology, newest; frame `map`
-  std::optional<Point2> target_map;
-  std::optional<FleetView> fleet;  ///< what the behaviour is to know of other robots; written by the experiment
 };
 
 /// A factory of the same behaviours that write into `log`.

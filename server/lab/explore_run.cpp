@@ -47,7 +47,7 @@ class Observer {
     samples_.push_back(sample());
     add_curves(samples_, result);
     result.max_error_m = watch_.max_error_m();
-    record.topology = log_->topology;
+    record.topology = loop_.own_topology().topology;
     record.events = watch_.events();
     record.samples = std::move(samples_);
     record.true_path = std::move(path_);
@@ -169,7 +169,7 @@ Result<ExploreRecord> run_explore(const ExploreSpec& spec, const ExploreWatcher&
   const Result<double> wall_time_s = run_mission(loop, request_of(spec), [&] {
     observer.look();
     if (watcher) {
-      watcher(loop, *simulation, *log);
+      watcher(loop, *simulation);
     }
   });
   if (!wall_time_s) {

@@ -49,7 +49,7 @@ struct ExploreRecord {
 [[nodiscard]] Result<std::string> settings_of(const ExploreSpec& spec);
 
 /// Called before every pass of the loop.
-using ExploreWatcher = std::function<void(const app::RobotLoop&, sim::Simulation&, const DecisionLog&)>;
+using ExploreWatcher = std::function<void(const app::RobotLoop&, sim::Simulation&)>;
 
 /// Runs to the mission's end. Errors: those of the files, and a refused mission.
 [[nodiscard]] Result<ExploreRecord> run_explore(const ExploreSpec& spec, const ExploreWatcher& watcher = {});

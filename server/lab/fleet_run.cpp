@@ -13,7 +13,6 @@
 #include "server/app/update_hub.hpp"
 #include "server/fleet/map_merger.hpp"
 #include "server/fleet/topology_map.hpp"
-#include "server/lab/behaviour_timer.hpp"
 #include "server/lab/experiment.hpp"
 #include "server/lab/json_printer.hpp"
 #include "server/lab/resumable.hpp"
@@ -29,11 +28,9 @@ struct Member {
   app::UpdateHub hub;
   std::shared_ptr<sim::Simulation> simulation;
   std::shared_ptr<drivers::Clock> clock;
-  std::shared_ptr<DecisionLog> log = std::make_shared<DecisionLog>();
   std::unique_ptr<app::RobotLoop> loop;
   fleet::PreparedMap map;
   Status ran;
-  bool ended = false;
 };
 using Members = std::vector<std::unique_ptr<Member>>;
 
@@ -113,18 +110,12 @@ class Exchange {
         view.others.push_back(seen_from(to_T_from, *members_[relation.a == to ? relation.b : relation.a]));
       }
     }
-    members_[to]->log->fleet = std::move(view);
+    members_[to]->loop->set_fleet(std::move(view));
   }
 
   static RobotTopology seen_from(const Pose2& to_T_from, const Member& from) {
-    RobotTopology robot;
+    RobotTopology robot = fleet::moved(from.loop->own_topology(), to_T_from);
     robot.robot_id = from.id;
-    robot.map_T_base = to_T_from * from.loop->status().pose.map_T_base;
-    robot.topology = fleet::moved(from.log->topology, to_T_from);
-    robot.active = !from.ended;
-    if (from.log->target_map) {
-      robot.target_map = to_T_from * *from.log->target_map;
-    }
     return robot;
   }
 
@@ -166,7 +157,6 @@ Result<std::unique_ptr<Member>> seat(const FleetSpec& spec, app::RobotOptions op
   parts.stereo = std::move(devices.stereo);
   parts.clock = std::move(devices.clock);
   member->clock = parts.clock;
-  assembly->parts.behaviours = watched(std::move(assembly->parts.behaviours), member->log);
   member->loop = std::make_unique<app::RobotLoop>(options.loop, std::move(assembly->parts), member->hub);
   return member;
 }
@@ -195,7 +185,6 @@ void run_all(const FleetSpec& spec, Members& members) {
     threads.emplace_back([&spec, m = member.get()] {
       const Result<double> ran = run_mission(*m->loop, request_of(spec), [] {});
       m->ran = ran ? Status() : Status(tl::unexpected<Error>(ran.error()));
-      m->ended = true;
       m->clock->let_go();
     });
   }

@@ -75,7 +75,7 @@ Status draw_tree(const ReproduceParams& params, Report& report) {
 /// that it is not counted.
 class LoadMeter {
  public:
-  void look(const app::RobotLoop& loop, sim::Simulation& simulation, const DecisionLog& log) {
+  void look(const app::RobotLoop& loop, sim::Simulation& simulation) {
     const double time_s = to_seconds(loop.now());
     if (samples_.empty() || time_s >= samples_.back().time_s + kLoadPeriod_s) {
       const double loop_s = thread_seconds() - since_s_;
@@ -83,8 +83,9 @@ class LoadMeter {
       const double before_s = thread_seconds();
       (void)vision::detect_sift(vision::to_grey_mat(picture), vision::place_detector_params());
       const double features_s = thread_seconds() - before_s;
-      samples_.push_back({time_s, samples_.empty() ? 0.0 : loop_s, features_s, log.topology.nodes.size() > nodes_});
-      nodes_ = log.topology.nodes.size();
+      samples_.push_back(
+          {time_s, samples_.empty() ? 0.0 : loop_s, features_s, loop.own_topology().topology.nodes.size() > nodes_});
+      nodes_ = loop.own_topology().topology.nodes.size();
       since_s_ = thread_seconds();
     }
   }
@@ -99,10 +100,8 @@ class LoadMeter {
 Status draw_single(const ReproduceParams& params, Report& report) {
   LoadMeter meter;
   const ExploreSpec spec = spec_of(params, params.seeds.front());
-  const Result<ExploreRecord> record =
-      run_explore(spec, [&meter](const app::RobotLoop& loop, sim::Simulation& simulation, const DecisionLog& log) {
-        meter.look(loop, simulation, log);
-      });
+  const Result<ExploreRecord> record = run_explore(
+      spec, [&meter](const app::RobotLoop& loop, sim::Simulation& simulation) { meter.look(loop, simulation); });
   if (!record) {
     return tl::unexpected<Error>(record.error());
   }
