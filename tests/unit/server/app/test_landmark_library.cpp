@@ -54,7 +54,9 @@ TEST_F(LandmarkLibraryTest, PruningKeepsWhatWasSeenOftenAndCanBeTakenBack) {
   ASSERT_TRUE(pruned) << pruned.error().message;
   EXPECT_GT(pruned->landmarks, 0U);
   EXPECT_LT(pruned->landmarks, database().size());
-  for (const localize::Landmark& landmark : library_.load("lab")->database->landmarks()) {
+  const auto loaded = library_.load("lab");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  for (const localize::Landmark& landmark : loaded->database->landmarks()) {
     EXPECT_GE(landmark.seen, 8);
   }
   EXPECT_EQ(library_.prune("lab", 100'000).error().code, Errc::kRefused);
