@@ -81,9 +81,9 @@ TEST(DiskWorker, DoesEverythingInOrderBeforeItEnds) {
 }
 
 TEST(DiskWorker, MoreThanItsLimitIsRefusedWithTheReason) {
-  DiskWorker disk(2, "maps");
   std::promise<void> begun;
   std::promise<void> go_on;
+  DiskWorker disk(2, "maps");  // ends first: its thread still looks at the promises
   ASSERT_TRUE(disk.post([&] {
     begun.set_value();
     go_on.get_future().wait();
