@@ -131,6 +131,9 @@ struct LandmarksPruneVerb {
   std::string name;
   int min_views = 3;
 };
+struct LandmarksRevertVerb {
+  std::string name;
+};
 struct LandmarksDeleteVerb {
   std::string name;
   bool yes = false;
@@ -173,9 +176,9 @@ struct VersionVerb {};
 using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb, DriveVerb,
                           StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb,
                           MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb,
-                          LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksDeleteVerb,
-                          FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb, DetectionsVerb,
-                          CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+                          LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksRevertVerb,
+                          LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
+                          DetectionsVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

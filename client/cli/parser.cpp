@@ -160,7 +160,7 @@ void add_survey(Parse& parse) {
 
 void add_landmarks(Parse& parse) {
   CLI::App* landmarks =
-      parse.app.add_subcommand("landmarks", "Databases of landmarks: look into, check, export, prune");
+      parse.app.add_subcommand("landmarks", "Databases of landmarks: look into, check, export, prune, revert");
   landmarks->require_subcommand(1);
   landmarks->fallthrough();
   landmarks->footer("Example:\n  seeker landmarks info\n  seeker landmarks export lab out/lab.csv");
@@ -183,6 +183,9 @@ void add_landmarks(Parse& parse) {
   prune->add_option("--min-views", p->min_views, "Keep those seen in so many pictures or more")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  auto [revert, r] = add_verb<LandmarksRevertVerb>(
+      parse, *landmarks, "revert", "Take back the last update or pruning of a database", "seeker landmarks revert lab");
+  revert->add_option("name", r->name, "Name of the database")->required();
   auto [remove, d] = add_verb<LandmarksDeleteVerb>(parse, *landmarks, "delete", "Delete a database of the robot",
                                                    "seeker landmarks delete lab --yes");
   remove->add_option("name", d->name, "Name of the database")->required();

@@ -95,6 +95,9 @@ class Dispatch {
   VerbResult operator()(const LandmarksPruneVerb& verb) {
     return with_robot([&] { return prune_landmarks(context_, verb); });
   }
+  VerbResult operator()(const LandmarksRevertVerb& verb) {
+    return with_robot([&] { return revert_landmarks(context_, verb); });
+  }
   VerbResult operator()(const LandmarksDeleteVerb& verb) {
     return with_robot([&] { return delete_landmarks(context_, verb); });
   }

@@ -40,6 +40,7 @@ using VerbResult = Result<ExitCode>;
 /// A CSV file, and a picture beside it.
 [[nodiscard]] VerbResult export_landmarks(const Context& context, const LandmarksExportVerb& verb);
 [[nodiscard]] VerbResult prune_landmarks(const Context& context, const LandmarksPruneVerb& verb);
+[[nodiscard]] VerbResult revert_landmarks(const Context& context, const LandmarksRevertVerb& verb);
 [[nodiscard]] VerbResult delete_landmarks(const Context& context, const LandmarksDeleteVerb& verb);
 // The calls to a fleet; `robot` is the address given with --robot.
 [[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetStatusVerb& verb);

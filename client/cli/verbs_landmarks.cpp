@@ -143,6 +143,13 @@ VerbResult prune_landmarks(const Context& context, const LandmarksPruneVerb& ver
   return show(context, database, "");
 }
 
+VerbResult revert_landmarks(const Context& context, const LandmarksRevertVerb& verb) {
+  const auto database = ask<api::LandmarkSummary>(context, [&](api::Reply<api::LandmarkSummary> reply) {
+    context.robot->revert_landmarks(verb.name, std::move(reply));
+  });
+  return show(context, database, "");
+}
+
 VerbResult delete_landmarks(const Context& context, const LandmarksDeleteVerb& verb) {
   if (!verb.yes) {
     return fail(Errc::kInvalidArgument,

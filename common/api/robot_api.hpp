@@ -146,6 +146,9 @@ class RobotApi {
   /// Deletes those that fewer pictures than `min_views` have shown. kRefused: nothing would be left, or the robot
   /// localises by this database.
   virtual void prune_landmarks(const std::string& name, int min_views, Reply<LandmarkSummary> reply) = 0;
+  /// Takes back the last change of a database: an update, or a pruning. kNotReady: there is no version before the
+  /// present one; kRefused: the robot localises by this database.
+  virtual void revert_landmarks(const std::string& name, Reply<LandmarkSummary> reply) = 0;
   virtual void delete_landmarks(const std::string& name, Reply<void> reply) = 0;
 
   [[nodiscard]] virtual Result<std::unique_ptr<Subscription>> subscribe(const std::vector<TopicRequest>& topics,

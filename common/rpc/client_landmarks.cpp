@@ -43,6 +43,14 @@ void RobotClient::prune_landmarks(const std::string& name, int min_views, api::R
               }));
 }
 
+void RobotClient::revert_landmarks(const std::string& name, api::Reply<api::LandmarkSummary> reply) {
+  pb::Request request;
+  request.mutable_revert_landmarks()->set_name(wire::clean_text(name));
+  impl_->call(std::move(request), value_answer<api::LandmarkSummary>(std::move(reply), [](const Responses& r) {
+                return wire::from_message<api::LandmarkSummary>(r.front().revert_landmarks().database());
+              }));
+}
+
 void RobotClient::delete_landmarks(const std::string& name, api::Reply<void> reply) {
   pb::Request request;
   request.mutable_delete_landmarks()->set_name(wire::clean_text(name));

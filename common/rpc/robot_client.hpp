@@ -109,6 +109,7 @@ class RobotClient final : public api::RobotApi {
   void inspect_landmarks(const std::string& name, bool verify, api::Reply<api::LandmarkSummary> reply) override;
   void get_landmarks(const std::string& name, api::Reply<std::vector<api::LandmarkPoint>> reply) override;
   void prune_landmarks(const std::string& name, int min_views, api::Reply<api::LandmarkSummary> reply) override;
+  void revert_landmarks(const std::string& name, api::Reply<api::LandmarkSummary> reply) override;
   void delete_landmarks(const std::string& name, api::Reply<void> reply) override;
   void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override;
   /// Returns at once. Fails (kInvalidArgument) for an empty list, a topic named twice or a negative rate.

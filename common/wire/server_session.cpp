@@ -42,6 +42,7 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kUploadMap:
     case pb::Request::kPruneLandmarks:
     case pb::Request::kDeleteLandmarks:
+    case pb::Request::kRevertLandmarks:
     case pb::Request::kRelocalise:
     case pb::Request::kDrive: return api::Role::kOperator;
     case pb::Request::kSetEstop: return request.set_estop().engaged() ? api::Role::kObserver : api::Role::kOperator;

@@ -78,13 +78,21 @@ void LandmarkService::points(const std::string& name, const api::Reply<std::vect
   });
 }
 
-void LandmarkService::prune(const std::string& name, int min_views, const api::Reply<api::LandmarkSummary>& reply) {
+void LandmarkService::change(const std::string& name, const api::Reply<api::LandmarkSummary>& reply,
+                             std::function<Result<api::LandmarkSummary>(LandmarkLibrary&)> work) {
   if (const Status free = may_change(name); !free) {
     reply(tl::unexpected<Error>(free.error()));
     return;
   }
-  on_worker<api::LandmarkSummary>(
-      reply, [name, min_views](LandmarkLibrary& library) { return library.prune(name, min_views); });
+  on_worker<api::LandmarkSummary>(reply, std::move(work));
+}
+
+void LandmarkService::prune(const std::string& name, int min_views, const api::Reply<api::LandmarkSummary>& reply) {
+  change(name, reply, [name, min_views](LandmarkLibrary& library) { return library.prune(name, min_views); });
+}
+
+void LandmarkService::revert(const std::string& name, const api::Reply<api::LandmarkSummary>& reply) {
+  change(name, reply, [name](LandmarkLibrary& library) { return library.revert(name); });
 }
 
 void LandmarkService::remove(const std::string& name, const api::Reply<void>& reply) {

@@ -23,11 +23,15 @@ class LandmarkService {
   void inspect(const std::string& name, bool verify, const api::Reply<api::LandmarkSummary>& reply);
   void points(const std::string& name, const api::Reply<std::vector<api::LandmarkPoint>>& reply);
   void prune(const std::string& name, int min_views, const api::Reply<api::LandmarkSummary>& reply);
+  void revert(const std::string& name, const api::Reply<api::LandmarkSummary>& reply);
   void remove(const std::string& name, const api::Reply<void>& reply);
 
  private:
   template <class T>
   void on_worker(const api::Reply<T>& reply, std::function<Result<T>(LandmarkLibrary&)> work);
+  /// On the worker, unless the robot's estimator goes by this database.
+  void change(const std::string& name, const api::Reply<api::LandmarkSummary>& reply,
+              std::function<Result<api::LandmarkSummary>(LandmarkLibrary&)> work);
   [[nodiscard]] Status may_change(const std::string& name) const;
 
   std::shared_ptr<LandmarkLibrary> library_;

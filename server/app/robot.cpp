@@ -119,6 +119,9 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   void prune_landmarks(const std::string& name, int min_views, api::Reply<api::LandmarkSummary> reply) override {
     robot_.landmarks_.prune(name, min_views, reply);
   }
+  void revert_landmarks(const std::string& name, api::Reply<api::LandmarkSummary> reply) override {
+    robot_.landmarks_.revert(name, reply);
+  }
   void delete_landmarks(const std::string& name, api::Reply<void> reply) override {
     robot_.landmarks_.remove(name, reply);
   }

@@ -55,6 +55,15 @@ void prune_landmarks(const Responder& responder, api::RobotApi& robot, const pb:
   });
 }
 
+void revert_landmarks(const Responder& responder, api::RobotApi& robot, const std::string& name) {
+  with_name(responder, name, [&] {
+    robot.revert_landmarks(
+        name, reply_with<api::LandmarkSummary>(responder, [](const api::LandmarkSummary& database, pb::Response& to) {
+          wire::write(database, to.mutable_revert_landmarks()->mutable_database());
+        }));
+  });
+}
+
 }  // namespace
 
 bool handle_landmark_call(const Responder& responder, Session& session, const pb::Request& request) {
@@ -65,6 +74,7 @@ bool handle_landmark_call(const Responder& responder, Session& session, const pb
     case R::kInspectLandmarks: inspect_landmarks(responder, robot, request.inspect_landmarks()); return true;
     case R::kGetLandmarks: get_landmarks(responder, robot, request.get_landmarks()); return true;
     case R::kPruneLandmarks: prune_landmarks(responder, robot, request.prune_landmarks()); return true;
+    case R::kRevertLandmarks: revert_landmarks(responder, robot, request.revert_landmarks().name()); return true;
     case R::kDeleteLandmarks:
       with_name(responder, request.delete_landmarks().name(),
                 [&] { robot.delete_landmarks(request.delete_landmarks().name(), reply_empty(responder)); });

@@ -69,9 +69,22 @@ Result<api::LandmarkSummary> fake_prune_landmarks(FakeRobotValues& values, const
   if (const auto known = fake_landmarks(values, name); !known) {
     return tl::unexpected<Error>(known.error());
   }
+  values.landmarks_before[name] = values.landmarks[name];
   std::erase_if(values.landmarks[name], [&](const api::LandmarkPoint& landmark) {
     return landmark.views < static_cast<std::uint32_t>(min_views);
   });
+  return fake_inspect_landmarks(values, name);
+}
+
+Result<api::LandmarkSummary> fake_revert_landmarks(FakeRobotValues& values, const std::string& name) {
+  if (const auto known = fake_landmarks(values, name); !known) {
+    return tl::unexpected<Error>(known.error());
+  }
+  const auto before = values.landmarks_before.extract(name);
+  if (before.empty()) {
+    return fail(Errc::kNotReady, "database '" + name + "' has no version before the present one");
+  }
+  values.landmarks[name] = before.mapped();
   return fake_inspect_landmarks(values, name);
 }
 

@@ -18,6 +18,8 @@ namespace seeker::testing {
                                                                   const std::string& name);
 [[nodiscard]] Result<std::vector<api::LandmarkPoint>> fake_landmarks(const FakeRobotValues& values,
                                                                      const std::string& name);
+/// Takes a pruning back, once.
+[[nodiscard]] Result<api::LandmarkSummary> fake_revert_landmarks(FakeRobotValues& values, const std::string& name);
 [[nodiscard]] Result<api::LandmarkSummary> fake_prune_landmarks(FakeRobotValues& values, const std::string& name,
                                                                 int min_views);
 

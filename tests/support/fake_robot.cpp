@@ -245,6 +245,10 @@ class FakeRobot final : public api::RobotApi {
     read<api::LandmarkSummary>("prune_landmarks " + name + " " + std::to_string(min_views), reply,
                                [&](FakeRobotValues& v) { return fake_prune_landmarks(v, name, min_views); });
   }
+  void revert_landmarks(const std::string& name, api::Reply<api::LandmarkSummary> reply) override {
+    read<api::LandmarkSummary>("revert_landmarks " + name, reply,
+                               [&](FakeRobotValues& v) { return fake_revert_landmarks(v, name); });
+  }
   void delete_landmarks(const std::string& name, api::Reply<void> reply) override {
     change("delete_landmarks " + name, reply, [&](FakeRobotValues& v) {
       const auto known = fake_landmarks(v, name);

@@ -27,7 +27,8 @@ struct FakeRobotValues {
   /// What get_segments answers, whatever revision is asked for; nothing: the estimator keeps no map.
   std::optional<api::SegmentUpdate> segments;
   std::vector<api::MapSummary> maps;
-  std::map<std::string, std::vector<api::LandmarkPoint>> landmarks;  ///< databases by name
+  std::map<std::string, std::vector<api::LandmarkPoint>> landmarks;         ///< databases by name
+  std::map<std::string, std::vector<api::LandmarkPoint>> landmarks_before;  ///< the version before, where there is one
   std::map<std::string, std::vector<std::uint8_t>> map_files;
   std::vector<api::MapUpload> uploads;
   std::vector<std::optional<Pose2>> relocalisations;

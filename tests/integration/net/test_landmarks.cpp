@@ -20,6 +20,9 @@ TEST_F(LandmarkCallsTest, ValuesComeBackAsTheRobotHasThem) {
   EXPECT_EQ(ask<api::LandmarkSummary>([&](auto r) { client->inspect_landmarks("lab", true, r); }), all->front());
   EXPECT_EQ(ask<std::vector<api::LandmarkPoint>>([&](auto r) { client->get_landmarks("lab", r); }), landmarks_);
   EXPECT_EQ(ask<api::LandmarkSummary>([&](auto r) { client->prune_landmarks("lab", 3, r); })->landmarks, 1U);
+  EXPECT_EQ(ask<api::LandmarkSummary>([&](auto r) { client->revert_landmarks("lab", r); })->landmarks, 2U);
+  EXPECT_EQ(ask<api::LandmarkSummary>([&](auto r) { client->revert_landmarks("lab", r); }).error().code,
+            Errc::kNotReady);
   EXPECT_TRUE(ask<void>([&](auto r) { client->delete_landmarks("lab", r); }));
   EXPECT_TRUE(robot_.values().landmarks.empty());
 }
@@ -50,6 +53,8 @@ TEST_F(LandmarkCallsTest, ObserverLooksButDeletesNothing) {
   EXPECT_TRUE(ask<std::vector<api::LandmarkPoint>>([&](auto r) { client->get_landmarks("lab", r); }));
   EXPECT_EQ(ask<void>([&](auto r) { client->delete_landmarks("lab", r); }).error().code, Errc::kRefused);
   EXPECT_EQ(ask<api::LandmarkSummary>([&](auto r) { client->prune_landmarks("lab", 3, r); }).error().code,
+            Errc::kRefused);
+  EXPECT_EQ(ask<api::LandmarkSummary>([&](auto r) { client->revert_landmarks("lab", r); }).error().code,
             Errc::kRefused);
 }
 

@@ -27,12 +27,12 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
   };
   visit(tree, {});
   EXPECT_EQ(names, (std::vector<std::string>{
-                       "status",     "watch",    "map",       "export",     "save",   "load",       "list",
-                       "info",       "verify",   "delete",    "download",   "upload", "relocalise", "grid",
-                       "detections", "camera",   "grab",      "components", "search", "explore",    "goto",
-                       "survey",     "localise", "landmarks", "info",       "verify", "export",     "prune",
-                       "delete",     "fleet",    "status",    "merge",      "split",  "map",        "drive",
-                       "stop",       "estop",    "pause",     "resume",     "run",    "completion", "version"}));
+                       "status", "watch",      "map",      "export",  "save",       "load",   "list",       "info",
+                       "verify", "delete",     "download", "upload",  "relocalise", "grid",   "detections", "camera",
+                       "grab",   "components", "search",   "explore", "goto",       "survey", "localise",   "landmarks",
+                       "info",   "verify",     "export",   "prune",   "revert",     "delete", "fleet",      "status",
+                       "merge",  "split",      "map",      "drive",   "stop",       "estop",  "pause",      "resume",
+                       "run",    "completion", "version"}));
 }
 
 TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
@@ -54,6 +54,7 @@ TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
       {"fleet", "split"},
       {"fleet", "merge", "r2", "--hypothesis", "-1"},
       {"landmarks", "prune", "lab", "--min-views", "0"},
+      {"landmarks", "revert"},
       {"drive", "0.2"},
       {"drive", "fast", "0"},
       {"map"},
