@@ -1,6 +1,45 @@
 #include "common/api/fleet.hpp"
 
+#include <algorithm>
+
 namespace seeker::api {
+namespace {
+
+template <class T>
+void keep_newest(std::vector<T>& all, std::size_t at_most) {
+  if (all.size() > at_most) {
+    all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(at_most));
+  }
+}
+
+bool in_reach(const Point2& p_map) { return p_map.cwiseAbs().maxCoeff() <= kMaxFleetReach_m; }
+
+}  // namespace
+
+RobotTopology within_limits(RobotTopology robot) {
+  Topology& topology = robot.topology;
+  std::vector<TopologyNode>& nodes = topology.nodes;
+  std::erase_if(nodes, [](const TopologyNode& node) { return !in_reach(node.map_T_base.translation()); });
+  keep_newest(nodes, kMaxFleetPlaces);
+  const std::size_t share = std::max<std::size_t>(nodes.size(), 1);
+  for (TopologyNode& node : nodes) {
+    std::erase_if(node.goals, [&](const TopologyGoal& goal) {
+      return !in_reach(goal.p_map) || (goal.p_map - node.map_T_base.translation()).norm() > kMaxFleetGoal_m;
+    });
+    keep_newest(node.goals, kMaxFleetGoals / share);
+    keep_newest(node.sectors, kMaxFleetSectors / share);
+  }
+  const auto known = [&](std::uint64_t id) {
+    return std::any_of(nodes.begin(), nodes.end(), [id](const TopologyNode& node) { return node.id == id; });
+  };
+  std::erase_if(topology.edges, [&](const TopologyEdge& edge) { return !known(edge.a) || !known(edge.b); });
+  keep_newest(topology.edges, kMaxFleetWays);
+  topology.current = known(topology.current) ? topology.current : 0;
+  if (robot.target_map && !in_reach(*robot.target_map)) {
+    robot.target_map.reset();
+  }
+  return robot;
+}
 
 std::string_view to_string(FleetState state) {
   switch (state) {

@@ -11,6 +11,7 @@
 
 #include "common/core/line_map.hpp"
 #include "common/core/pose2.hpp"
+#include "common/core/topology.hpp"
 
 namespace seeker::api {
 
@@ -23,6 +24,14 @@ inline constexpr std::size_t kMaxFleetRobots = 16;  ///< the main one included
 inline constexpr std::size_t kMaxFleetPieceBytes = 8UL << 20U;
 inline constexpr std::size_t kMaxFleetChunkBytes = 1UL << 20U;
 inline constexpr std::size_t kMaxFleetHypotheses = 16;
+// Of one robot's topology: fifteen of them fit into one reply.
+inline constexpr std::size_t kMaxFleetPlaces = 2'000;
+inline constexpr std::size_t kMaxFleetGoals = 4'000;
+inline constexpr std::size_t kMaxFleetSectors = 20'000;
+inline constexpr std::size_t kMaxFleetWays = 10'000;
+inline constexpr int kMaxFleetLayer = 64;
+inline constexpr double kMaxFleetReach_m = 10'000.0;  ///< a place is not farther from the origin of any map
+inline constexpr double kMaxFleetGoal_m = 200.0;      ///< nor a goal from its place
 
 /// A local map by its piece: segments and scans in its own frame, so that it stays the same when the map around moves.
 struct FleetNode {
@@ -105,6 +114,26 @@ struct FleetAnswer {
   FleetStatus fleet;
   friend bool operator==(const FleetAnswer&, const FleetAnswer&) = default;
 };
+
+/// Where a robot has been and means to go, in its own frame `map`. Said more often than a manifest.
+struct FleetShare {
+  std::string robot_id;
+  std::uint64_t instance = 0;  ///< as in FleetManifest
+  /// Absent when the robot does not know where it is; without places when it has not explored by topology since it was
+  /// started.
+  std::optional<RobotTopology> topology;
+  friend bool operator==(const FleetShare&, const FleetShare&) = default;
+};
+
+struct FleetShared {
+  FleetState state = FleetState::kWaiting;  ///< of the robot that has told
+  std::vector<RobotTopology> others;        ///< where it is merged: all that are, in its own frame `map`
+  friend bool operator==(const FleetShared&, const FleetShared&) = default;
+};
+
+/// The same topology within the limits above: places beyond them are left out with what speaks of them, of sectors the
+/// newest of each place stay.
+[[nodiscard]] RobotTopology within_limits(RobotTopology robot);
 
 enum class FleetVerb : std::uint8_t { kMerge, kSplit };
 

@@ -67,6 +67,13 @@ Result<api::FleetAnswer> FleetClient::announce(const api::FleetManifest& manifes
   return api::FleetAnswer{std::move(*missing), std::move(*fleet)};
 }
 
+Result<api::FleetShared> FleetClient::share(const api::FleetShare& share) {
+  pb::FleetRequest request;
+  wire::write(share, request.mutable_share());
+  const Result<pb::FleetReply> reply = link_->ask(std::move(request));
+  return reply ? wire::from_message<api::FleetShared>(*reply) : tl::unexpected<Error>(reply.error());
+}
+
 Result<std::uint64_t> FleetClient::send(const api::FleetChunk& chunk) {
   pb::FleetRequest request;
   wire::write(chunk, request.mutable_chunk());

@@ -24,6 +24,9 @@ class FleetClient {
 
   /// Tells what a robot has. kRefused: another robot has this id.
   [[nodiscard]] Result<api::FleetAnswer> announce(const api::FleetManifest& manifest);
+  /// Tells where a robot has been and means to go, and hears of the others. kNotFound: it has to announce itself first;
+  /// kRefused: another robot has this id.
+  [[nodiscard]] Result<api::FleetShared> share(const api::FleetShare& share);
   /// Bytes of the piece that are there afterwards. kCorrupt, kNotFound, kTooLarge.
   [[nodiscard]] Result<std::uint64_t> send(const api::FleetChunk& chunk);
   [[nodiscard]] Result<api::FleetStatus> status();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/wire/convert.hpp"
+#include "common/wire/fleet_fields.hpp"
 
 namespace seeker::wire {
 namespace {
@@ -18,15 +19,6 @@ void read_hash(const std::string& from, api::PieceHash& to, Check& check) {
     return;
   }
   std::copy(from.begin(), from.end(), to.begin());
-}
-
-std::string read_robot_id(const std::string& id, Check& check) {
-  const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
-  if (id.empty() || id.size() > kMaxRobotIdBytes || !std::all_of(id.begin(), id.end(), allowed)) {
-    check.refuse("robot_id", Errc::kInvalidArgument, "must have 1 to 32 characters of a-z, 0-9 and -");
-    return {};
-  }
-  return id;
 }
 
 void read_node(const pb::FleetNode& from, api::FleetNode& to, Check& check) {
@@ -144,6 +136,15 @@ void read_member(const pb::FleetMember& from, api::FleetMember& to, Check& check
 }
 
 }  // namespace
+
+std::string read_robot_id(const std::string& id, Check& check) {
+  const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
+  if (id.empty() || id.size() > kMaxRobotIdBytes || !std::all_of(id.begin(), id.end(), allowed)) {
+    check.refuse("robot_id", Errc::kInvalidArgument, "must have 1 to 32 characters of a-z, 0-9 and -");
+    return {};
+  }
+  return id;
+}
 
 void write(const api::FleetManifest& from, pb::FleetManifest* to) {
   to->set_robot_id(from.robot_id);

@@ -13,11 +13,20 @@ inline constexpr std::uint32_t kFleetProtocol = 1;
 void write(const api::FleetManifest& from, v1::FleetManifest* to);
 void write(const api::FleetMissing& from, v1::FleetMissing* to);
 void write(const api::FleetChunk& from, v1::FleetChunk* to);
+/// Sectors travel as single precision.
+void write(const RobotTopology& from, v1::FleetTopology* to);
+void write(const api::FleetShare& from, v1::FleetShare* to);
+/// Into the fields of a reply that answer a share.
+void write(const api::FleetShared& from, v1::FleetReply* to);
 void write(const api::FleetStatus& from, v1::FleetStatus* to);
 void write(const api::FleetDecision& from, v1::FleetDecision* to);
 void read(const v1::FleetManifest& from, api::FleetManifest& to, Check& check);
 void read(const v1::FleetMissing& from, api::FleetMissing& to, Check& check);
 void read(const v1::FleetChunk& from, api::FleetChunk& to, Check& check);
+/// Ids must rise, ways and the present place must be of places that are there, and all of it must lie within reach.
+void read(const v1::FleetTopology& from, RobotTopology& to, Check& check);
+void read(const v1::FleetShare& from, api::FleetShare& to, Check& check);
+void read(const v1::FleetReply& from, api::FleetShared& to, Check& check);
 void read(const v1::FleetStatus& from, api::FleetStatus& to, Check& check);
 void read(const v1::FleetDecision& from, api::FleetDecision& to, Check& check);
 

@@ -43,9 +43,8 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
   params.port = arguments.port.value_or(params.port);
   params.robot_now = [&robot] { return robot.now(); };
   server_net::Server server(robot, params);
-  const Result<FleetPart> fleet =
-      start_fleet(options.fleet, options.robot_id, SEEKER_VERSION, state / options.robot_id / "fleet",
-                  [&robot](const api::Reply<OwnMap>& reply) { robot.give_own_map(reply); });
+  const Result<FleetPart> fleet = start_fleet(options.fleet, options.robot_id, SEEKER_VERSION,
+                                              state / options.robot_id / "fleet", robot.fleet_host());
   if (!fleet) {
     return config_error(fleet.error());
   }

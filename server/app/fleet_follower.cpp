@@ -16,9 +16,9 @@ constexpr std::size_t kChunkBytes = 256UL << 10U;
 
 }  // namespace
 
-FleetFollower::FleetFollower(FleetFollowerParams params, OwnMapSource own_map)
+FleetFollower::FleetFollower(FleetFollowerParams params, FleetHost host)
     : params_(std::move(params)),
-      own_map_(std::move(own_map)),
+      host_(std::move(host)),
       instance_(net::random_id()),
       main_(params_.main, params_.call_timeout),
       last_(fail(Errc::kNotReady, "the main robot has not answered yet")),
@@ -50,7 +50,7 @@ void FleetFollower::run() {
   for (;;) {
     note(once());
     std::unique_lock lock(mutex_);
-    if (wake_.wait_for(lock, params_.period, [this] { return stopping_; })) {
+    if (wake_.wait_for(lock, params_.share_period, [this] { return stopping_; })) {
       return;
     }
   }
@@ -72,7 +72,18 @@ void FleetFollower::note(const Status& outcome) {
 }
 
 Status FleetFollower::once() {
-  Result<OwnMap> own = ask_own_map();
+  if (std::chrono::steady_clock::now() >= announce_at_) {
+    if (Status announced = announce(); !announced) {
+      hear(tl::unexpected<Error>(announced.error()));
+      return announced;
+    }
+    announce_at_ = std::chrono::steady_clock::now() + params_.period;
+  }
+  return share();
+}
+
+Status FleetFollower::announce() {
+  Result<OwnMap> own = rpc::wait<OwnMap>(host_.give_map, params_.call_timeout);
   if (!own) {
     return tl::unexpected<Error>(own.error());
   }
@@ -98,7 +109,48 @@ Status FleetFollower::once() {
   return {};
 }
 
-Result<OwnMap> FleetFollower::ask_own_map() const { return rpc::wait<OwnMap>(own_map_, params_.call_timeout); }
+Status FleetFollower::share() {
+  share_at_ = std::chrono::steady_clock::now() + params_.share_period;
+  Result<OwnTopology> own = rpc::wait<OwnTopology>(host_.give_topology, params_.call_timeout);
+  if (!own) {
+    return tl::unexpected<Error>(own.error());
+  }
+  api::FleetShare told{params_.robot_id, instance_, std::nullopt};
+  if (*own) {
+    told.topology = api::within_limits(**std::move(own));
+  }
+  const Result<api::FleetShared> shared = main_.share(told);
+  hear(shared);
+  if (!shared && shared.error().code == Errc::kNotFound) {
+    announce_at_ = {};  // it has forgotten this robot, or was started anew
+    return {};
+  }
+  return shared ? Status() : Status(tl::unexpected<Error>(shared.error()));
+}
+
+/// Without a link the robot goes on alone, but places that others have been at were seen all the same: it keeps them,
+/// and takes up the goals of the others, since nobody can tell it whether they still go there. The same while the main
+/// robot has not made up its mind yet (it was started anew). What was denied since is dropped.
+void FleetFollower::hear(const Result<api::FleetShared>& shared) {
+  std::optional<FleetView> view = view_;
+  const api::FleetState state = shared ? shared->state : api::FleetState::kWaiting;
+  switch (state) {
+    case api::FleetState::kMerged: view = FleetView{params_.robot_id, shared->others}; break;
+    case api::FleetState::kWaiting:
+    case api::FleetState::kInsufficientOverlap:
+      for (std::size_t k = 0; view && k < view->others.size(); ++k) {
+        view->others[k].active = false;
+      }
+      break;
+    case api::FleetState::kAmbiguous:
+    case api::FleetState::kContradicted:
+    case api::FleetState::kSplit: view.reset(); break;
+  }
+  if (view != view_) {
+    view_ = view;
+    host_.take_view(std::move(view));
+  }
+}
 
 Status FleetFollower::send(const PackedMap& packed, const api::FleetMissing& missing) {
   const auto piece = packed.pieces.find(missing.hash);
@@ -123,6 +175,11 @@ Status FleetFollower::send(const PackedMap& packed, const api::FleetMissing& mis
       return fail(Errc::kCorrupt, "the main robot does not take a piece of the map");
     }
     at = *received;
+    if (std::chrono::steady_clock::now() >= share_at_) {
+      if (Status shared = share(); !shared) {
+        return shared;
+      }
+    }
   }
   return {};
 }

@@ -1,6 +1,7 @@
 /// \file
 /// A robot that joins the fleet of another one: tells the main robot what it has, sends what that one lacks, and hears
-/// how all lie. Without a link it goes on alone, and catches up when the link is back.
+/// how all lie. More often it tells where it has been and means to go, and hears of the others. Without a link it goes
+/// on alone, and catches up when the link is back.
 #pragma once
 
 #include <condition_variable>
@@ -22,14 +23,15 @@ namespace seeker::app {
 struct FleetFollowerParams {
   rpc::Endpoint main;
   std::string robot_id;
-  Duration period = std::chrono::seconds(5);         ///< wall time between announcements
+  Duration period = std::chrono::seconds(5);         ///< wall time between announcements of the map
+  Duration share_period = std::chrono::seconds(1);   ///< wall time between those of where the robot goes
   Duration call_timeout = std::chrono::seconds(10);  ///< wall time
 };
 
 /// Works on a thread of its own.
 class FleetFollower {
  public:
-  FleetFollower(FleetFollowerParams params, OwnMapSource own_map);
+  FleetFollower(FleetFollowerParams params, FleetHost host);
   FleetFollower(const FleetFollower&) = delete;
   FleetFollower& operator=(const FleetFollower&) = delete;
   ~FleetFollower();
@@ -40,16 +42,24 @@ class FleetFollower {
  private:
   void run();
   [[nodiscard]] Status once();
-  [[nodiscard]] Result<OwnMap> ask_own_map() const;
+  [[nodiscard]] Status announce();
   [[nodiscard]] Status send(const PackedMap& packed, const api::FleetMissing& missing);
+  [[nodiscard]] Status share();
+  void hear(const Result<api::FleetShared>& shared);
   void note(const Status& outcome);
   [[nodiscard]] bool stopping() const;
 
+  using WallTime = std::chrono::steady_clock::time_point;
+
   FleetFollowerParams params_;
-  OwnMapSource own_map_;
+  FleetHost host_;
   std::uint64_t instance_;
   rpc::FleetClient main_;
-  mutable std::mutex mutex_;  ///< guards what follows
+  // For the thread only.
+  WallTime announce_at_;
+  WallTime share_at_;
+  std::optional<FleetView> view_;  ///< what the robot was last told of the others
+  mutable std::mutex mutex_;       ///< guards what follows
   std::condition_variable wake_;
   bool stopping_ = false;
   Status last_;

@@ -1,38 +1,21 @@
-// What the main robot of a fleet does on its worker: files, and the judgement of maps.
+// How the main robot judges the maps of the others, on its worker (FleetLeader).
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <utility>
 
-#include "common/core/angle.hpp"
 #include "common/log/log.hpp"
-#include "common/wire/convert.hpp"
-#include "common/wire/convert_fleet.hpp"
-#include "common/wire/envelope.hpp"
-#include "common/wire/sha256.hpp"
-#include "seeker/v1/fleet.pb.h"
 #include "server/app/fleet_leader.hpp"
-#include "server/store/atomic_file.hpp"
+#include "server/fleet/merge_memory.hpp"
 #include "server/store/map_file.hpp"
 
 namespace seeker::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::string_view kPart = "fleet";
-constexpr const char* kRecordFile = "record.pb";
-constexpr const char* kPieceSuffix = ".piece";
 /// Wall time for the loop to hand its map over.
 constexpr std::chrono::seconds kOwnMapLimit{20};
-/// A way to lay a map is the one that the operator accepted when it is this near to it.
-constexpr double kSame_m = 1.0;
-constexpr double kSame_rad = 0.2;
-
-bool near(const Pose2& a, const Pose2& b) {
-  return distance_m(a, b) < kSame_m && std::abs(wrap_angle(a.theta_rad - b.theta_rad)) < kSame_rad;
-}
+constexpr std::uint8_t kMainSlot = 0;
 
 api::FleetState state_of(fleet::MergeVerdict verdict) {
   switch (verdict) {
@@ -44,99 +27,43 @@ api::FleetState state_of(fleet::MergeVerdict verdict) {
   return api::FleetState::kInsufficientOverlap;
 }
 
+/// Whether one map has grown from the other: it has begun anew where no local map is where it was.
+bool same_map(const LineMap& before, const LineMap& now) {
+  return std::any_of(before.nodes.begin(), before.nodes.end(), [&](const MapNode& one) {
+    return std::any_of(now.nodes.begin(), now.nodes.end(), [&](const MapNode& other) {
+      return one.id == other.id && one.created == other.created && fleet::same_place(one.map_T_node, other.map_T_node);
+    });
+  });
+}
+
+bool has_node(const fleet::PreparedMap& map, std::uint32_t id) {
+  return std::any_of(map.nodes().begin(), map.nodes().end(), [id](const auto& node) { return node.id == id; });
+}
+
+/// Whether an answer still speaks of local maps that are there.
+bool holds(const fleet::MergeAnswer& answer, const fleet::PreparedMap& a, const fleet::PreparedMap& b) {
+  return std::all_of(answer.hypotheses.begin(), answer.hypotheses.end(), [&](const fleet::MergeHypothesis& one) {
+    return std::all_of(one.pairs.begin(), one.pairs.end(), [&](const fleet::NodeRelation& pair) {
+      return has_node(a, pair.node_a) && has_node(b, pair.node_b);
+    });
+  });
+}
+
 }  // namespace
 
-void FleetLeader::load() {
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(params_.folder, error)) {
-    if (entry.is_directory()) {
-      load_member(entry.path());
-    }
-  }
-}
-
-void FleetLeader::load_member(const fs::path& folder) {
-  const Result<std::vector<std::uint8_t>> bytes = store::read_file(folder / kRecordFile, wire::kMaxFrameBytes);
-  v1::FleetRecord record;
-  if (!bytes || !wire::parse_within_limits({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, record)) {
-    return;
-  }
-  Result<api::FleetManifest> manifest = wire::from_message<api::FleetManifest>(record.manifest());
-  if (!manifest || manifest->robot_id != folder.filename().string()) {
-    log::warning(kPart, folder.string() + " holds no robot's map; it is left alone");
-    return;
-  }
-  Member member;
-  for (const api::FleetNode& node : manifest->nodes) {
-    Result<std::vector<std::uint8_t>> piece =
-        store::read_file(folder / (wire::to_hex(node.hash) + kPieceSuffix), api::kMaxFleetPieceBytes);
-    if (piece && wire::sha256_of(*piece) == node.hash) {
-      member.pieces[node.hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*piece));
-    }
-  }
-  member.manifest = std::move(*manifest);
-  member.split = record.split();
-  if (record.has_accepted_main_t_map()) {
-    if (const Result<Pose2> accepted = wire::from_message<Pose2>(record.accepted_main_t_map())) {
-      member.accepted = *accepted;
-    }
-  }
-  const std::lock_guard lock(mutex_);
-  const std::string id = member.manifest.robot_id;
-  if (members_.size() + 1 >= api::kMaxFleetRobots || members_.contains(id)) {
-    return;
-  }
-  member.slot = static_cast<std::uint8_t>(members_.size() + 1);
-  Member& kept = members_.emplace(id, std::move(member)).first->second;
-  if (missing_of(kept).empty()) {
-    ask_for_judgement(id, kept);
-  }
-}
-
-void FleetLeader::keep_piece(const std::string& robot_id, const api::PieceHash& hash, const PieceBytes& bytes) const {
-  const fs::path folder = params_.folder / robot_id;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (const Status kept = store::write_file_atomically(folder / (wire::to_hex(hash) + kPieceSuffix), *bytes); !kept) {
-    log::warning(kPart, "a piece of '" + robot_id + "' is not kept: " + kept.error().message);
-  }
-}
-
-void FleetLeader::keep_record(const std::string& robot_id) {
-  v1::FleetRecord record;
-  Pieces needed;
-  {
-    const std::lock_guard lock(mutex_);
-    const Member& member = members_.at(robot_id);
-    wire::write(member.manifest, record.mutable_manifest());
-    record.set_split(member.split);
-    if (member.accepted) {
-      wire::write(*member.accepted, record.mutable_accepted_main_t_map());
-    }
-    needed = member.pieces;
-  }
-  const fs::path folder = params_.folder / robot_id;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (const Status kept = store::write_file_atomically(folder / kRecordFile, record.SerializeAsString()); !kept) {
-    log::warning(kPart, "what '" + robot_id + "' announced is not kept: " + kept.error().message);
-    return;
-  }
-  // What no record speaks of any more may go.
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const bool wanted = std::any_of(needed.begin(), needed.end(), [&](const auto& piece) {
-      return entry.path().filename() == wire::to_hex(piece.first) + kPieceSuffix;
+bool same_frame(const std::vector<api::FleetNode>& a, const std::vector<api::FleetNode>& b) {
+  return std::any_of(a.begin(), a.end(), [&](const api::FleetNode& one) {
+    return std::any_of(b.begin(), b.end(), [&](const api::FleetNode& other) {
+      return one.node.id == other.node.id && one.hash == other.hash &&
+             fleet::same_place(one.node.map_T_node, other.node.map_T_node);
     });
-    if (entry.path().extension() == kPieceSuffix && !wanted) {
-      fs::remove(entry.path(), error);
-    }
-  }
+  });
 }
 
 Result<OwnMap> FleetLeader::ask_own_map() {
   auto promise = std::make_shared<std::promise<Result<OwnMap>>>();
   std::future<Result<OwnMap>> future = promise->get_future();
-  own_map_([promise](Result<OwnMap> own) { promise->set_value(std::move(own)); });
+  host_.give_map([promise](Result<OwnMap> own) { promise->set_value(std::move(own)); });
   if (future.wait_for(kOwnMapLimit) != std::future_status::ready) {
     return fail(Errc::kTimeout, "the main robot's loop does not hand its map over");
   }
@@ -146,29 +73,42 @@ Result<OwnMap> FleetLeader::ask_own_map() {
 void FleetLeader::judge(const std::string& robot_id) {
   api::FleetManifest manifest;
   Pieces pieces;
-  bool whole = false;
+  std::uint8_t slot = kMainSlot;
   {
     const std::lock_guard lock(mutex_);
     Member& member = members_.at(robot_id);
     member.waits = false;
-    whole = missing_of(member).empty();
-    if (whole) {
+    if (missing_of(member).empty()) {
       member.judged = std::chrono::steady_clock::now();
       manifest = member.manifest;
       pieces = member.pieces;
+      slot = member.slot;
     }
   }
-  if (!whole) {
-    // It has announced more meanwhile, and is judged when that is here; until then what was found holds.
-    join_all();
-    return;
+  // One that has announced more meanwhile is judged when that is here; until then what was found holds.
+  if (slot != kMainSlot) {
+    std::erase_if(pairs_, [&](const auto& pair) {
+      return (pair.first.first == slot || pair.first.second == slot) && !same_frame(judged_[slot], manifest.nodes);
+    });
+    judged_[slot] = manifest.nodes;
+    Result<LineMap> map = unpack_map(manifest, pieces);
+    const Status compared = map ? compare(slot, std::move(*map)) : tl::unexpected<Error>(map.error());
+    const std::lock_guard lock(mutex_);
+    members_.at(robot_id).trouble = compared ? "" : compared.error().message;
   }
-  const Result<LineMap> map = unpack_map(manifest, pieces);
-  settle(robot_id, map ? compare(robot_id, *map) : tl::unexpected<Error>(map.error()));
   join_all();
 }
 
-Result<fleet::MergeAnswer> FleetLeader::compare(const std::string& robot_id, const LineMap& map) {
+Status FleetLeader::prepare(std::uint8_t slot, LineMap map) {
+  fleet::PreparedMap& prepared = prepared_[slot];
+  if (prepared.map() == map) {
+    return {};
+  }
+  ++versions_[slot];
+  return prepared.update(std::move(map));
+}
+
+Status FleetLeader::compare(std::uint8_t slot, LineMap map) {
   Result<OwnMap> own = ask_own_map();
   if (!own) {
     return fail_with_context("the main robot has no map yet", own.error());
@@ -177,89 +117,189 @@ Result<fleet::MergeAnswer> FleetLeader::compare(const std::string& robot_id, con
     const std::lock_guard lock(mutex_);
     own_map_T_base_ = own->map_T_base;
     own_places_.clear();
+    own_places_.reserve(own->map.nodes.size());
     for (const MapNode& node : own->map.nodes) {
       own_places_.push_back(node.map_T_node.translation());
     }
   }
-  if (Status ready = own_.update(std::move(own->map)); !ready) {
-    return tl::unexpected<Error>(ready.error());
+  if (!same_map(prepared_[kMainSlot].map(), own->map)) {
+    std::erase_if(pairs_, [](const auto& pair) { return pair.first.first == kMainSlot; });
   }
-  fleet::PreparedMap& other = prepared_[robot_id];
-  if (Status ready = other.update(map); !ready) {
-    return tl::unexpected<Error>(ready.error());
+  if (Status ready = prepare(kMainSlot, std::move(own->map)); !ready) {
+    return ready;
   }
-  return merger_.merge(own_, other);
+  if (Status ready = prepare(slot, std::move(map)); !ready) {
+    return ready;
+  }
+  std::erase_if(pairs_, [&](const auto& pair) {
+    return !holds(pair.second.answer, prepared_.at(pair.first.first), prepared_.at(pair.first.second));
+  });
+  compare(kMainSlot, slot);
+  compare_with_others(slot);
+  return {};
 }
 
-void FleetLeader::settle(const std::string& robot_id, const Result<fleet::MergeAnswer>& answer) {
-  const std::lock_guard lock(mutex_);
-  Member& member = members_.at(robot_id);
-  const api::FleetState before = member.state;
-  if (!answer) {
-    member.state = api::FleetState::kWaiting;
-    member.reason = answer.error().message;
-    member.hypotheses.clear();
-  } else {
-    member.state = state_of(answer->verdict);
-    member.reason = answer->reason;
-    member.hypotheses = answer->hypotheses;
+void FleetLeader::compare(std::uint8_t a, std::uint8_t b) {
+  const std::pair versions{versions_[a], versions_[b]};
+  const auto before = pairs_.find({a, b});
+  if (before != pairs_.end() && before->second.versions == versions) {
+    return;  // nothing has changed since
   }
-  if (member.split) {
-    member.state = api::FleetState::kSplit;
-    member.reason = "taken out by the operator; 'seeker fleet merge' takes it in again";
-  } else if (member.accepted && answer) {
-    const auto same = std::find_if(member.hypotheses.begin(), member.hypotheses.end(),
-                                   [&](const auto& one) { return near(one.a_T_b.a_T_b, *member.accepted); });
-    const bool denied = same == member.hypotheses.end() || answer->verdict == fleet::MergeVerdict::kContradicted;
-    if (denied) {
-      member.state = api::FleetState::kContradicted;
-      member.reason = "what was accepted does not fit what the robots have seen since: " + answer->reason;
-      member.accepted.reset();
-    } else {
-      std::rotate(member.hypotheses.begin(), same, same + 1);
-      member.state = api::FleetState::kMerged;
-      member.reason = "accepted by the operator";
-    }
+  fleet::MergeAnswer answer = merger_.merge(prepared_.at(a), prepared_.at(b));
+  if (before != pairs_.end()) {
+    fleet::judge_again(answer, before->second.answer, params_.merge);
   }
-  if (member.state != before) {
-    ++revision_;
-    log::info(kPart, "robot '" + robot_id + "' is " + std::string(api::to_string(member.state)) + ": " + member.reason);
-  }
+  pairs_[{a, b}] = {std::move(answer), std::chrono::steady_clock::now(), versions};
 }
 
-void FleetLeader::join_all() {
-  std::vector<fleet::RobotMap> maps{{0, &own_.map()}};
-  std::vector<fleet::MapRelation> relations;
+/// A robot that shares nothing with the main one may share something with another one; and where both share something
+/// with the main one, the three must close. Asked again only after a while: some of many robots change all the time.
+void FleetLeader::compare_with_others(std::uint8_t slot) {
+  std::vector<std::uint8_t> others;
   {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, member] : members_) {
-      if (member.state == api::FleetState::kMerged && !member.hypotheses.empty()) {
-        maps.push_back({member.slot, &prepared_.at(id).map()});
-        relations.push_back({0, member.slot, member.hypotheses.front().pairs});
+      if (member.slot != slot && !member.split && member.trouble.empty() && prepared_.contains(member.slot)) {
+        others.push_back(member.slot);
       }
     }
   }
-  joint_.reset();
-  if (relations.empty()) {
+  const WallTime now = std::chrono::steady_clock::now();
+  for (const std::uint8_t other : others) {
+    const auto [a, b] = std::minmax(slot, other);
+    const auto known = pairs_.find({a, b});
+    if (known == pairs_.end() || now - known->second.at > params_.retry_period) {
+      compare(a, b);
+    }
+  }
+}
+
+/// What the merger says of the robots that take part, with the operator's word.
+std::vector<fleet::PairAnswer> FleetLeader::pairs_now() {
+  const std::lock_guard lock(mutex_);
+  std::map<std::uint8_t, Member*> of_slot;
+  for (auto& [id, member] : members_) {
+    if (!member.split && member.trouble.empty()) {
+      of_slot[member.slot] = &member;
+    }
+  }
+  std::vector<fleet::PairAnswer> pairs;
+  for (const auto& [slots, compared] : pairs_) {
+    const auto [a, b] = slots;
+    if ((a == kMainSlot || of_slot.contains(a)) && of_slot.contains(b)) {
+      pairs.push_back({a, b, compared.answer});
+      if (a == kMainSlot && of_slot.at(b)->accepted) {
+        obey_operator(*of_slot.at(b), pairs.back().answer);
+      }
+    }
+  }
+  return pairs;
+}
+
+void FleetLeader::obey_operator(Member& member, fleet::MergeAnswer& answer) {
+  const auto same = std::find_if(answer.hypotheses.begin(), answer.hypotheses.end(),
+                                 [&](const auto& one) { return fleet::same_place(one.a_T_b.a_T_b, *member.accepted); });
+  if (same == answer.hypotheses.end() || answer.verdict == fleet::MergeVerdict::kContradicted) {
+    answer.verdict = fleet::MergeVerdict::kContradicted;
+    answer.reason = "what was accepted does not fit what the robots have seen since: " + answer.reason;
+    member.accepted.reset();
     return;
   }
-  Result<fleet::JointMap> joint = fleet::join(maps, relations, ++joint_epoch_);
-  const std::lock_guard lock(mutex_);
-  for (auto& [id, member] : members_) {
-    if (member.state != api::FleetState::kMerged) {
-      continue;
-    }
-    const auto placed = joint ? joint->robots.find(member.slot) : decltype(joint->robots.end()){};
-    if (!joint || placed == joint->robots.end()) {
-      member.state = api::FleetState::kAmbiguous;
-      member.reason = joint ? "the other robots' maps outvote it" : joint.error().message;
-      ++revision_;
+  std::rotate(answer.hypotheses.begin(), same, same + 1);
+  answer.verdict = fleet::MergeVerdict::kMerged;
+  answer.reason = "accepted by the operator";
+}
+
+void FleetLeader::join_all() {
+  Round round;
+  round.pairs = pairs_now();
+  fleet::demote_open_cycles(round.pairs);
+  round.links = fleet::links_from(kMainSlot, round.pairs);
+  joint_.reset();
+  if (!round.links.empty()) {
+    Result<fleet::JointMap> joint = join(round);
+    if (joint) {
+      joint_ = std::move(*joint);
     } else {
-      member.main_T_map = placed->second.joint_T_map;
+      round.trouble = joint.error().message;
     }
   }
-  if (joint) {
-    joint_ = std::move(*joint);
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, member] : members_) {
+    round.names[member.slot] = id;
+  }
+  for (auto& [id, member] : members_) {
+    settle(member, round);
+  }
+}
+
+Result<fleet::JointMap> FleetLeader::join(const Round& round) {
+  std::vector<fleet::RobotMap> maps{{kMainSlot, &prepared_.at(kMainSlot).map()}};
+  maps.reserve(round.links.size() + 1);
+  for (const auto& [slot, link] : round.links) {
+    maps.push_back({slot, &prepared_.at(slot).map()});
+  }
+  std::vector<fleet::MapRelation> relations = fleet::relations_of(round.pairs);
+  const auto takes_part = [&](std::uint8_t slot) { return slot == kMainSlot || round.links.contains(slot); };
+  std::erase_if(relations, [&](const fleet::MapRelation& relation) {
+    return !takes_part(relation.slot_a) || !takes_part(relation.slot_b);
+  });
+  return fleet::join(maps, relations, ++joint_epoch_);
+}
+
+/// State, reason and place of a robot from what was found this time.
+void FleetLeader::settle(Member& member, const Round& round) {
+  const auto pair = std::find_if(round.pairs.begin(), round.pairs.end(), [&](const fleet::PairAnswer& one) {
+    return one.slot_a == kMainSlot && one.slot_b == member.slot;
+  });
+  member.confidence = 0.0;
+  if (member.split) {
+    set_state(member, api::FleetState::kSplit, "taken out by the operator; 'seeker fleet merge' takes it in again");
+    return;
+  }
+  member.hypotheses.clear();
+  if (!member.trouble.empty() || pair == round.pairs.end()) {
+    set_state(member, api::FleetState::kWaiting, member.trouble.empty() ? member.reason : member.trouble);
+    return;
+  }
+  member.hypotheses = pair->answer.hypotheses;
+  member.confidence = pair->answer.confidence();
+  const auto link = round.links.find(member.slot);
+  if (link == round.links.end()) {
+    set_state(member, state_of(pair->answer.verdict), pair->answer.reason);
+    return;
+  }
+  const auto placed = joint_ ? joint_->robots.find(member.slot) : decltype(joint_->robots.end()){};
+  if (!joint_ || placed == joint_->robots.end()) {
+    set_state(member, api::FleetState::kAmbiguous, joint_ ? "the other robots' maps outvote it" : round.trouble);
+    return;
+  }
+  member.main_T_map = placed->second.joint_T_map;
+  member.confidence = link->second.confidence;
+  set_state(member, api::FleetState::kMerged,
+            link->second.through == kMainSlot
+                ? pair->answer.reason
+                : "merged with the map of robot '" + round.names.at(link->second.through) +
+                      "', not with that of the main one: " + pair->answer.reason);
+}
+
+void FleetLeader::set_state(Member& member, api::FleetState state, std::string reason) {
+  member.reason = std::move(reason);
+  if (member.state == state) {
+    return;
+  }
+  member.state = state;
+  ++revision_;
+  const std::string& id = member.manifest.robot_id;
+  const std::string text = "robot '" + id + "' is " + std::string(api::to_string(state)) + ": " + member.reason;
+  log::info(kPart, text);
+  if (state == api::FleetState::kAmbiguous) {
+    host_.tell_operator("fleet-ambiguous",
+                        text + "; 'seeker fleet status' shows the ways to lay its map, 'seeker fleet merge " + id +
+                            " --hypothesis N' accepts one",
+                        api::Severity::kWarning);
+  } else if (state == api::FleetState::kContradicted) {
+    host_.tell_operator("fleet-contradicted", text, api::Severity::kWarning);
   }
 }
 

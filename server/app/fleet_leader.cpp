@@ -24,11 +24,8 @@ api::FleetHypothesis describe(const fleet::MergeHypothesis& from) {
 
 }  // namespace
 
-FleetLeader::FleetLeader(FleetLeaderParams params, OwnMapSource own_map)
-    : params_(std::move(params)),
-      own_map_(std::move(own_map)),
-      merger_(params_.merge),
-      worker_(kMaxWaiting, "the fleet") {
+FleetLeader::FleetLeader(FleetLeaderParams params, FleetHost host)
+    : params_(std::move(params)), host_(std::move(host)), merger_(params_.merge), worker_(kMaxWaiting, "the fleet") {
   static_cast<void>(worker_.post([this] { load(); }));
 }
 
@@ -46,8 +43,7 @@ Status FleetLeader::check_namesake(const api::FleetManifest& manifest, WallTime 
                                                       : fail(Errc::kTooLarge, "a fleet has at most 16 robots");
   }
   const Member& member = known->second;
-  const bool alive = member.seen && now - *member.seen < params_.namesake_limit;
-  return alive && member.manifest.instance != manifest.instance ? taken() : Status();
+  return !silent(member.seen, now) && member.manifest.instance != manifest.instance ? taken() : Status();
 }
 
 Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifest) {
@@ -71,6 +67,9 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
   }
   member.seen = now;
   const bool changed = is_new || member.manifest.nodes != manifest.nodes || member.manifest.edges != manifest.edges;
+  if (!same_frame(member.manifest.nodes, manifest.nodes)) {
+    member.topology.reset();  // places in a map that is no more; those of the new one are told soon
+  }
   take(member, manifest);
   api::FleetAnswer answer{missing_of(member), {}};
   const bool old = !member.judged || now - *member.judged > params_.retry_period;
@@ -181,13 +180,13 @@ api::FleetMember FleetLeader::describe(const Member& member, WallTime now) const
   out.state = member.state;
   out.reason = member.reason;
   out.by_operator = member.accepted.has_value();
-  out.linked = member.seen && now - *member.seen < 2 * params_.namesake_limit;
+  out.linked = member.seen && now - *member.seen < 2 * params_.silence_limit;
   out.nodes = static_cast<std::uint32_t>(member.manifest.nodes.size());
   out.pieces_missing = static_cast<std::uint32_t>(missing_of(member).size());
   for (const fleet::MergeHypothesis& hypothesis : member.hypotheses) {
     out.hypotheses.push_back(app::describe(hypothesis));
   }
-  out.confidence = out.hypotheses.empty() ? 0.0 : out.hypotheses.front().confidence;
+  out.confidence = member.confidence;
   if (member.state == api::FleetState::kMerged) {
     out.main_T_map = member.main_T_map;
     if (member.main_T_map && member.manifest.map_T_base) {

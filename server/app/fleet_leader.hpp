@@ -17,6 +17,7 @@
 #include "server/app/disk_worker.hpp"
 #include "server/app/fleet_pieces.hpp"
 #include "server/app/own_map.hpp"
+#include "server/fleet/fleet_links.hpp"
 #include "server/fleet/joint_map.hpp"
 #include "server/fleet/map_merger.hpp"
 
@@ -26,21 +27,28 @@ struct FleetLeaderParams {
   std::filesystem::path folder;  ///< what robots sent is kept here, so that a restart loses nothing
   std::string robot_id;          ///< of the main one
   std::string software_version;
-  Duration namesake_limit = std::chrono::seconds(5);  ///< wall time of silence after which an id may be taken over
-  Duration retry_period = std::chrono::seconds(10);   ///< wall time until the same map is looked at again
+  Duration silence_limit = std::chrono::seconds(5);  ///< see FleetSettings
+  Duration retry_period = std::chrono::seconds(10);  ///< wall time until the same map is looked at again
   fleet::MergeParams merge;
 };
+
+/// Whether two manifests of a robot have a local map in common, at the same place: else it has begun a new map.
+[[nodiscard]] bool same_frame(const std::vector<api::FleetNode>& a, const std::vector<api::FleetNode>& b);
 
 /// Thread-safe; called by the network. Nothing that a robot sends changes what another one sent.
 class FleetLeader {
  public:
-  FleetLeader(FleetLeaderParams params, OwnMapSource own_map);
+  FleetLeader(FleetLeaderParams params, FleetHost host);
 
   /// Tells what a robot has. kRefused: another robot has this id; kTooLarge.
   [[nodiscard]] Result<api::FleetAnswer> announce(const api::FleetManifest& manifest);
   /// Bytes of the piece that are there afterwards. kCorrupt: its hash does not match, all of it is thrown away;
   /// kNotFound: nobody has announced it; kTooLarge.
   [[nodiscard]] Result<std::uint64_t> receive(const api::FleetChunk& chunk);
+  /// Where a robot goes, and the answer: where the others go. kNotFound: it has to announce itself first.
+  [[nodiscard]] Result<api::FleetShared> share(const api::FleetShare& share);
+  /// Asks the main robot itself where it goes, and tells it of the others; to be called every now and then.
+  void refresh();
   [[nodiscard]] api::FleetStatus status() const;
   /// The operator's word: a hypothesis accepted, a robot taken out or in again. kNotFound, kRefused.
   [[nodiscard]] Result<api::FleetStatus> decide(const api::FleetDecision& decision);
@@ -56,14 +64,36 @@ class FleetLeader {
     std::map<api::PieceHash, std::vector<std::uint8_t>> partial;
     std::uint8_t slot = 1;  ///< in the joint map
     std::optional<WallTime> seen;
+    std::optional<RobotTopology> topology;  ///< last told, in its own frame `map`
+    std::optional<WallTime> shared;         ///< when it was told
     std::optional<WallTime> judged;
-    bool waits = false;  ///< to be judged by the worker
+    bool waits = false;   ///< to be judged by the worker
+    std::string trouble;  ///< why its map cannot be judged; empty: it can
     bool split = false;
     std::optional<Pose2> accepted;  ///< main_T_map that the operator has accepted
     api::FleetState state = api::FleetState::kWaiting;
     std::string reason = "its map has not been looked at yet";
-    std::vector<fleet::MergeHypothesis> hypotheses;
+    double confidence = 0.0;
+    std::vector<fleet::MergeHypothesis> hypotheses;  ///< with the main robot's map
     std::optional<Pose2> main_T_map;
+  };
+  /// What a loop tells when it comes to it; this may be gone by then.
+  struct Inbox {
+    std::mutex mutex;
+    std::optional<OwnTopology> own;
+  };
+  /// Of two robots, by slot, the lower first: what the merger last said, and when.
+  struct Compared {
+    fleet::MergeAnswer answer;
+    WallTime at;
+    std::pair<std::uint64_t, std::uint64_t> versions;  ///< of their maps
+  };
+  /// What was found when all were looked at together.
+  struct Round {
+    std::vector<fleet::PairAnswer> pairs;
+    std::map<std::uint8_t, fleet::FleetLink> links;
+    std::map<std::uint8_t, std::string> names;
+    std::string trouble;  ///< why the maps could not be joined
   };
 
   // With the lock held.
@@ -73,6 +103,11 @@ class FleetLeader {
   void ask_for_judgement(const std::string& robot_id, Member& member);
   [[nodiscard]] api::FleetStatus status_now() const;
   [[nodiscard]] api::FleetMember describe(const Member& member, WallTime now) const;
+  [[nodiscard]] std::vector<RobotTopology> others_of(const std::string& robot_id, const Pose2& main_T_map,
+                                                     WallTime now) const;
+  [[nodiscard]] bool silent(const std::optional<WallTime>& heard, WallTime now) const;
+  void set_state(Member& member, api::FleetState state, std::string reason);
+  void settle(Member& member, const Round& round);
 
   // On the worker.
   void load();
@@ -81,21 +116,30 @@ class FleetLeader {
   void keep_record(const std::string& robot_id);
   void judge(const std::string& robot_id);
   [[nodiscard]] Result<OwnMap> ask_own_map();
-  [[nodiscard]] Result<fleet::MergeAnswer> compare(const std::string& robot_id, const LineMap& map);
-  void settle(const std::string& robot_id, const Result<fleet::MergeAnswer>& answer);
+  [[nodiscard]] Status compare(std::uint8_t slot, LineMap map);
+  [[nodiscard]] Status prepare(std::uint8_t slot, LineMap map);
+  void compare(std::uint8_t a, std::uint8_t b);
+  void compare_with_others(std::uint8_t slot);
+  [[nodiscard]] std::vector<fleet::PairAnswer> pairs_now();
+  static void obey_operator(Member& member, fleet::MergeAnswer& answer);
   void join_all();
+  [[nodiscard]] Result<fleet::JointMap> join(const Round& round);
 
   FleetLeaderParams params_;
-  OwnMapSource own_map_;
+  FleetHost host_;
+  std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
   fleet::MapMerger merger_;
   mutable std::mutex mutex_;  ///< guards what follows
   std::map<std::string, Member> members_;
   std::vector<Point2> own_places_;
   std::optional<Pose2> own_map_T_base_;
+  std::optional<RobotTopology> own_topology_;
   std::uint32_t revision_ = 0;
   // For the worker only.
-  fleet::PreparedMap own_;
-  std::map<std::string, fleet::PreparedMap> prepared_;
+  std::map<std::uint8_t, fleet::PreparedMap> prepared_;  ///< by slot, the main robot's own at 0
+  std::map<std::uint8_t, std::uint64_t> versions_;       ///< of those: rise when a map has changed
+  std::map<std::pair<std::uint8_t, std::uint8_t>, Compared> pairs_;
+  std::map<std::uint8_t, std::vector<api::FleetNode>> judged_;  ///< by slot: what was last looked at
   std::optional<fleet::JointMap> joint_;
   std::uint32_t joint_epoch_ = 0;
   DiskWorker worker_;

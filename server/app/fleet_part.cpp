@@ -9,7 +9,7 @@ namespace seeker::app {
 namespace {
 
 Status lead(const FleetSettings& settings, const std::filesystem::path& folder, FleetPart& part) {
-  part.server = std::make_unique<FleetServer>(*part.leader);
+  part.server = std::make_unique<FleetServer>(*part.leader, settings.share_period);
   const Result<std::uint16_t> port = part.server->start(settings.address, settings.port);
   if (!port) {
     return fail_with_context("fleet", port.error());
@@ -24,7 +24,7 @@ Status lead(const FleetSettings& settings, const std::filesystem::path& folder, 
 
 Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& robot_id,
                               const std::string& software_version, const std::filesystem::path& folder,
-                              const OwnMapSource& own_map) {
+                              const FleetHost& host) {
   FleetPart part;
   if (settings.lead && !settings.join.empty()) {
     return fail(Errc::kInvalidArgument, "a robot leads a fleet or joins one; set fleet.lead or fleet.join, not both");
@@ -34,7 +34,9 @@ Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& 
     params.folder = folder;
     params.robot_id = robot_id;
     params.software_version = software_version;
-    part.leader = std::make_unique<FleetLeader>(std::move(params), own_map);
+    params.silence_limit = settings.silence_limit;
+    params.merge = settings.merge;
+    part.leader = std::make_unique<FleetLeader>(std::move(params), host);
     if (const Status started = lead(settings, folder, part); !started) {
       return tl::unexpected<Error>(started.error());
     }
@@ -47,7 +49,8 @@ Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& 
     params.main = std::move(*main);
     params.robot_id = robot_id;
     params.period = settings.period;
-    part.follower = std::make_unique<FleetFollower>(std::move(params), own_map);
+    params.share_period = settings.share_period;
+    part.follower = std::make_unique<FleetFollower>(std::move(params), host);
   }
   return part;
 }

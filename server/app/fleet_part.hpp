@@ -14,7 +14,7 @@
 
 namespace seeker::app {
 
-/// Destroy it before the robot that `own_map` asks.
+/// Destroy it before the robot that is its host.
 struct FleetPart {
   std::unique_ptr<FleetLeader> leader;
   std::unique_ptr<FleetServer> server;
@@ -25,6 +25,6 @@ struct FleetPart {
 /// reach it at to the file `port` there. kInvalidArgument: leads and joins at once, or no address; kIo.
 [[nodiscard]] Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& robot_id,
                                             const std::string& software_version, const std::filesystem::path& folder,
-                                            const OwnMapSource& own_map);
+                                            const FleetHost& host);
 
 }  // namespace seeker::app

@@ -61,6 +61,10 @@ Status serve(FleetLeader& leader, const v1::FleetRequest& request, v1::FleetRepl
       return with_value<api::FleetChunk>(request.chunk(), [&](const api::FleetChunk& chunk) {
         return tell(leader.receive(chunk), [&](std::uint64_t received) { reply.set_received_bytes(received); });
       });
+    case v1::FleetRequest::kShare:
+      return with_value<api::FleetShare>(request.share(), [&](const api::FleetShare& share) {
+        return tell(leader.share(share), [&](const api::FleetShared& shared) { wire::write(shared, &reply); });
+      });
     case v1::FleetRequest::kDecide:
       return with_value<api::FleetDecision>(request.decide(), [&](const api::FleetDecision& decision) {
         return tell(leader.decide(decision), put_fleet);
@@ -90,8 +94,11 @@ struct FleetServer::Peer {
   net::FrameQueue outgoing{kMaxQueued};
 };
 
-FleetServer::FleetServer(FleetLeader& leader)
-    : leader_(leader), listener_(io_, kPart, [this](tcp::socket socket) { admit(std::move(socket)); }) {}
+FleetServer::FleetServer(FleetLeader& leader, Duration refresh_period)
+    : leader_(leader),
+      listener_(io_, kPart, [this](tcp::socket socket) { admit(std::move(socket)); }),
+      timer_(io_),
+      refresh_period_(refresh_period) {}
 
 FleetServer::~FleetServer() {
   if (thread_.joinable()) {
@@ -104,13 +111,25 @@ Result<std::uint16_t> FleetServer::start(const std::string& address, std::uint16
   Result<std::uint16_t> opened = listener_.open(address, port);
   if (opened) {
     listener_.accept();
+    refresh();
     thread_ = std::thread([this] { io_.run(); });
   }
   return opened;
 }
 
+void FleetServer::refresh() {
+  leader_.refresh();
+  timer_.expires_after(refresh_period_);
+  timer_.async_wait([this](const boost::system::error_code& error) {
+    if (!error && !stopping_) {
+      refresh();
+    }
+  });
+}
+
 void FleetServer::close_all() {
   stopping_ = true;
+  timer_.cancel();
   listener_.close();
   for (const auto& peer : std::exchange(peers_, {})) {
     peer->connection->close();

@@ -10,6 +10,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include "common/net/listen.hpp"
 #include "seeker/v1/fleet.pb.h"
@@ -20,8 +21,8 @@ namespace seeker::app {
 /// One thread does its network work. A connection that sends what is no request is closed; the others do not notice.
 class FleetServer {
  public:
-  /// `leader` must outlive this.
-  explicit FleetServer(FleetLeader& leader);
+  /// `leader` must outlive this; its own robot hears of the others every `refresh_period` of wall time.
+  FleetServer(FleetLeader& leader, Duration refresh_period);
   FleetServer(const FleetServer&) = delete;
   FleetServer& operator=(const FleetServer&) = delete;
   /// Closes all connections.
@@ -37,10 +38,13 @@ class FleetServer {
   void send(const std::shared_ptr<Peer>& peer, const v1::FleetReply& reply);
   void drop(const std::shared_ptr<Peer>& peer);
   void close_all();
+  void refresh();
 
   FleetLeader& leader_;
   boost::asio::io_context io_{1};
   net::Listener listener_;
+  boost::asio::steady_timer timer_;
+  Duration refresh_period_;
   std::set<std::shared_ptr<Peer>> peers_;
   bool stopping_ = false;
   std::thread thread_;

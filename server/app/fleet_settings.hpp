@@ -6,15 +6,20 @@
 #include <string>
 
 #include "common/core/time.hpp"
+#include "server/fleet/map_merger.hpp"
 
 namespace seeker::app {
 
 struct FleetSettings {
-  bool lead = false;                          ///< others may join this robot
-  std::string address = "127.0.0.1";          ///< of the interface to listen on for them
-  std::uint16_t port = 7473;                  ///< 0: any free one
-  std::string join;                           ///< host:port of the main robot's fleet; empty: joins none
-  Duration period = std::chrono::seconds(5);  ///< wall time between announcements
+  bool lead = false;                                ///< others may join this robot
+  std::string address = "127.0.0.1";                ///< of the interface to listen on for them
+  std::uint16_t port = 7473;                        ///< 0: any free one
+  std::string join;                                 ///< host:port of the main robot's fleet; empty: joins none
+  Duration period = std::chrono::seconds(5);        ///< wall time between announcements of the map
+  Duration share_period = std::chrono::seconds(1);  ///< wall time between those of where the robot goes
+  /// Wall time of silence after which a robot counts as gone: its goals are anybody's, and its id may be taken over.
+  Duration silence_limit = std::chrono::seconds(5);
+  fleet::MergeParams merge;
 };
 
 }  // namespace seeker::app

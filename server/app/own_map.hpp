@@ -1,12 +1,14 @@
 /// \file
-/// A robot's own map as it leaves the loop for the fleet.
+/// What leaves a robot's loop for its fleet, and what comes back.
 #pragma once
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "common/api/robot_api.hpp"
 #include "common/core/line_map.hpp"
+#include "common/core/topology.hpp"
 
 namespace seeker::app {
 
@@ -15,7 +17,18 @@ struct OwnMap {
   LineMap map;
   std::optional<Pose2> map_T_base;
 };
-/// Asks the loop for it, from any thread; answers on the loop's thread, or at once where the loop has ended.
-using OwnMapSource = std::function<void(const api::Reply<OwnMap>&)>;
+/// What it tells of where it has been and means to go, frame `map`; nothing where it does not know its place.
+using OwnTopology = std::optional<RobotTopology>;
+
+/// The robot as its fleet sees it. None is empty; all may be called from any thread. The first two answer on the loop's
+/// thread, or at once where the loop has ended.
+struct FleetHost {
+  std::function<void(const api::Reply<OwnMap>&)> give_map;
+  std::function<void(const api::Reply<OwnTopology>&)> give_topology;
+  /// What the robot knows of the others from now on, frame `map`; nothing: it is alone.
+  std::function<void(std::optional<FleetView>)> take_view;
+  /// An event of the robot; returns at once and calls nobody back.
+  std::function<void(const std::string& kind, const std::string& text, api::Severity)> tell_operator;
+};
 
 }  // namespace seeker::app

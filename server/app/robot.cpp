@@ -12,6 +12,12 @@ constexpr std::chrono::milliseconds kIdleWait{200};
 /// How long a loop that waits for its world leaves clients without an answer.
 constexpr std::chrono::milliseconds kAwaitSlice{10};
 
+std::optional<Pose2> known_place(const RobotLoop& loop) {
+  const PoseEstimate pose = loop.status().pose;
+  const bool known = pose.quality == LocalisationQuality::kLocalised || pose.quality == LocalisationQuality::kDegraded;
+  return known ? std::optional<Pose2>(pose.map_T_base) : std::nullopt;
+}
+
 }  // namespace
 
 /// One client's view: every call becomes a task of the loop's thread.
@@ -179,6 +185,20 @@ Robot::~Robot() {
   }
 }
 
+FleetHost Robot::fleet_host() {
+  FleetHost host;
+  host.give_map = [this](const api::Reply<OwnMap>& reply) { give_own_map(reply); };
+  host.give_topology = [this](const api::Reply<OwnTopology>& reply) { give_own_topology(reply); };
+  // A full mailbox only delays what is said again soon.
+  host.take_view = [this](std::optional<FleetView> view) {
+    static_cast<void>(mailbox_.post([this, view = std::move(view)]() mutable { loop_.set_fleet(std::move(view)); }));
+  };
+  host.tell_operator = [this](const std::string& kind, const std::string& text, api::Severity severity) {
+    static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.log(kind, text, severity); }));
+  };
+  return host;
+}
+
 void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
   const bool posted = mailbox_.post([this, reply] {
     Result<LineMap> map = loop_.robot_map().map();
@@ -186,10 +206,21 @@ void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
       reply(tl::unexpected<Error>(map.error()));
       return;
     }
-    const PoseEstimate pose = loop_.status().pose;
-    const bool known =
-        pose.quality == LocalisationQuality::kLocalised || pose.quality == LocalisationQuality::kDegraded;
-    reply(OwnMap{std::move(*map), known ? std::optional<Pose2>(pose.map_T_base) : std::nullopt});
+    reply(OwnMap{std::move(*map), known_place(loop_)});
+  });
+  if (!posted) {
+    reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));
+  }
+}
+
+void Robot::give_own_topology(const api::Reply<OwnTopology>& reply) {
+  const bool posted = mailbox_.post([this, reply] {
+    OwnTopology own;
+    if (known_place(loop_)) {
+      own = loop_.own_topology();
+      own->robot_id = identity_.robot_id;
+    }
+    reply(std::move(own));
   });
   if (!posted) {
     reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));

@@ -37,8 +37,8 @@ class Robot final : public api::RobotHost {
   void stop();
   /// Runs until the source has ended (a replay) or `deadline` robot time; for programs without a network.
   [[nodiscard]] RobotLoop& loop() { return loop_; }
-  /// The map as it is now, for a fleet; any thread.
-  void give_own_map(const api::Reply<OwnMap>& reply);
+  /// The robot for its fleet; valid while this lives.
+  [[nodiscard]] FleetHost fleet_host();
   /// True once a replay's source has been read to its end.
   [[nodiscard]] bool ended() const { return ended_.load(); }
   /// Robot time of the last tick; any thread.
@@ -51,6 +51,8 @@ class Robot final : public api::RobotHost {
  private:
   class Session;
 
+  void give_own_map(const api::Reply<OwnMap>& reply);
+  void give_own_topology(const api::Reply<OwnTopology>& reply);
   void keep_journal();
   void run(bool wait_for_client);
   [[nodiscard]] api::RobotInfo info() const;

@@ -124,6 +124,8 @@ class RobotLoop {
   /// What it tells its fleet of its newest exploration by topology, frame `map`; inactive after that has ended. Its id
   /// is the teller's.
   [[nodiscard]] const RobotTopology& own_topology() const { return own_topology_; }
+  /// An event outside of missions; also from outside the loop's own parts (the fleet).
+  void log(const std::string& kind, const std::string& text, api::Severity severity = api::Severity::kInfo);
   /// A fault from outside the loop's own parts (the journal).
   void report_fault(const api::Fault& fault);
   /// Everything a new subscriber needs is published in the next pass.
@@ -176,7 +178,6 @@ class RobotLoop {
   void raise(const std::string& id, const std::string& component, const std::string& message, const std::string& remedy,
              api::Severity severity = api::Severity::kError);
   void clear(const std::string& id);
-  void log(const std::string& kind, const std::string& text, api::Severity severity = api::Severity::kInfo);
   void emit(const api::Event& event);
 
   LoopParams params_;

@@ -54,6 +54,7 @@ Status RobotLoop::load_map(const LineMap& map, const MapIdentity& identity) {
   // All of these are places in the old map.
   trajectory_.clear();
   own_topology_ = {};
+  fleet_.reset();
   if (parts_.forget_places) {
     parts_.forget_places();
   }
@@ -90,6 +91,11 @@ void RobotLoop::follow_map(const std::optional<Pose2>& old_map_T_base) {
   log("map-moved", "the map was corrected; the robot's place in it moved by " + std::to_string(moved_mm) + " mm");
   missions_.map_moved(new_T_old, now());
   own_topology_.topology = fleet::moved(std::move(own_topology_.topology), new_T_old);
+  if (fleet_) {
+    for (RobotTopology& other : fleet_->others) {
+      other = fleet::moved(std::move(other), new_T_old);
+    }
+  }
 }
 
 }  // namespace seeker::app

@@ -135,6 +135,11 @@ void describe(config::Fields& f, FleetSettings& settings) {
   f.field("join", settings.join);
   f.seconds("period_s", settings.period);
   f.check("period_s", settings.period > Duration::zero(), "must be above 0");
+  f.seconds("share_period_s", settings.share_period);
+  f.check("share_period_s", settings.share_period > Duration::zero(), "must be above 0");
+  f.seconds("silence_s", settings.silence_limit);
+  f.check("silence_s", settings.silence_limit > settings.share_period, "must be above share_period_s");
+  f.section("merge", settings.merge);
 }
 
 void describe(config::Fields& f, ReplaySettings& settings) {

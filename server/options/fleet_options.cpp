@@ -1,5 +1,24 @@
 #include "server/options/fleet_options.hpp"
 
+#include "server/options/slam_options.hpp"
+
+namespace seeker::vision {
+
+void describe(config::Fields& f, MatchParams& params) {
+  f.field("max_distance", params.max_distance);
+  f.field("max_ratio", params.max_ratio);
+}
+
+void describe(config::Fields& f, PlaceParams& params) {
+  f.section("match", params.match);
+  f.field("max_epipolar_px", params.max_epipolar_px);
+  f.field("min_inliers", params.min_inliers);
+  f.field("min_inlier_share", params.min_inlier_share);
+  f.field("min_spread_px", params.min_spread_px);
+}
+
+}  // namespace seeker::vision
+
 namespace seeker::fleet {
 
 void describe(config::Fields& f, SpaceTreeParams& params) {
@@ -24,6 +43,69 @@ void describe(config::Fields& f, TopologicalParams& params) {
   f.field("retry_s", params.retry_s);
   f.field("replan_period_s", params.replan_period_s);
   f.field("scan_limit_s", params.scan_limit_s);
+}
+
+void describe(config::Fields& f, IcpParams& params) {
+  f.field("first_gate_m", params.first_gate_m);
+  f.field("last_gate_m", params.last_gate_m);
+  f.field("gate_shrink", params.gate_shrink);
+  f.field("keep", params.keep);
+  f.field("stop_m2", params.stop_m2);
+  f.field("max_iterations", params.max_iterations);
+  f.angles_deg("restarts_deg", params.restarts_rad);
+  f.field("min_pairs", params.min_pairs);
+}
+
+void describe(config::Fields& f, PairCheckParams& params) {
+  f.section("search", params.search);
+  f.section("match", params.match);
+  f.section("agreement", params.agreement);
+  f.field("match_points", params.match_points);
+  f.field("min_inliers", params.min_inliers);
+  f.field("min_overlap", params.min_overlap);
+  f.field("min_consistency", params.min_consistency);
+  f.field("max_through", params.max_through);
+  f.field("min_similarity", params.min_similarity);
+  f.field("max_residual_m", params.max_residual_m);
+  f.field("similarity_sigma_m", params.similarity_sigma_m);
+  f.check("similarity_sigma_m", params.similarity_sigma_m > 0.0, "must be above 0");
+  f.section("icp", params.icp);
+  f.field("sigma_floor_m", params.sigma_floor_m);
+  f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
+}
+
+void describe(config::Fields& f, OverlapParams& params) {
+  f.field("cell_m", params.cell_m);
+  f.check("cell_m", params.cell_m > 0.0, "must be above 0");
+  f.field("partner_m", params.partner_m);
+  f.field("min_normal_cosine", params.min_normal_cosine);
+  f.field("settle_m", params.settle_m);
+  f.angle_deg("settle_deg", params.settle_rad);
+  f.section("match", params.match);
+  f.section("agreement", params.agreement);
+  f.field("match_points", params.match_points);
+}
+
+void describe(config::Fields& f, MergeParams& params) {
+  f.section("pair", params.pair);
+  f.section("pictures", params.pictures);
+  f.field("regions_per_node", params.regions_per_node);
+  f.field("max_relations", params.max_relations);
+  f.section("consistency", params.consistency);
+  f.section("overlap", params.overlap);
+  f.field("bend_sigma_m", params.bend_sigma_m);
+  f.angle_deg("bend_sigma_deg", params.bend_sigma_rad);
+  f.field("max_hypotheses", params.max_hypotheses);
+  f.check("max_hypotheses", params.max_hypotheses >= 1 && params.max_hypotheses <= 16, "must be from 1 to 16");
+  f.field("min_pairs", params.min_pairs);
+  f.field("min_shared_wall_m", params.min_shared_wall_m);
+  f.field("sure_shared_wall_m", params.sure_shared_wall_m);
+  f.field("min_weak_wall_m", params.min_weak_wall_m);
+  f.field("sure_weak_wall_m", params.sure_weak_wall_m);
+  f.field("max_contradiction", params.max_contradiction);
+  f.field("sure_contradiction", params.sure_contradiction);
+  f.field("rival_ratio", params.rival_ratio);
+  f.field("max_rival_contradiction", params.max_rival_contradiction);
 }
 
 }  // namespace seeker::fleet

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -19,6 +20,23 @@ using std::chrono::seconds;
 inline const std::vector<Point2> kWest{{1.0, 6.0}, {14.0, 6.0}, {2.0, 6.2}};
 inline const std::vector<Point2> kEast{{23.0, 6.0}, {8.0, 5.9}, {20.0, 6.0}};
 
+// Another office to the east of that one; a robot that has been in the east of the one and the west of the other.
+inline const std::vector<Point2> kBetween{{23.0, 6.0}, {8.0, 5.9}, {38.0, 6.0}, {26.0, 6.2}};
+inline const std::vector<Point2> kFarEast{{47.0, 6.0}, {32.0, 5.9}, {44.0, 6.0}};
+
+inline std::vector<Wall> two_offices() {
+  std::vector<Wall> walls = fleet::office(1);
+  for (Wall wall : fleet::office(12)) {
+    wall.first.x() += 24.0;
+    wall.second.x() += 24.0;
+    walls.push_back(wall);
+  }
+  return walls;
+}
+inline LineMap in_two_offices(const std::vector<Point2>& way, std::uint64_t seed) {
+  return fleet::toy_map(two_offices(), fleet::drive(way), seed);
+}
+
 inline LineMap west(std::uint64_t building = 1) {
   return fleet::toy_map(fleet::office(building), fleet::drive(kWest), 11);
 }
@@ -28,8 +46,78 @@ inline LineMap east(std::uint64_t building = 1) {
 /// Where the map `east` lies in the map `west`.
 inline Pose2 west_T_east() { return inverse(fleet::drive(kWest).front()) * fleet::drive(kEast).front(); }
 
-inline app::OwnMapSource holds(const LineMap& map) {
-  return [map](const api::Reply<app::OwnMap>& reply) { reply(app::OwnMap{map, Pose2{1.0, 0.0, 0.0}}); };
+/// A robot with a toy map, which remembers what its fleet tells it.
+class ToyHost {
+ public:
+  explicit ToyHost(LineMap map, app::OwnTopology topology = std::nullopt)
+      : map_(std::move(map)), topology_(std::move(topology)) {}
+
+  [[nodiscard]] app::FleetHost host() const {
+    app::FleetHost host;
+    host.give_map = [map = map_](const api::Reply<app::OwnMap>& reply) {
+      reply(app::OwnMap{map, Pose2{1.0, 0.0, 0.0}});
+    };
+    host.give_topology = [topology = topology_](const api::Reply<app::OwnTopology>& reply) {
+      reply(app::OwnTopology(topology));
+    };
+    host.take_view = [heard = heard_](std::optional<FleetView> view) {
+      const std::lock_guard lock(heard->mutex);
+      heard->view = std::move(view);
+    };
+    host.tell_operator = [heard = heard_](const std::string& kind, const std::string& text, api::Severity) {
+      const std::lock_guard lock(heard->mutex);
+      heard->events.push_back(kind + " " + text);
+    };
+    return host;
+  }
+  [[nodiscard]] std::optional<FleetView> view() const {
+    const std::lock_guard lock(heard_->mutex);
+    return heard_->view;
+  }
+  [[nodiscard]] std::vector<std::string> events() const {
+    const std::lock_guard lock(heard_->mutex);
+    return heard_->events;
+  }
+  /// Waits until what it knows of the others is as wanted.
+  [[nodiscard]] std::optional<FleetView> until(
+      const std::function<bool(const std::optional<FleetView>&)>& wanted) const {
+    const auto end = std::chrono::steady_clock::now() + seconds(120);
+    while (std::chrono::steady_clock::now() < end) {
+      if (auto view = this->view(); wanted(view)) {
+        return view;
+      }
+      std::this_thread::yield();
+    }
+    ADD_FAILURE() << "the robot was never told";
+    return std::nullopt;
+  }
+
+ private:
+  struct Heard {
+    std::mutex mutex;
+    std::optional<FleetView> view;
+    std::vector<std::string> events;
+  };
+  LineMap map_;
+  app::OwnTopology topology_;
+  std::shared_ptr<Heard> heard_ = std::make_shared<Heard>();
+};
+
+inline app::FleetHost holds(const LineMap& map) { return ToyHost(map).host(); }
+
+/// A robot at one place, on its way to a goal.
+inline RobotTopology at_place(const std::string& robot_id, const Point2& p_map) {
+  RobotTopology robot;
+  robot.robot_id = robot_id;
+  robot.map_T_base = {p_map.x(), p_map.y(), 0.0};
+  TopologyNode node;
+  node.id = 1;
+  node.map_T_base = robot.map_T_base;
+  node.goals = {{1, p_map + Point2(3.0, 0.0), 8}};
+  robot.topology.nodes = {node};
+  robot.topology.current = 1;
+  robot.target_map = node.goals.front().p_map;
+  return robot;
 }
 
 /// Waits until a robot of the fleet is as wanted; its last description.

@@ -5,6 +5,7 @@
 #include "common/wire/sha256.hpp"
 #include "server/store/map_file.hpp"
 #include "tests/integration/fleet/fleet_world.hpp"
+#include "tests/integration/fleet/toy_robot.hpp"
 #include "tests/support/matchers.hpp"
 
 namespace seeker::testing {
@@ -13,26 +14,6 @@ namespace {
 using app::FleetLeader;
 using app::FleetLeaderParams;
 using app::PackedMap;
-
-PackedMap packed(const LineMap& map, const std::string& robot_id = "r1", std::uint64_t instance = 1) {
-  Result<PackedMap> made = app::pack_map(map, robot_id);
-  EXPECT_TRUE(made);
-  made->manifest.instance = instance;
-  return std::move(*made);
-}
-
-/// Announces and sends everything that is missing.
-void join(FleetLeader& leader, const PackedMap& robot) {
-  const auto answer = leader.announce(robot.manifest);
-  ASSERT_TRUE(answer) << answer.error().message;
-  for (const api::FleetMissing& missing : answer->missing) {
-    const std::vector<std::uint8_t>& bytes = *robot.pieces.at(missing.hash);
-    const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(missing.offset);
-    const auto received = leader.receive({robot.manifest.robot_id, missing.hash, missing.offset, {from, bytes.end()}});
-    ASSERT_TRUE(received) << received.error().message;
-    EXPECT_EQ(*received, bytes.size());
-  }
-}
 
 FleetLeaderParams params(const std::string& folder) {
   FleetLeaderParams params;
@@ -104,7 +85,7 @@ TEST(FleetLeader, SplitTakesARobotOutAndMergeTakesItInAgain) {
 
 TEST(FleetLeader, RefusesANamesakeAndLeavesTheFirstAsItWas) {
   FleetLeaderParams patient = params("fleet_namesake");
-  patient.namesake_limit = std::chrono::hours(1);
+  patient.silence_limit = std::chrono::hours(1);
   FleetLeader leader(patient, holds(west()));
   const PackedMap first = packed(east(), "r1", 1);
   join(leader, first);
@@ -115,7 +96,7 @@ TEST(FleetLeader, RefusesANamesakeAndLeavesTheFirstAsItWas) {
 
 TEST(FleetLeader, TakesOverAnIdWhoseRobotIsSilent) {
   FleetLeaderParams quick = params("fleet_silent");
-  quick.namesake_limit = Duration::zero();
+  quick.silence_limit = Duration::zero();
   FleetLeader leader(quick, holds(west()));
   join(leader, packed(east(), "r1", 1));
   EXPECT_TRUE(leader.announce(packed(east(), "r1", 2).manifest)) << "it was started anew";

@@ -14,12 +14,13 @@ using namespace std::chrono_literals;
 
 /// A main robot and the port that it is reached at.
 struct Main {
-  explicit Main(const std::string& name) {
+  explicit Main(const std::string& name, const ToyHost& host = ToyHost(west())) {
     app::FleetSettings settings;
     settings.lead = true;
     settings.port = 0;
+    settings.share_period = 20ms;
     const std::filesystem::path folder = fresh_folder(name);
-    auto started = app::start_fleet(settings, "main", "test", folder, holds(west()));
+    auto started = app::start_fleet(settings, "main", "test", folder, host.host());
     EXPECT_TRUE(started) << started.error().message;
     part = std::move(*started);
     port = static_cast<std::uint16_t>(std::stoi(wait_for_file(folder / "port", seconds(10)).value()));
@@ -28,18 +29,19 @@ struct Main {
   std::uint16_t port = 0;
 };
 
-app::FleetPart robot_at(std::uint16_t port, const std::string& robot_id, const LineMap& map) {
+app::FleetPart robot_at(std::uint16_t port, const std::string& robot_id, const app::FleetHost& host) {
   app::FleetSettings settings;
   settings.join = "127.0.0.1:" + std::to_string(port);
   settings.period = 20ms;
-  auto started = app::start_fleet(settings, robot_id, "test", {}, holds(map));
+  settings.share_period = 20ms;
+  auto started = app::start_fleet(settings, robot_id, "test", {}, host);
   EXPECT_TRUE(started) << started.error().message;
   return std::move(*started);
 }
 
 TEST(FleetLink, ARobotThatJoinsHearsWhereItIs) {
   const Main main("link_join");
-  const app::FleetPart robot = robot_at(main.port, "r1", east());
+  const app::FleetPart robot = robot_at(main.port, "r1", holds(east()));
   static_cast<void>(until(*main.part.leader, "r1", [](const auto& m) { return m.main_T_base.has_value(); }));
   std::optional<Pose2> heard;
   while (!heard) {
@@ -56,7 +58,7 @@ TEST(FleetLink, ARobotThatJoinsHearsWhereItIs) {
 TEST(FleetLink, ALinkThatIsCutAllTheTimeStillBringsEverything) {
   const Main main("link_cut");
   ChaosProxy proxy(main.port);
-  const app::FleetPart robot = robot_at(proxy.port(), "r1", east());
+  const app::FleetPart robot = robot_at(proxy.port(), "r1", holds(east()));
   std::size_t cuts = 0;
   const api::FleetMember member = until(*main.part.leader, "r1", [&](const api::FleetMember& m) {
     if (cuts < 20 && proxy.connections() > 0) {
@@ -69,13 +71,47 @@ TEST(FleetLink, ALinkThatIsCutAllTheTimeStillBringsEverything) {
   EXPECT_GT(cuts, 0U);
 }
 
+bool is_active(const std::optional<FleetView>& view) {
+  return view && !view->others.empty() && view->others.front().active;
+}
+
+TEST(FleetLink, ARobotKeepsThePlacesOfTheOthersWhenTheLinkDropsAndTakesUpTheirGoals) {
+  const ToyHost first(west(), at_place("main", {2.0, 1.0}));
+  const ToyHost second(east(), at_place("r1", {1.0, 0.0}));
+  std::optional<Main> main(std::in_place, "link_share", first);
+  const app::FleetPart robot = robot_at(main->port, "r1", second.host());
+  const auto heard = second.until(is_active);
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->robot_id, "r1");
+  EXPECT_THAT(heard->others.front().map_T_base.translation(),
+              Point2Near(inverse(west_T_east()) * Point2(2.0, 1.0), 0.3));
+  const auto main_heard = first.until(is_active);
+  ASSERT_TRUE(main_heard);
+  EXPECT_EQ(main_heard->others.front().robot_id, "r1");
+  main.reset();
+  const auto alone = second.until([](const auto& view) { return view && !view->others.front().active; });
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->others.front().topology.nodes.size(), heard->others.front().topology.nodes.size());
+}
+
+TEST(FleetLink, ARobotThatIsTakenOutForgetsTheOthers) {
+  const ToyHost first(west(), at_place("main", {2.0, 1.0}));
+  const ToyHost second(east(), at_place("r1", {1.0, 0.0}));
+  const Main main("link_split", first);
+  const app::FleetPart robot = robot_at(main.port, "r1", second.host());
+  static_cast<void>(second.until(is_active));
+  ASSERT_TRUE(main.part.leader->decide({"r1", api::FleetVerb::kSplit, 0}));
+  static_cast<void>(second.until([](const auto& view) { return !view; }));
+  static_cast<void>(first.until([](const auto& view) { return !view; }));
+}
+
 TEST(FleetLink, ARobotWithoutItsMainOneGoesOnAndSaysWhy) {
   std::uint16_t port = 0;
   {
     const Main main("link_gone");
     port = main.port;
   }
-  const app::FleetPart robot = robot_at(port, "r1", east());
+  const app::FleetPart robot = robot_at(port, "r1", holds(east()));
   Result<api::FleetStatus> status = robot.follower->status();
   while (!status && status.error().code == Errc::kNotReady) {
     status = robot.follower->status();

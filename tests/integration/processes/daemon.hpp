@@ -25,13 +25,13 @@ inline constexpr seconds kCall{20};
 /// seekerd on a free port with a state folder of its own.
 class Daemon {
  public:
-  explicit Daemon(std::vector<std::string> extra = {}, std::filesystem::path folder = fresh_folder("daemon"))
+  explicit Daemon(std::vector<std::string> extra = {}, std::filesystem::path folder = fresh_folder("daemon"),
+                  const std::filesystem::path& config = source_file("config/robots/sim.yaml"))
       : folder_(std::move(folder)) {
     const std::filesystem::path port_file = folder_ / "port";
     std::filesystem::remove(port_file);
-    std::vector<std::string> arguments{
-        "--config",       source_file("config/robots/sim.yaml"), "--port", "0", "--port-file", port_file, "--state",
-        folder_ / "state"};
+    std::vector<std::string> arguments{"--config",    config,    "--port",  "0",
+                                       "--port-file", port_file, "--state", folder_ / "state"};
     arguments.insert(arguments.end(), extra.begin(), extra.end());
     process.emplace(program("seekerd"), arguments, folder_ / "log");
     const std::optional<std::string> text = wait_for_file(port_file, kStart);

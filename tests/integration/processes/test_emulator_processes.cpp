@@ -1,63 +1,13 @@
 // One world hosted for two robots, each with its own server, over real sockets.
 
 #include <csignal>
-#include <fstream>
-#include <map>
-#include <sstream>
 
-#include "tests/integration/processes/daemon.hpp"
+#include "tests/integration/processes/emulator.hpp"
 
 namespace seeker::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// seeker-emulator with two robots in the corridor world.
-class Emulator {
- public:
-  explicit Emulator(const fs::path& folder = fresh_folder("emulator")) : truth(folder / "truth.csv") {
-    const fs::path port_file = folder / "port";
-    process.emplace(program("seeker-emulator"),
-                    std::vector<std::string>{"--world", source_file("config/worlds/corridor.yaml"), "--config",
-                                             source_file("config/robots/sim.yaml"), "--robots", "2", "--lockstep",
-                                             "--port", "0", "--port-file", port_file, "--truth", truth},
-                    folder / "log");
-    const std::optional<std::string> text = wait_for_file(port_file, kStart);
-    EXPECT_TRUE(text) << process->output();
-    port = text ? text->substr(0, text->find('\n')) : "";
-  }
-
-  /// What robot `number` is started with.
-  [[nodiscard]] std::vector<std::string> robot(int number) const {
-    return {"--set", "driver=emulator",
-            "--set", "emulator.address=127.0.0.1:" + port,
-            "--set", "emulator.robot=" + std::to_string(number),
-            "--set", "robot_id=r" + std::to_string(number)};
-  }
-
-  /// Where each robot has been, x and y in the frame of the world.
-  [[nodiscard]] std::map<int, std::vector<Point2>> paths() const {
-    std::map<int, std::vector<Point2>> paths;
-    std::ifstream in(truth);
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream words(line);
-      double time_s = 0.0;
-      int robot = 0;
-      Point2 p = Point2::Zero();
-      if (words >> time_s >> robot >> p.x() >> p.y()) {
-        paths[robot].push_back(p);
-      }
-    }
-    return paths;
-  }
-
-  fs::path truth;
-  std::optional<ChildProcess> process;
-  std::string port;
-};
 
 TEST(EmulatorProcesses, TwoRobotsDriveInOneWorldAndOneComesBackAfterItsDeath) {
   const Emulator emulator;

@@ -1,12 +1,9 @@
 // Explorations over real sockets: to the end, without their client, paused, and over the death of the robot's program.
 
 #include <csignal>
-#include <future>
-#include <mutex>
 #include <sstream>
 
-#include "common/rpc/wait.hpp"
-#include "tests/integration/processes/daemon.hpp"
+#include "tests/integration/processes/watcher.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -15,49 +12,6 @@ namespace fs = std::filesystem;
 
 /// Slow enough that something can happen in between, fast enough for a test.
 const std::vector<std::string> kSlow{"--set", "sim.speed=15", "--set", "loop.mission.link_grace_s=0.5"};
-
-/// Follows a robot's missions.
-class Watcher {
- public:
-  explicit Watcher(const Daemon& daemon) : client_(connect(daemon, "watcher")) {
-    Result<std::unique_ptr<api::Subscription>> subscription =
-        client_->subscribe({{.topic = api::Topic::kMission}}, [this](const api::UpdatePtr& update) {
-          const auto& status = std::get<api::MissionStatus>(update->payload);
-          if (status.end) {
-            std::call_once(once_, [&] { ended_.set_value(status); });
-          }
-        });
-    EXPECT_TRUE(subscription);
-    subscription_ = std::move(*subscription);
-  }
-
-  [[nodiscard]] api::RobotStatus status() const {
-    return rpc::wait<api::RobotStatus>([&](auto reply) { client_->get_status(std::move(reply)); }, kCall).value();
-  }
-  /// Asks until the mission is as wanted.
-  template <class Wanted>
-  api::RobotStatus until(Wanted wanted) const {
-    for (;;) {
-      api::RobotStatus now = status();
-      if (now.mission && wanted(*now.mission)) {
-        return now;
-      }
-    }
-  }
-  [[nodiscard]] api::MissionStatus end() {
-    auto future = ended_.get_future();
-    EXPECT_EQ(future.wait_for(seconds(60)), std::future_status::ready) << "the mission did not end";
-    return future.get();
-  }
-
- private:
-  std::shared_ptr<rpc::RobotClient> client_;
-  std::once_flag once_;
-  std::promise<api::MissionStatus> ended_;
-  std::unique_ptr<api::Subscription> subscription_;
-};
-
-bool under_way(const api::MissionStatus& mission) { return mission.path_length_m > 0.5; }
 
 TEST(ExploreProcesses, DemoWorldIsMappedAndEveryDecisionTold) {
   const Daemon daemon;

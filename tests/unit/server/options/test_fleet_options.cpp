@@ -40,5 +40,39 @@ TEST(TopologyOptions, RefuseWhatNobodyKnows) {
   }
 }
 
+Status read(const std::string& text, MergeParams& params) {
+  const auto document = config::Document::parse(text, "merge.yaml");
+  return document ? document->read(params) : Status(tl::unexpected<Error>(document.error()));
+}
+
+TEST(MergeOptions, ReadWhatAFileSaysAndKeepTheRest) {
+  MergeParams params;
+  ASSERT_TRUE(
+      read("sure_shared_wall_m: 45\npair: {sigma_floor_deg: 1, icp: {keep: 0.7}}\noverlap: {settle_m: 0.2}\n", params));
+  EXPECT_DOUBLE_EQ(params.sure_shared_wall_m, 45.0);
+  EXPECT_NEAR(params.pair.sigma_floor_rad, kPi / 180.0, 1e-12);
+  EXPECT_DOUBLE_EQ(params.pair.icp.keep, 0.7);
+  EXPECT_DOUBLE_EQ(params.overlap.settle_m, 0.2);
+  EXPECT_EQ(params.min_pairs, MergeParams{}.min_pairs);
+}
+
+TEST(MergeOptions, PrintWhatTheyRead) {
+  MergeParams params;
+  params.rival_ratio = 0.25;
+  params.pictures.match.max_ratio = 0.7;
+  MergeParams again;
+  ASSERT_TRUE(read(config::print(params), again));
+  EXPECT_DOUBLE_EQ(again.rival_ratio, 0.25);
+  EXPECT_DOUBLE_EQ(again.pictures.match.max_ratio, 0.7);
+  EXPECT_EQ(config::print(again), config::print(params));
+}
+
+TEST(MergeOptions, RefuseWhatNobodyKnowsAndWhatMakesNoSense) {
+  MergeParams params;
+  for (const char* text : {"sure_wall_m: 3\n", "pair: {icp: {starts: 1}}\n", "max_hypotheses: 17\n"}) {
+    EXPECT_FALSE(read(text, params)) << text;
+  }
+}
+
 }  // namespace
 }  // namespace seeker::fleet

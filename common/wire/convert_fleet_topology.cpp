@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <set>
+
+#include "common/core/angle.hpp"
+#include "common/wire/convert.hpp"
+#include "common/wire/convert_fleet.hpp"
+#include "common/wire/fleet_fields.hpp"
+
+namespace seeker::wire {
+namespace {
+
+constexpr int kSectorNumbers = 5;
+constexpr int kWayNumbers = 2;
+/// A full turn in single precision may be a little more than in double.
+constexpr double kMaxSpan_rad = kTwoPi + 1e-5;
+
+void write_place(const TopologyNode& from, pb::FleetPlace* to) {
+  to->set_id(from.id);
+  write(from.map_T_base, to->mutable_map_t_base());
+  for (const FreeSector& sector : from.sectors) {
+    for (const double number :
+         {sector.from_base.x(), sector.from_base.y(), sector.start_rad, sector.span_rad, sector.radius_m}) {
+      to->add_sectors(static_cast<float>(number));
+    }
+  }
+  for (const TopologyGoal& goal : from.goals) {
+    pb::FleetGoal* one = to->add_goals();
+    one->set_id(goal.id);
+    write(goal.p_map, one->mutable_p_map());
+    one->set_layer(static_cast<std::uint32_t>(goal.layer));
+  }
+}
+
+double within(double value, double limit, std::string_view field, Check& check) {
+  if (!(std::abs(value) <= limit)) {  // also where it is no number
+    check.refuse(field, Errc::kInvalidArgument, "is out of reach or not a finite number");
+    return 0.0;
+  }
+  return value;
+}
+
+Point2 read_point(bool present, const pb::Point2& from, std::string_view field, Check& check) {
+  Point2 p = Point2::Zero();
+  read_required(present, from, p, field, check);
+  return {within(p.x(), api::kMaxFleetReach_m, field, check), within(p.y(), api::kMaxFleetReach_m, field, check)};
+}
+
+Pose2 read_place_pose(bool present, const pb::Pose2& from, Check& check) {
+  Pose2 pose;
+  read_required(present, from, pose, "map_t_base", check);
+  within(pose.x_m, api::kMaxFleetReach_m, "map_t_base", check);
+  within(pose.y_m, api::kMaxFleetReach_m, "map_t_base", check);
+  return pose;
+}
+
+void read_goal(const pb::FleetGoal& from, const Point2& place_map, TopologyGoal& to, Check& check) {
+  to.id = from.id();
+  to.p_map = read_point(from.has_p_map(), from.p_map(), "p_map", check);
+  to.layer = check.natural("layer", from.layer());
+  if (to.id == 0 || to.layer < 1 || to.layer > api::kMaxFleetLayer) {
+    check.refuse("layer", Errc::kInvalidArgument, "must be from 1 to 64, and the id of the goal above 0");
+  }
+  if (check.ok() && (to.p_map - place_map).norm() > api::kMaxFleetGoal_m) {
+    check.refuse("p_map", Errc::kInvalidArgument, "lies too far from the place it is bound to");
+  }
+}
+
+void read_sectors(const pb::FleetPlace& from, std::vector<FreeSector>& to, Check& check) {
+  if (from.sectors_size() % kSectorNumbers != 0) {
+    check.refuse("sectors", Errc::kInvalidArgument, "does not have five numbers each");
+    return;
+  }
+  to.reserve(static_cast<std::size_t>(from.sectors_size() / kSectorNumbers));
+  for (int k = 0; k < from.sectors_size(); k += kSectorNumbers) {
+    const auto number = [&](int at, double limit) {
+      return within(static_cast<double>(from.sectors(k + at)), limit, "sectors", check);
+    };
+    FreeSector sector;
+    sector.from_base = {number(0, api::kMaxFleetGoal_m), number(1, api::kMaxFleetGoal_m)};
+    sector.start_rad = wrap_angle(number(2, kTwoPi));
+    sector.span_rad = number(3, kMaxSpan_rad);
+    sector.radius_m = number(4, api::kMaxFleetGoal_m);
+    if (sector.span_rad < 0.0 || sector.radius_m < 0.0) {
+      check.refuse("sectors", Errc::kInvalidArgument, "has a span or a radius below 0");
+    }
+    to.push_back(sector);
+  }
+}
+
+void read_place(const pb::FleetPlace& from, TopologyNode& to, Check& check) {
+  to.id = from.id();
+  to.map_T_base = read_place_pose(from.has_map_t_base(), from.map_t_base(), check);
+  read_sectors(from, to.sectors, check);
+  for (int k = 0; k < from.goals_size(); ++k) {
+    const auto scope = check.in("goals", static_cast<std::size_t>(k));
+    read_goal(from.goals(k), to.map_T_base.translation(), to.goals.emplace_back(), check);
+  }
+}
+
+/// Before memory is spent on them.
+bool check_counts(const pb::FleetTopology& from, Check& check) {
+  std::size_t goals = 0;
+  std::size_t sectors = 0;
+  for (const pb::FleetPlace& place : from.places()) {
+    goals += static_cast<std::size_t>(place.goals_size());
+    sectors += static_cast<std::size_t>(place.sectors_size() / kSectorNumbers);
+  }
+  return check.count("places", static_cast<std::size_t>(from.places_size()), api::kMaxFleetPlaces) &&
+         check.count("goals", goals, api::kMaxFleetGoals) && check.count("sectors", sectors, api::kMaxFleetSectors) &&
+         check.count("ways", static_cast<std::size_t>(from.ways_size() / kWayNumbers), api::kMaxFleetWays);
+}
+
+void read_ways(const pb::FleetTopology& from, Topology& to, Check& check) {
+  std::set<std::uint64_t> known;
+  for (const TopologyNode& node : to.nodes) {
+    if (node.id == 0 || (!known.empty() && node.id <= *known.rbegin())) {
+      check.refuse("places", Errc::kInvalidArgument, "must have rising ids above 0");
+    }
+    known.insert(node.id);
+  }
+  if (from.ways_size() % kWayNumbers != 0) {
+    check.refuse("ways", Errc::kInvalidArgument, "does not have two places each");
+    return;
+  }
+  for (int k = 0; k < from.ways_size(); k += kWayNumbers) {
+    to.edges.push_back({from.ways(k), from.ways(k + 1)});
+    if (!known.contains(from.ways(k)) || !known.contains(from.ways(k + 1))) {
+      check.refuse("ways", Errc::kInvalidArgument, "leads to a place that is not there");
+    }
+  }
+  to.current = from.current();
+  if (to.current != 0 && !known.contains(to.current)) {
+    check.refuse("current", Errc::kInvalidArgument, "is a place that is not there");
+  }
+}
+
+}  // namespace
+
+void write(const RobotTopology& from, pb::FleetTopology* to) {
+  to->set_robot_id(from.robot_id);
+  write(from.map_T_base, to->mutable_map_t_base());
+  for (const TopologyNode& node : from.topology.nodes) {
+    write_place(node, to->add_places());
+  }
+  for (const TopologyEdge& edge : from.topology.edges) {
+    to->add_ways(edge.a);
+    to->add_ways(edge.b);
+  }
+  to->set_current(from.topology.current);
+  if (from.target_map) {
+    write(*from.target_map, to->mutable_target_map());
+  }
+  to->set_active(from.active);
+}
+
+void read(const pb::FleetTopology& from, RobotTopology& to, Check& check) {
+  if (!check_counts(from, check)) {
+    return;
+  }
+  to.robot_id = read_robot_id(from.robot_id(), check);
+  to.map_T_base = read_place_pose(from.has_map_t_base(), from.map_t_base(), check);
+  for (int k = 0; k < from.places_size(); ++k) {
+    const auto scope = check.in("places", static_cast<std::size_t>(k));
+    read_place(from.places(k), to.topology.nodes.emplace_back(), check);
+  }
+  read_ways(from, to.topology, check);
+  if (from.has_target_map()) {
+    to.target_map = read_point(true, from.target_map(), "target_map", check);
+  }
+  to.active = from.active();
+}
+
+void write(const api::FleetShare& from, pb::FleetShare* to) {
+  to->set_robot_id(from.robot_id);
+  to->set_instance(from.instance);
+  if (from.topology) {
+    write(*from.topology, to->mutable_topology());
+  }
+}
+
+void read(const pb::FleetShare& from, api::FleetShare& to, Check& check) {
+  to.robot_id = read_robot_id(from.robot_id(), check);
+  to.instance = from.instance();
+  if (from.has_topology()) {
+    const auto scope = check.in("topology");
+    read(from.topology(), to.topology.emplace(), check);
+    if (check.ok() && to.topology->robot_id != to.robot_id) {
+      check.refuse("robot_id", Errc::kInvalidArgument, "is not the robot that tells");
+    }
+  }
+}
+
+void write(const api::FleetShared& from, pb::FleetReply* to) {
+  to->set_state(static_cast<pb::FleetState>(wire_enum(from.state)));
+  for (const RobotTopology& other : from.others) {
+    write(other, to->add_others());
+  }
+}
+
+void read(const pb::FleetReply& from, api::FleetShared& to, Check& check) {
+  if (!check.count("others", static_cast<std::size_t>(from.others_size()), api::kMaxFleetRobots - 1)) {
+    return;
+  }
+  check.enumerator("state", from.state(), api::FleetState::kSplit, to.state);
+  for (int k = 0; k < from.others_size(); ++k) {
+    const auto scope = check.in("others", static_cast<std::size_t>(k));
+    read(from.others(k), to.others.emplace_back(), check);
+  }
+}
+
+}  // namespace seeker::wire

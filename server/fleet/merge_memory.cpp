@@ -1,0 +1,27 @@
+#include "server/fleet/merge_memory.hpp"
+
+#include <cmath>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::fleet {
+
+bool same_place(const Pose2& a_T_b, const Pose2& a_T_b_too, const SamePlaceParams& params) {
+  return distance_m(a_T_b, a_T_b_too) < params.max_m &&
+         std::abs(wrap_angle(a_T_b.theta_rad - a_T_b_too.theta_rad)) < params.max_rad;
+}
+
+void judge_again(MergeAnswer& answer, const MergeAnswer& before, const MergeParams& params) {
+  const bool still = !answer.merged() && before.merged() && !answer.hypotheses.empty() &&
+                     same_place(answer.hypotheses.front().a_T_b.a_T_b, before.hypotheses.front().a_T_b.a_T_b);
+  if (!still) {
+    return;
+  }
+  MergeParams enough = params;
+  enough.sure_shared_wall_m = params.min_shared_wall_m;
+  enough.sure_weak_wall_m = params.min_weak_wall_m;
+  enough.sure_contradiction = params.max_contradiction;
+  judge(answer, enough);
+}
+
+}  // namespace seeker::fleet

@@ -1,0 +1,165 @@
+// What robots hear of where the others go, and who belongs together when there are more than two.
+
+#include "tests/integration/fleet/fleet_world.hpp"
+#include "tests/integration/fleet/toy_robot.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace seeker::testing {
+namespace {
+
+using app::FleetLeader;
+using app::FleetLeaderParams;
+
+FleetLeaderParams params(const std::string& folder) {
+  FleetLeaderParams params;
+  params.folder = fresh_folder(folder);
+  params.robot_id = "main";
+  params.silence_limit = std::chrono::hours(1);
+  return params;
+}
+
+bool placed(const api::FleetMember& member) {
+  return member.state == api::FleetState::kMerged && member.main_T_map.has_value();
+}
+
+api::FleetShared told(FleetLeader& leader, const std::string& robot_id, const std::optional<RobotTopology>& topology,
+                      std::uint64_t instance = 1) {
+  const auto shared = leader.share({robot_id, instance, topology});
+  EXPECT_TRUE(shared) << shared.error().message;
+  return shared ? *shared : api::FleetShared{};
+}
+
+const RobotTopology& of(const std::vector<RobotTopology>& others, const std::string& robot_id) {
+  static const RobotTopology nobody;
+  const auto found = std::find_if(others.begin(), others.end(),
+                                  [&](const RobotTopology& other) { return other.robot_id == robot_id; });
+  EXPECT_NE(found, others.end()) << robot_id;
+  return found == others.end() ? nobody : *found;
+}
+
+const Point2 kPlace(2.0, 1.0);
+
+TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
+  const ToyHost main(west(), at_place("main", kPlace));
+  FleetLeader leader(params("share_frames"), main.host());
+  join(leader, packed(east(), "r1"));
+  join(leader, packed(fleet::toy_map(fleet::office(1), fleet::drive(kEast), 21), "r2"));
+  const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
+  const Pose2 west_T_r2 = *until(leader, "r2", placed).main_T_map;
+  EXPECT_EQ(told(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
+  leader.refresh();
+
+  const auto r2_hears = told(leader, "r2", at_place("r2", kPlace)).others;
+  ASSERT_EQ(r2_hears.size(), 2U);
+  EXPECT_THAT(of(r2_hears, "r1").map_T_base, Pose2Near(Pose2{kPlace.x(), kPlace.y(), 0.0}, 0.3, 0.06))
+      << "both maps begin at the same place";
+  EXPECT_THAT(*of(r2_hears, "main").target_map, Point2Near(inverse(west_T_r2) * (kPlace + Point2(3.0, 0.0)), 1e-9));
+  EXPECT_TRUE(of(r2_hears, "main").active);
+  EXPECT_EQ(of(r2_hears, "r1").topology.nodes.front().goals.size(), 1U);
+
+  leader.refresh();
+  const auto main_hears = main.view();
+  ASSERT_TRUE(main_hears);
+  ASSERT_EQ(main_hears->others.size(), 2U);
+  EXPECT_EQ(main_hears->robot_id, "main");
+  EXPECT_THAT(of(main_hears->others, "r1").topology.nodes.front().goals.front().p_map,
+              Point2Near(west_T_r1 * (kPlace + Point2(3.0, 0.0)), 0.1))
+      << "where r1 lies was found anew with r2's map";
+}
+
+TEST(FleetSharing, ASilentRobotsGoalsAreAnybodys) {
+  FleetLeaderParams impatient = params("share_silent");
+  impatient.silence_limit = Duration::zero();
+  const ToyHost main(west(), at_place("main", kPlace));
+  FleetLeader leader(impatient, main.host());
+  join(leader, packed(east(), "r1"));
+  static_cast<void>(until(leader, "r1", placed));
+  static_cast<void>(told(leader, "r1", at_place("r1", kPlace)));
+  leader.refresh();
+  ASSERT_TRUE(main.view());
+  EXPECT_FALSE(of(main.view()->others, "r1").active);
+  EXPECT_EQ(of(main.view()->others, "r1").topology.nodes.size(), 1U);
+}
+
+TEST(FleetSharing, ARobotThatWasTakenOutHearsNothingAndNobodyHearsOfIt) {
+  const ToyHost main(west(), at_place("main", kPlace));
+  FleetLeader leader(params("share_split"), main.host());
+  join(leader, packed(east(), "r1"));
+  static_cast<void>(until(leader, "r1", placed));
+  static_cast<void>(told(leader, "r1", at_place("r1", kPlace)));
+  leader.refresh();
+  ASSERT_TRUE(main.view());
+  ASSERT_TRUE(leader.decide({"r1", api::FleetVerb::kSplit, 0}));
+  leader.refresh();
+  EXPECT_FALSE(main.view());
+  const auto hears = told(leader, "r1", at_place("r1", kPlace));
+  EXPECT_EQ(hears.state, api::FleetState::kSplit);
+  EXPECT_TRUE(hears.others.empty());
+}
+
+TEST(FleetSharing, WhoHasNotAnnouncedItselfIsToldToDoSo) {
+  FleetLeader leader(params("share_stranger"), holds(west()));
+  EXPECT_EQ(leader.share({"r1", 1, {}}).error().code, Errc::kNotFound);
+  join(leader, packed(east(), "r1", 1));
+  EXPECT_TRUE(leader.share({"r1", 1, {}}));
+  EXPECT_EQ(leader.share({"r1", 2, {}}).error().code, Errc::kNotFound) << "another program of this name";
+}
+
+TEST(FleetSharing, PlacesAreKeptOverRestartsOfBothButNotInANewMap) {
+  const FleetLeaderParams same = params("share_restart");
+  const app::PackedMap robot = packed(east(), "r1", 1);
+  {
+    FleetLeader leader(same, holds(west()));
+    ASSERT_TRUE(leader.announce(robot.manifest));
+    static_cast<void>(told(leader, "r1", at_place("r1", kPlace)));
+    join(leader, robot);
+    static_cast<void>(until(leader, "r1", placed));
+  }
+  const ToyHost main(west(), at_place("main", kPlace));
+  FleetLeader again(same, main.host());
+  static_cast<void>(until(again, "r1", placed));
+  again.refresh();
+  ASSERT_TRUE(main.view());
+  EXPECT_FALSE(of(main.view()->others, "r1").active) << "it has not been heard since";
+  // The robot comes back, with its map but without a mission.
+  join(again, packed(east(), "r1", 2));
+  static_cast<void>(told(again, "r1", {}, 2));
+  again.refresh();
+  EXPECT_EQ(of(main.view()->others, "r1").topology.nodes.size(), 1U);
+  EXPECT_FALSE(of(main.view()->others, "r1").active);
+  join(again, packed(fleet::toy_map(fleet::office(1), fleet::drive(kWest), 31), "r1", 2));
+  again.refresh();
+  EXPECT_FALSE(main.view()) << "it has begun a new map";
+}
+
+TEST(FleetChain, ARobotIsMergedOverAnotherThatItMeets) {
+  FleetLeader leader(params("chain"), holds(in_two_offices(kWest, 11)));
+  join(leader, packed(in_two_offices(kFarEast, 13), "r2"));
+  const auto apart = until(leader, "r2", [](const auto& m) { return m.state != api::FleetState::kWaiting; });
+  EXPECT_NE(apart.state, api::FleetState::kMerged) << apart.reason;
+  join(leader, packed(in_two_offices(kBetween, 12), "r1"));
+  const api::FleetMember member = until(leader, "r2", placed);
+  const Pose2 truth = inverse(fleet::drive(kWest).front()) * fleet::drive(kFarEast).front();
+  EXPECT_THAT(*member.main_T_map, Pose2Near(truth, 0.4, 0.04));
+  EXPECT_NE(member.reason.find("'r1'"), std::string::npos) << member.reason;
+  EXPECT_GT(member.confidence, 0.0);
+}
+
+TEST(FleetOperator, IsToldOfWhatIsNotCertainAndHasTheLastWord) {
+  FleetLeaderParams strict = params("operator");
+  strict.merge.sure_shared_wall_m = 10'000.0;
+  const ToyHost main(west(), at_place("main", kPlace));
+  FleetLeader leader(strict, main.host());
+  join(leader, packed(east()));
+  static_cast<void>(until(leader, "r1", api::FleetState::kAmbiguous));
+  ASSERT_EQ(main.events().size(), 1U);
+  EXPECT_NE(main.events().front().find("fleet-ambiguous robot 'r1' is AMBIGUOUS"), std::string::npos);
+  EXPECT_EQ(told(leader, "r1", {}).state, api::FleetState::kAmbiguous);
+  ASSERT_TRUE(leader.decide({"r1", api::FleetVerb::kMerge, 0}));
+  const api::FleetMember member = until(leader, "r1", placed);
+  EXPECT_TRUE(member.by_operator);
+  EXPECT_THAT(*member.main_T_map, Pose2Near(west_T_east(), 0.15, 0.03));
+}
+
+}  // namespace
+}  // namespace seeker::testing

@@ -1,0 +1,111 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "common/wire/convert.hpp"
+#include "common/wire/convert_fleet.hpp"
+
+namespace seeker::wire {
+namespace {
+
+TopologyNode place(std::uint64_t id, const Point2& p) {
+  TopologyNode node;
+  node.id = id;
+  node.map_T_base = {p.x(), p.y(), 0.5};
+  node.sectors = {{{0.25, 0.0}, -1.5, 3.0, 4.5}, {{0.25, 0.0}, 2.0, 0.5, 8.0}};
+  node.goals = {{10 * id, p + Point2(3.0, -1.0), 8}};
+  return node;
+}
+
+api::FleetShare share() {
+  RobotTopology robot;
+  robot.robot_id = "r1";
+  robot.map_T_base = {1.0, 2.0, -0.5};
+  robot.topology.nodes = {place(1, {0.0, 0.0}), place(4, {5.0, 1.0})};
+  robot.topology.edges = {{1, 4}};
+  robot.topology.current = 4;
+  robot.target_map = Point2(8.0, 0.0);
+  return {"r1", 77, robot};
+}
+
+pb::FleetShare message_of(const api::FleetShare& share) {
+  pb::FleetShare message;
+  write(share, &message);
+  return message;
+}
+
+Result<api::FleetShare> through_bytes(const pb::FleetShare& message) {
+  pb::FleetShare again;
+  EXPECT_TRUE(again.ParseFromString(message.SerializeAsString()));
+  return from_message<api::FleetShare>(again);
+}
+
+/// What is said of a message after `change`.
+template <class Change>
+Errc refusal_of(Change change) {
+  pb::FleetShare message = message_of(share());
+  change(*message.mutable_topology());
+  const Result<api::FleetShare> read = through_bytes(message);
+  EXPECT_FALSE(read);
+  return read ? Errc::kInternal : read.error().code;
+}
+
+TEST(ConvertFleet, WhereARobotGoesComesBackUnchanged) {
+  const Result<api::FleetShare> back = through_bytes(message_of(share()));
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(*back, share());
+  const api::FleetShare fresh{"r1", 78, {}};
+  EXPECT_EQ(through_bytes(message_of(fresh)).value(), fresh);
+}
+
+TEST(ConvertFleet, WhereTheOthersGoComesBackUnchanged) {
+  const api::FleetShared told{api::FleetState::kMerged, {*share().topology}};
+  pb::FleetReply reply;
+  write(told, &reply);
+  pb::FleetReply again;
+  ASSERT_TRUE(again.ParseFromString(reply.SerializeAsString()));
+  EXPECT_EQ(from_message<api::FleetShared>(again).value(), told);
+  again.set_state(pb::FLEET_STATE_UNSPECIFIED);
+  EXPECT_EQ(from_message<api::FleetShared>(again).error().code, Errc::kInvalidArgument);
+}
+
+TEST(ConvertFleet, ATopologyThatMakesNoSenseIsRefused) {
+  using T = pb::FleetTopology;
+  EXPECT_EQ(refusal_of([](T& t) { t.set_robot_id("r2"); }), Errc::kInvalidArgument) << "speaks of another robot";
+  EXPECT_EQ(refusal_of([](T& t) { t.clear_map_t_base(); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(1)->set_id(1); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->set_id(0); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->mutable_map_t_base()->set_x_m(1e5); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->add_sectors(1.0F); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->set_sectors(4, -1.0F); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->set_sectors(0, std::numeric_limits<float>::quiet_NaN()); }),
+            Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->mutable_goals(0)->set_layer(65); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->mutable_goals(0)->mutable_p_map()->set_x_m(300.0); }),
+            Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.set_ways(0, 9); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.add_ways(1); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.set_current(9); }), Errc::kInvalidArgument);
+}
+
+TEST(ConvertFleet, MoreThanAFleetTakesIsRefusedAndWithinTheLimitsItIsNot) {
+  api::FleetShare much = share();
+  Topology& topology = much.topology->topology;
+  topology.nodes.front().goals.assign(api::kMaxFleetGoals, {7, {1.0, 1.0}, 1});
+  const auto refused = through_bytes(message_of(much));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::kTooLarge);
+  while (topology.nodes.size() <= api::kMaxFleetPlaces) {
+    topology.nodes.push_back(place(topology.nodes.back().id + 1, {1.0, 0.0}));
+  }
+  topology.nodes.back().map_T_base.x_m = 2.0 * api::kMaxFleetReach_m;
+  topology.current = topology.nodes.back().id;
+  much.topology = api::within_limits(std::move(*much.topology));
+  const auto taken = through_bytes(message_of(much));
+  ASSERT_TRUE(taken) << taken.error().message;
+  EXPECT_EQ(taken->topology->topology.current, 0U);
+  EXPECT_EQ(api::within_limits(*share().topology), *share().topology) << "what is little stays as it is";
+}
+
+}  // namespace
+}  // namespace seeker::wire
