@@ -32,13 +32,17 @@ struct MissionOptions {
   bool detach = false;
   std::string id;
 };
-struct SearchVerb : MissionOptions {
+/// What is looked for.
+struct TargetOptions {
   std::vector<std::string> targets;
+  std::vector<std::string> solids;
   std::vector<std::string> target_folders;
   std::string recogniser;
   std::optional<double> width_m;
   std::optional<double> height_m;
   std::optional<double> depth_m;
+};
+struct SearchVerb : MissionOptions, TargetOptions {
   std::string mode = "plan";
   std::string on_found = "approach";
   std::string bound;
@@ -70,6 +74,9 @@ struct SurveyVerb : MissionOptions {
 struct LocaliseVerb : MissionOptions {
   std::string name;
   int headings = 12;
+};
+struct RecogniseVerb : MissionOptions, TargetOptions {
+  int headings = 1;
 };
 struct DriveVerb {
   std::optional<double> v_m_s;
@@ -157,7 +164,7 @@ struct GridVerb {
 };
 struct DetectionsVerb {};
 struct CameraGrabVerb {
-  std::string camera = "omni";
+  std::string camera;  ///< empty: the one that the robot looks for targets with
   std::string out;
 };
 struct ComponentsVerb {
@@ -173,12 +180,13 @@ struct CompletionVerb {
 };
 struct VersionVerb {};
 
-using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb, DriveVerb,
-                          StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb,
-                          MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb,
-                          LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksRevertVerb,
-                          LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
-                          DetectionsVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+using Verb =
+    std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb, RecogniseVerb,
+                 DriveVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb,
+                 MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb,
+                 LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksRevertVerb,
+                 LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
+                 DetectionsVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

@@ -62,23 +62,44 @@ CLI::Option* add_mission_options(CLI::App& sub, Verb& verb) {
   return sub.add_flag("--detach", verb.detach, "Print the mission's id and return; the mission goes on");
 }
 
+std::vector<std::string> solid_names() {
+  std::vector<std::string> names;
+  names.reserve(kSolidKinds.size());
+  for (const SolidKind solid : kSolidKinds) {
+    names.emplace_back(to_string(solid));
+  }
+  return names;
+}
+
+/// What is looked for. `o` must live as long as the parser.
+void add_target_options(CLI::App& sub, TargetOptions& o) {
+  repeatable(sub.add_option("-t,--target", o.targets,
+                            "NAME (looked up in the target folders), FILE.yaml or FILE.png; repeatable"));
+  repeatable(sub.add_option("--solid", o.solids, "A solid by its shape, for a robot with a model of them; repeatable"))
+      ->check(CLI::IsMember(solid_names()));
+  repeatable(sub.add_option("--targets", o.target_folders, "Folder of target files; repeatable"));
+  sub.add_option("--recogniser", o.recogniser, "How targets with a picture are recognised; else as their files say")
+      ->check(CLI::IsMember({"template", "features"}));
+  sub.add_option("--width", o.width_m, "Width of targets given as pictures, m (default 0.4), or of the solids (0.2)")
+      ->check(CLI::PositiveNumber);
+  sub.add_option("--height", o.height_m, "Height of targets given as pictures, m (default 0.4), or of the solids (0.2)")
+      ->check(CLI::PositiveNumber);
+  sub.add_option("--depth", o.depth_m,
+                 "Depth of targets given as pictures, m (default 0: flat), or of the solids (0.2)")
+      ->check(CLI::NonNegativeNumber);
+  sub.parse_complete_callback([&o] {
+    if (o.targets.empty() && o.solids.empty()) {
+      throw CLI::RequiredError("--target or --solid");
+    }
+  });
+}
+
 void add_search(Parse& parse) {
   auto [sub, o] =
       add_verb<SearchVerb>(parse, parse.app, "search", "Search the building for targets and say where they are",
                            "seeker search --target poster-a --bound \"0,0 12,0 12,8 0,8\" --save out/floor1\n"
                            "Ctrl-C asks the robot to stop the mission before the program ends.");
-  repeatable(sub->add_option("-t,--target", o->targets,
-                             "NAME (looked up in the target folders), FILE.yaml or FILE.png; repeatable"))
-      ->required();
-  repeatable(sub->add_option("--targets", o->target_folders, "Folder of target files; repeatable"));
-  sub->add_option("--recogniser", o->recogniser, "How the targets are recognised; else as their files say")
-      ->check(CLI::IsMember({"template", "features"}));
-  sub->add_option("--width", o->width_m, "Width of targets given as pictures, m (default 0.4)")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--height", o->height_m, "Height of targets given as pictures, m (default 0.4)")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--depth", o->depth_m, "Depth of targets given as pictures, m (default 0: flat)")
-      ->check(CLI::NonNegativeNumber);
+  add_target_options(*sub, *o);
   sub->add_option("--mode", o->mode, "plan: drive along planned paths; paper: the published algorithm")
       ->check(CLI::IsMember({"paper", "plan"}))
       ->capture_default_str();
@@ -91,6 +112,17 @@ void add_search(Parse& parse) {
   sub->add_flag("--explore", o->explore, "Map the building too: search until no wall is left open");
   CLI::Option* detach = add_mission_options(*sub, *o);
   sub->add_option("--save", o->save, "At the end write PREFIX.png, .pgm and .yaml of the map")->excludes(detach);
+}
+
+void add_recognise(Parse& parse) {
+  auto [sub, o] = add_verb<RecogniseVerb>(
+      parse, parse.app, "recognise", "Say which targets are in front of the camera, without leaving the place",
+      "seeker recognise --solid sphere --solid ellipsoid\n  seeker recognise --target poster-a --headings 12");
+  add_target_options(*sub, *o);
+  sub->add_option("--headings", o->headings, "Directions to look into, evenly around (default 1: as it stands)")
+      ->check(CLI::Range(1, api::kMaxHeadings))
+      ->capture_default_str();
+  add_mission_options(*sub, *o);
 }
 
 std::vector<std::string> strategy_names() {
@@ -317,7 +349,7 @@ void add_reports(Parse& parse) {
   camera->footer("Example:\n  seeker camera grab --out view.png");
   auto [grab, c] = add_verb<CameraGrabVerb>(parse, *camera, "grab", "Write one picture as PNG",
                                             "seeker camera grab --camera omni --out view.png");
-  grab->add_option("--camera", c->camera, "Name of the camera")->capture_default_str();
+  grab->add_option("--camera", c->camera, "Name of the camera (default: the one that targets are looked for with)");
   grab->add_option("--out", c->out, "File to write (default CAMERA.png)");
   auto [components, r] = add_verb<ComponentsVerb>(parse, parse.app, "components", "The robot's parts and their state",
                                                   "seeker components --restart camera");
@@ -344,6 +376,7 @@ void build(Parse& parse) {
   add_globals(parse);
   add_reports(parse);
   add_search(parse);
+  add_recognise(parse);
   add_explore(parse);
   add_goto(parse);
   add_survey(parse);

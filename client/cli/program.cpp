@@ -44,6 +44,7 @@ class Dispatch {
   VerbResult operator()(const GotoVerb& verb) { return with_mission(verb, go); }
   VerbResult operator()(const SurveyVerb& verb) { return with_mission(verb, survey); }
   VerbResult operator()(const LocaliseVerb& verb) { return with_mission(verb, localise); }
+  VerbResult operator()(const RecogniseVerb& verb) { return with_mission(verb, recognise); }
   VerbResult operator()(const DriveVerb& verb) {
     return with_robot([&] { return drive(context_, verb); });
   }

@@ -38,6 +38,7 @@ class Player {
   StepResult operator()(const ExploreStep&) { return mission(); }
   StepResult operator()(const SurveyStep&) { return mission(); }
   StepResult operator()(const LocaliseStep&) { return mission(); }
+  StepResult operator()(const RecogniseStep&) { return mission(); }
   StepResult operator()(const AwaitStep&) {
     if (!background_) {
       return fail(Errc::kNotFound, "no mission was started in the background before this step");

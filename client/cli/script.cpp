@@ -113,15 +113,26 @@ void describe_mission(config::Fields& f, Step& step) {
   duration(f, "time_limit", step.time_limit);
 }
 
+/// What is looked for: SearchStep or RecogniseStep.
+template <class What>
+void describe_targets(config::Fields& f, What& step) {
+  f.field("targets", step.targets);
+  f.field("solids", step.solids);
+  const std::size_t count = step.targets.size() + step.solids.size();
+  f.check("targets", count > 0 && count <= api::kMaxTargets, "name 1 to 16 targets, solids among them");
+  for (const std::string& solid : step.solids) {
+    f.check("solids", solid_named(solid).has_value(),
+            "'" + solid + "' is none of sphere, triangular-prism, quadrangular-prism, ellipsoid");
+  }
+  name_of(f, "recogniser", step.recogniser, {"", "template", "features"});
+}
+
 struct SearchSection {
   SearchStep search;
   Step step;
 };
 void describe(config::Fields& f, SearchSection& s) {
-  f.require("targets");
-  f.field("targets", s.search.targets);
-  f.check("targets", !s.search.targets.empty() && s.search.targets.size() <= api::kMaxTargets, "name 1 to 16 targets");
-  name_of(f, "recogniser", s.search.recogniser, {"", "template", "features"});
+  describe_targets(f, s.search);
   f.choice("mode", s.search.mode, kModes);
   f.choice("on_found", s.search.on_found, kOnFound);
   bound(f, s.search.bound);
@@ -182,6 +193,16 @@ void describe(config::Fields& f, LocaliseSection& s) {
   f.require("landmarks");
   f.field("landmarks", s.localise.landmarks);
   f.field("headings", s.localise.headings);
+  describe_mission(f, s.step);
+}
+
+struct RecogniseSection {
+  RecogniseStep recognise;
+  Step step;
+};
+void describe(config::Fields& f, RecogniseSection& s) {
+  describe_targets(f, s.recognise);
+  f.field("headings", s.recognise.headings);
   describe_mission(f, s.step);
 }
 
@@ -269,6 +290,10 @@ void describe_missions(config::Fields& f, Step& step, int& count) {
     step.action = s.localise;
     keep_mission(step, s.step);
   });
+  action<RecogniseSection>(f, "recognise", step, count, [&](RecogniseSection& s) {
+    step.action = s.recognise;
+    keep_mission(step, s.step);
+  });
   action<ReturnSection>(f, "return", step, count, [&](ReturnSection& s) {
     step.action = ReturnStep{};
     keep_mission(step, s.step);
@@ -307,9 +332,8 @@ void describe(config::Fields& f, StepItem& item) {
   f.section("expect", expect);
   step.expect = expect.expect;
   f.check("expect", count == 1,
-          "a step does exactly one of search, explore, goto, survey, localise, return, await, wait, drive, pause, "
-          "resume, stop, estop, "
-          "map_export");
+          "a step does exactly one of search, recognise, explore, goto, survey, localise, return, await, wait, drive, "
+          "pause, resume, stop, estop, map_export");
 }
 
 struct ScriptFile {

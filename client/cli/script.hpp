@@ -17,6 +17,7 @@ namespace seeker::cli {
 
 struct SearchStep {
   std::vector<std::string> targets;  ///< as for `seeker search --target`; files relative to the script
+  std::vector<std::string> solids;   ///< as for `seeker search --solid`
   std::string recogniser;            ///< empty: as the targets' files say
   api::SearchMode mode = api::SearchMode::kPlan;
   api::OnFound on_found = api::OnFound::kApproach;
@@ -47,6 +48,12 @@ struct LocaliseStep {
   std::string landmarks;
   int headings = 12;
 };
+struct RecogniseStep {
+  std::vector<std::string> targets;  ///< as in SearchStep, the next two as well
+  std::vector<std::string> solids;
+  std::string recogniser;
+  int headings = 1;
+};
 struct ReturnStep {};
 /// Waits for the end of a mission that an earlier step started in the background.
 struct AwaitStep {};
@@ -67,8 +74,8 @@ struct ExportStep {
   std::string name;
 };
 
-using StepAction = std::variant<SearchStep, ExploreStep, GotoStep, SurveyStep, LocaliseStep, ReturnStep, AwaitStep,
-                                WaitStep, DriveStep, CommandStep, EstopStep, ExportStep>;
+using StepAction = std::variant<SearchStep, ExploreStep, GotoStep, SurveyStep, LocaliseStep, RecogniseStep, ReturnStep,
+                                AwaitStep, WaitStep, DriveStep, CommandStep, EstopStep, ExportStep>;
 
 /// What must hold after a step. Empty fields are not looked at.
 struct Expectation {

@@ -13,12 +13,27 @@ std::string target_path(const std::string& target, const fs::path& script_folder
   return is_file && fs::path(target).is_relative() ? (script_folder / target).string() : target;
 }
 
+/// Of a SearchStep or a RecogniseStep.
+template <class What>
+Result<std::vector<api::TargetSpec>> targets_of(const What& step, const fs::path& script_folder,
+                                                const std::vector<fs::path>& target_folders) {
+  std::vector<std::string> names;
+  names.reserve(step.targets.size());
+  for (const std::string& name : step.targets) {
+    names.push_back(target_path(name, script_folder));
+  }
+  TargetDefaults defaults;
+  defaults.recogniser = step.recogniser;
+  return load_targets(names, step.solids, defaults, target_folders);
+}
+
 }  // namespace
 
 bool is_mission(const StepAction& action) {
   return std::holds_alternative<SearchStep>(action) || std::holds_alternative<ExploreStep>(action) ||
          std::holds_alternative<GotoStep>(action) || std::holds_alternative<SurveyStep>(action) ||
-         std::holds_alternative<LocaliseStep>(action) || std::holds_alternative<ReturnStep>(action);
+         std::holds_alternative<LocaliseStep>(action) || std::holds_alternative<RecogniseStep>(action) ||
+         std::holds_alternative<ReturnStep>(action);
 }
 
 Result<api::MissionRequest> make_request(const Step& step, const fs::path& script_folder,
@@ -28,16 +43,12 @@ Result<api::MissionRequest> make_request(const Step& step, const fs::path& scrip
   request.link_policy = step.link_policy;
   request.time_limit = step.time_limit;
   if (const auto* search = std::get_if<SearchStep>(&step.action)) {
-    api::SearchMission mission;
-    TargetDefaults defaults;
-    defaults.recogniser = search->recogniser;
-    for (const std::string& name : search->targets) {
-      Result<api::TargetSpec> target = load_target(target_path(name, script_folder), defaults, target_folders);
-      if (!target) {
-        return tl::unexpected<Error>(target.error());
-      }
-      mission.targets.push_back(std::move(*target));
+    Result<std::vector<api::TargetSpec>> targets = targets_of(*search, script_folder, target_folders);
+    if (!targets) {
+      return tl::unexpected<Error>(targets.error());
     }
+    api::SearchMission mission;
+    mission.targets = std::move(*targets);
     mission.mode = search->mode;
     mission.on_found = search->on_found;
     mission.bound = search->bound;
@@ -54,6 +65,12 @@ Result<api::MissionRequest> make_request(const Step& step, const fs::path& scrip
         api::SurveyMission{survey->landmarks, survey->places, survey->headings, survey->replace, survey->keep_out};
   } else if (const auto* localise = std::get_if<LocaliseStep>(&step.action)) {
     request.task = api::LocaliseMission{localise->landmarks, localise->headings};
+  } else if (const auto* recognise = std::get_if<RecogniseStep>(&step.action)) {
+    Result<std::vector<api::TargetSpec>> targets = targets_of(*recognise, script_folder, target_folders);
+    if (!targets) {
+      return tl::unexpected<Error>(targets.error());
+    }
+    request.task = api::RecogniseMission{std::move(*targets), recognise->headings};
   } else {
     request.task = api::ReturnMission{};
   }

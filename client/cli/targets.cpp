@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 struct TargetFile {
   std::string name;
   std::string picture;
+  SolidKind solid = SolidKind::kSphere;
   double width_m = 0.4;
   double height_m = 0.4;
   double depth_m = 0.0;
@@ -25,17 +26,28 @@ struct TargetFile {
 
 void describe(config::Fields& f, TargetFile& target) {
   f.field("name", target.name);
-  f.require("picture");
+  f.choice("recogniser", target.recogniser,
+           config::Choices<api::RecogniserKind>{{"template", api::RecogniserKind::kTemplate},
+                                                {"features", api::RecogniserKind::kFeatures},
+                                                {"solid", api::RecogniserKind::kSolid}});
+  const bool is_solid = target.recogniser == api::RecogniserKind::kSolid;
+  f.require(is_solid ? "solid" : "picture");
+  if (is_solid && f.reading()) {
+    target.width_m = target.height_m = target.depth_m = api::kSolidSize_m;
+  }
   f.field("picture", target.picture);
+  f.check("picture", !is_solid || target.picture.empty(), "a solid has no picture");
+  config::Choices<SolidKind> solids;
+  for (const SolidKind solid : kSolidKinds) {
+    solids.emplace_back(to_string(solid), solid);
+  }
+  f.choice("solid", target.solid, solids);
   f.field("width_m", target.width_m);
   f.check("width_m", target.width_m > 0.0, "must be above 0");
   f.field("height_m", target.height_m);
   f.check("height_m", target.height_m > 0.0, "must be above 0");
   f.field("depth_m", target.depth_m);
   f.check("depth_m", target.depth_m >= 0.0, "must not be negative");
-  f.choice("recogniser", target.recogniser,
-           config::Choices<api::RecogniserKind>{{"template", api::RecogniserKind::kTemplate},
-                                                {"features", api::RecogniserKind::kFeatures}});
 }
 
 /// The stem of a file as a target's name: a-z, 0-9 and '-'.
@@ -107,8 +119,17 @@ Result<TargetFile> read_target_file(const fs::path& file) {
   if (target.name.empty()) {
     target.name = name_from(file);
   }
-  target.picture = (file.parent_path() / target.picture).string();
+  if (target.recogniser != api::RecogniserKind::kSolid) {
+    target.picture = (file.parent_path() / target.picture).string();
+  }
   return target;
+}
+
+/// What was said on the command line or in the script wins.
+void take_sizes(const TargetDefaults& defaults, api::TargetSpec& spec) {
+  spec.width_m = defaults.width_m.value_or(spec.width_m);
+  spec.height_m = defaults.height_m.value_or(spec.height_m);
+  spec.depth_m = defaults.depth_m.value_or(spec.depth_m);
 }
 
 }  // namespace
@@ -134,22 +155,50 @@ Result<api::TargetSpec> load_target(const std::string& name_or_file, const Targe
   if (!target) {
     return tl::unexpected<Error>(target.error());
   }
+  api::TargetSpec spec;
+  spec.name = target->name;
+  spec.width_m = target->width_m;
+  spec.height_m = target->height_m;
+  spec.depth_m = target->depth_m;
+  spec.recogniser = target->recogniser;
+  spec.solid = target->solid;
+  take_sizes(defaults, spec);
+  if (spec.recogniser == api::RecogniserKind::kSolid) {
+    return spec;
+  }
   Result<Image> picture = image::read_image(target->picture);
   if (!picture) {
     return fail_with_context("target '" + target->name + "'", picture.error());
   }
-  api::TargetSpec spec;
-  spec.name = target->name;
   spec.picture = std::move(*picture);
-  spec.width_m = defaults.width_m.value_or(target->width_m);
-  spec.height_m = defaults.height_m.value_or(target->height_m);
-  spec.depth_m = defaults.depth_m.value_or(target->depth_m);
-  spec.recogniser = target->recogniser;
   if (!defaults.recogniser.empty()) {
     spec.recogniser =
         defaults.recogniser == "features" ? api::RecogniserKind::kFeatures : api::RecogniserKind::kTemplate;
   }
   return spec;
+}
+
+Result<std::vector<api::TargetSpec>> load_targets(const std::vector<std::string>& names,
+                                                  const std::vector<std::string>& solids,
+                                                  const TargetDefaults& defaults,
+                                                  const std::vector<fs::path>& folders) {
+  std::vector<api::TargetSpec> targets;
+  for (const std::string& name : names) {
+    Result<api::TargetSpec> target = load_target(name, defaults, folders);
+    if (!target) {
+      return tl::unexpected<Error>(target.error());
+    }
+    targets.push_back(std::move(*target));
+  }
+  for (const std::string& name : solids) {
+    const std::optional<SolidKind> solid = solid_named(name);
+    if (!solid) {
+      return fail(Errc::kInvalidArgument, "there is no solid '" + name + "'");
+    }
+    targets.push_back(api::solid_target(*solid));
+    take_sizes(defaults, targets.back());
+  }
+  return targets;
 }
 
 }  // namespace seeker::cli

@@ -23,10 +23,16 @@ struct TargetDefaults {
 /// Where a target's NAME is looked for: the given folders, ./config/targets, beside the program, /usr/share/seeker.
 [[nodiscard]] std::vector<std::filesystem::path> target_folders(const std::vector<std::string>& given);
 
-/// Reads NAME, FILE.yaml (keys name, picture, width_m, height_m, depth_m, recogniser) or FILE.png. Errors name the file
-/// and, for a YAML, line and key; kNotFound names the folders that were searched and what is there.
+/// Reads NAME, FILE.yaml (keys name, picture, width_m, height_m, depth_m, recogniser, solid) or FILE.png. Errors name
+/// the file and, for a YAML, line and key; kNotFound names the folders that were searched and what is there.
 [[nodiscard]] Result<api::TargetSpec> load_target(const std::string& name_or_file, const TargetDefaults& defaults,
                                                   const std::vector<std::filesystem::path>& folders);
+
+/// The same for all of `names`, and the solids of these names (see to_string(SolidKind)) after them.
+[[nodiscard]] Result<std::vector<api::TargetSpec>> load_targets(const std::vector<std::string>& names,
+                                                                const std::vector<std::string>& solids,
+                                                                const TargetDefaults& defaults,
+                                                                const std::vector<std::filesystem::path>& folders);
 
 /// Corners "x,y x,y ..." or @FILE with a YAML list [[x, y], ...].
 [[nodiscard]] Result<Polygon> parse_polygon(const std::string& text);

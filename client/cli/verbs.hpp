@@ -20,6 +20,7 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] Result<api::MissionRequest> make_request(const GotoVerb& verb);
 [[nodiscard]] Result<api::MissionRequest> make_request(const SurveyVerb& verb);
 [[nodiscard]] Result<api::MissionRequest> make_request(const LocaliseVerb& verb);
+[[nodiscard]] Result<api::MissionRequest> make_request(const RecogniseVerb& verb);
 
 [[nodiscard]] VerbResult show_status(const Context& context);
 [[nodiscard]] VerbResult show_components(const Context& context, const ComponentsVerb& verb);
@@ -64,6 +65,8 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult explore(const Context& context, const api::MissionRequest& request, const ExploreVerb& verb);
 [[nodiscard]] VerbResult survey(const Context& context, const api::MissionRequest& request, const SurveyVerb& verb);
 [[nodiscard]] VerbResult localise(const Context& context, const api::MissionRequest& request, const LocaliseVerb& verb);
+[[nodiscard]] VerbResult recognise(const Context& context, const api::MissionRequest& request,
+                                   const RecogniseVerb& verb);
 [[nodiscard]] VerbResult go(const Context& context, const api::MissionRequest& request, const GotoVerb& verb);
 /// Prints how a mission ended, with detections, coverage and gaps.
 void print_report(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps);

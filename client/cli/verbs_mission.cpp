@@ -133,6 +133,11 @@ api::MissionRequest begin_request(const MissionOptions& options, const std::stri
   return request;
 }
 
+Result<std::vector<api::TargetSpec>> targets_of(const TargetOptions& o) {
+  return load_targets(o.targets, o.solids, {o.recogniser, o.width_m, o.height_m, o.depth_m},
+                      target_folders(o.target_folders));
+}
+
 /// Each "X,Y" in metres.
 Result<std::vector<Point2>> parse_points(const std::vector<std::string>& texts) {
   std::vector<Point2> points;
@@ -150,14 +155,11 @@ Result<std::vector<Point2>> parse_points(const std::vector<std::string>& texts) 
 
 Result<api::MissionRequest> make_request(const SearchVerb& verb) {
   api::SearchMission search;
-  const TargetDefaults defaults{verb.recogniser, verb.width_m, verb.height_m, verb.depth_m};
-  for (const std::string& name : verb.targets) {
-    Result<api::TargetSpec> target = load_target(name, defaults, target_folders(verb.target_folders));
-    if (!target) {
-      return tl::unexpected<Error>(target.error());
-    }
-    search.targets.push_back(std::move(*target));
+  Result<std::vector<api::TargetSpec>> targets = targets_of(verb);
+  if (!targets) {
+    return tl::unexpected<Error>(targets.error());
   }
+  search.targets = std::move(*targets);
   if (const Status ok = take_areas(verb, search); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
@@ -229,6 +231,16 @@ Result<api::MissionRequest> make_request(const LocaliseVerb& verb) {
   return checked(std::move(request));
 }
 
+Result<api::MissionRequest> make_request(const RecogniseVerb& verb) {
+  Result<std::vector<api::TargetSpec>> targets = targets_of(verb);
+  if (!targets) {
+    return tl::unexpected<Error>(targets.error());
+  }
+  api::MissionRequest request = begin_request(verb, "recognise");
+  request.task = api::RecogniseMission{std::move(*targets), verb.headings};
+  return checked(std::move(request));
+}
+
 void print_report(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps) {
   if (context.json) {
     print_json(context, report, gaps);
@@ -276,6 +288,10 @@ VerbResult survey(const Context& context, const api::MissionRequest& request, co
 }
 
 VerbResult localise(const Context& context, const api::MissionRequest& request, const LocaliseVerb& verb) {
+  return run_mission(context, request, verb.detach, "");
+}
+
+VerbResult recognise(const Context& context, const api::MissionRequest& request, const RecogniseVerb& verb) {
   return run_mission(context, request, verb.detach, "");
 }
 

@@ -178,7 +178,7 @@ VerbResult grab_image(const Context& context, const CameraGrabVerb& verb) {
   if (!frame) {
     return tl::unexpected<Error>(frame.error());
   }
-  const std::string file = verb.out.empty() ? verb.camera + ".png" : verb.out;
+  const std::string file = verb.out.empty() ? frame->camera + ".png" : verb.out;
   const Image& picture = frame->frame.image;
   if (const Status ok = save_picture(file, picture); !ok) {
     return tl::unexpected<Error>(ok.error());

@@ -26,12 +26,7 @@ double grey_sigma(const Image& grey) {
   return std::sqrt(std::max(0.0, sum2 / n - (sum / n) * (sum / n)));
 }
 
-Status validate(const TargetSpec& target) {
-  constexpr std::size_t kMaxName = 32;
-  if (!is_token(target.name, kMaxName)) {
-    return fail(Errc::kInvalidArgument,
-                "target name '" + target.name.substr(0, kMaxName) + "' must be 1 to 32 of a-z, 0-9 and '-'");
-  }
+Status validate_picture(const TargetSpec& target) {
   const std::string who = "the picture of target '" + target.name + "' ";
   const int small = std::min(target.picture.width_px(), target.picture.height_px());
   const int large = std::max(target.picture.width_px(), target.picture.height_px());
@@ -46,10 +41,44 @@ Status validate(const TargetSpec& target) {
   if (grey_sigma(to_grey(target.picture)) < kMinTargetGreySigma) {
     return fail(Errc::kInvalidArgument, who + "has one colour only, so nothing can be matched; give one with contrast");
   }
+  return {};
+}
+
+Status validate(const TargetSpec& target) {
+  constexpr std::size_t kMaxName = 32;
+  if (!is_token(target.name, kMaxName)) {
+    return fail(Errc::kInvalidArgument,
+                "target name '" + target.name.substr(0, kMaxName) + "' must be 1 to 32 of a-z, 0-9 and '-'");
+  }
+  if (target.recogniser == RecogniserKind::kSolid) {
+    if (!target.picture.empty() || target.solid > kSolidKinds.back()) {
+      return fail(Errc::kInvalidArgument,
+                  "target '" + target.name + "' is a solid: name which one, and give no picture");
+    }
+  } else if (Status ok = validate_picture(target); !ok) {
+    return ok;
+  }
   constexpr double kMaxSize_m = 20.0;
   if (!(target.width_m > 0.0 && target.width_m <= kMaxSize_m && target.height_m > 0.0 &&
         target.height_m <= kMaxSize_m)) {
     return fail(Errc::kInvalidArgument, "the size of target '" + target.name + "' must be above 0 and at most 20 m");
+  }
+  return {};
+}
+
+Status validate_targets(const char* mission, const std::vector<TargetSpec>& targets) {
+  if (targets.empty() || targets.size() > kMaxTargets) {
+    return fail(Errc::kInvalidArgument,
+                std::string(mission) + " needs 1 to 16 targets, got " + std::to_string(targets.size()));
+  }
+  std::set<std::string> names;
+  for (const TargetSpec& target : targets) {
+    if (Status ok = validate(target); !ok) {
+      return ok;
+    }
+    if (!names.insert(target.name).second) {
+      return fail(Errc::kInvalidArgument, "two targets have the name '" + target.name + "'");
+    }
   }
   return {};
 }
@@ -76,17 +105,8 @@ Status validate_areas(const std::optional<Polygon>& bound, const std::vector<Pol
 }
 
 Status validate_task(const SearchMission& search) {
-  if (search.targets.empty() || search.targets.size() > kMaxTargets) {
-    return fail(Errc::kInvalidArgument, "a search needs 1 to 16 targets, got " + std::to_string(search.targets.size()));
-  }
-  std::set<std::string> names;
-  for (const TargetSpec& target : search.targets) {
-    if (Status ok = validate(target); !ok) {
-      return ok;
-    }
-    if (!names.insert(target.name).second) {
-      return fail(Errc::kInvalidArgument, "two targets have the name '" + target.name + "'");
-    }
+  if (Status ok = validate_targets("a search", search.targets); !ok) {
+    return ok;
   }
   if (search.explore && search.mode == SearchMode::kPaper) {
     return fail(Errc::kInvalidArgument, "the published search cannot explore as well; leave out one of the two");
@@ -154,7 +174,21 @@ Status validate_task(const LocaliseMission& localise) {
   return ok ? validate_headings(localise.headings) : ok;
 }
 
+Status validate_task(const RecogniseMission& recognise) {
+  const Status ok = validate_targets("recognise", recognise.targets);
+  return ok ? validate_headings(recognise.headings) : ok;
+}
+
 }  // namespace
+
+TargetSpec solid_target(SolidKind solid) {
+  TargetSpec target;
+  target.name = to_string(solid);
+  target.width_m = target.height_m = target.depth_m = kSolidSize_m;
+  target.recogniser = RecogniserKind::kSolid;
+  target.solid = solid;
+  return target;
+}
 
 Status validate(const MissionRequest& request) {
   constexpr std::size_t kMaxId = 64;
@@ -175,6 +209,7 @@ std::string_view task_name(const MissionTask& task) {
     std::string_view operator()(const ExploreMission&) const { return "explore"; }
     std::string_view operator()(const SurveyMission&) const { return "survey"; }
     std::string_view operator()(const LocaliseMission&) const { return "localise"; }
+    std::string_view operator()(const RecogniseMission&) const { return "recognise"; }
   };
   return std::visit(Name{}, task);
 }
@@ -207,7 +242,14 @@ std::string_view to_string(LinkPolicy policy) {
   return "stop";
 }
 
-std::string_view to_string(RecogniserKind kind) { return kind == RecogniserKind::kTemplate ? "template" : "features"; }
+std::string_view to_string(RecogniserKind kind) {
+  switch (kind) {
+    case RecogniserKind::kTemplate: return "template";
+    case RecogniserKind::kFeatures: return "features";
+    case RecogniserKind::kSolid: return "solid";
+  }
+  return "template";
+}
 
 std::string_view to_string(SearchMode mode) { return mode == SearchMode::kPaper ? "paper" : "plan"; }
 
@@ -247,6 +289,7 @@ std::string_view to_string(RangeSource source) {
     case RangeSource::kSonar: return "sonar";
     case RangeSource::kLidar: return "lidar";
     case RangeSource::kTriangulation: return "triangulation";
+    case RangeSource::kFloor: return "floor";
   }
   return "none";
 }

@@ -16,6 +16,7 @@
 #include "common/core/image.hpp"
 #include "common/core/polygon.hpp"
 #include "common/core/pose2.hpp"
+#include "common/core/solid.hpp"
 #include "common/core/time.hpp"
 
 namespace seeker::api {
@@ -30,19 +31,25 @@ enum class LinkPolicy : std::uint8_t { kStop, kFinishStep, kContinue, kReturn };
 enum class RecogniserKind : std::uint8_t {
   kTemplate,  ///< dynamic template matching (spec S3.4)
   kFeatures,  ///< SIFT matches verified by a homography
+  kSolid,     ///< a solid by its shape, in turbid water (spec S6): no picture is needed
 };
 
-/// A thing to look for: its picture and its size.
+/// A thing to look for: its picture, or which solid it is, and its size.
 struct TargetSpec {
   std::string name;      ///< [a-z0-9-]{1,32}, unique in a mission
-  Image picture;         ///< upright view of the target, cropped to its border
-  double width_m = 0.4;  ///< of the target's picture, used for range limits and evidence
+  Image picture;         ///< upright view of the target, cropped to its border; empty for a solid
+  double width_m = 0.4;  ///< of the target's picture or of the solid, used for range limits and evidence
   double height_m = 0.4;
   double depth_m = 0.0;  ///< of a solid that shows the picture on its sides; 0: flat. Its position is its centre
   RecogniserKind recogniser = RecogniserKind::kTemplate;
+  SolidKind solid = SolidKind::kSphere;  ///< of the recogniser of solids; no other looks at it
 
   friend bool operator==(const TargetSpec&, const TargetSpec&) = default;
 };
+
+/// A solid of usual size, named by its shape.
+[[nodiscard]] TargetSpec solid_target(SolidKind solid);
+inline constexpr double kSolidSize_m = 0.2;
 
 enum class SearchMode : std::uint8_t {
   kPaper,  ///< the algorithm as printed: sonar and bearing only (spec S3.3)
@@ -124,8 +131,16 @@ struct LocaliseMission {
   friend bool operator==(const LocaliseMission&, const LocaliseMission&) = default;
 };
 
-using MissionTask =
-    std::variant<SearchMission, GotoMission, ReturnMission, ExploreMission, SurveyMission, LocaliseMission>;
+/// Says which targets are in front of the camera. The robot never leaves its place.
+struct RecogniseMission {
+  std::vector<TargetSpec> targets;
+  int headings = 1;  ///< directions to look into, evenly around; 1: as it stands
+
+  friend bool operator==(const RecogniseMission&, const RecogniseMission&) = default;
+};
+
+using MissionTask = std::variant<SearchMission, GotoMission, ReturnMission, ExploreMission, SurveyMission,
+                                 LocaliseMission, RecogniseMission>;
 
 [[nodiscard]] std::string_view task_name(const MissionTask& task);
 

@@ -15,7 +15,13 @@
 namespace seeker::api {
 
 /// Where the range of a detection comes from.
-enum class RangeSource : std::uint8_t { kNone, kSonar, kLidar, kTriangulation };
+enum class RangeSource : std::uint8_t {
+  kNone,
+  kSonar,
+  kLidar,
+  kTriangulation,
+  kFloor,  ///< where the picture shows it to stand on the floor, by the camera's height
+};
 [[nodiscard]] std::string_view to_string(RangeSource source);
 
 /// A sighting, or several fused ones, of a target.

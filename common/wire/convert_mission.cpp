@@ -46,7 +46,11 @@ void read_areas(const M& from, T& to, Check& check) {
 
 void write_target(const api::TargetSpec& from, pb::Target* to) {
   to->set_name(clean_text(from.name, kMaxNameBytes));
-  write(from.picture, to->mutable_picture());
+  if (from.recogniser == api::RecogniserKind::kSolid) {
+    to->set_solid(static_cast<pb::Solid>(wire_enum(from.solid)));
+  } else {
+    write(from.picture, to->mutable_picture());
+  }
   to->set_width_m(from.width_m);
   to->set_height_m(from.height_m);
   to->set_depth_m(from.depth_m);
@@ -61,11 +65,34 @@ void read_target(const pb::Target& from, api::TargetSpec& to, Check& check) {
     check.refuse("picture", Errc::kTooLarge, "is larger than 1024 pixels; scale it down");
     return;
   }
-  read_required(from.has_picture(), from.picture(), to.picture, "picture", check);
+  check.enumerator("recogniser", from.recogniser(), api::RecogniserKind::kSolid, to.recogniser);
+  if (to.recogniser == api::RecogniserKind::kSolid) {
+    check.enumerator("solid", from.solid(), kSolidKinds.back(), to.solid);
+  } else {
+    read_required(from.has_picture(), from.picture(), to.picture, "picture", check);
+  }
   to.width_m = check.finite("width_m", from.width_m());
   to.height_m = check.finite("height_m", from.height_m());
   to.depth_m = check.finite("depth_m", from.depth_m());
-  check.enumerator("recogniser", from.recogniser(), api::RecogniserKind::kFeatures, to.recogniser);
+}
+
+template <class M>
+void write_targets(const std::vector<api::TargetSpec>& from, M* to) {
+  for (const api::TargetSpec& target : from) {
+    write_target(target, to->add_targets());
+  }
+}
+
+template <class M>
+void read_targets(const M& from, std::vector<api::TargetSpec>& to, Check& check) {
+  if (!check.count("targets", static_cast<std::size_t>(from.targets_size()), api::kMaxTargets)) {
+    return;
+  }
+  to.resize(static_cast<std::size_t>(from.targets_size()));
+  for (std::size_t k = 0; k < to.size() && check.ok(); ++k) {
+    const auto scope = check.in("targets", k);
+    read_target(from.targets(static_cast<int>(k)), to[k], check);
+  }
 }
 
 struct TaskWriter {
@@ -73,9 +100,7 @@ struct TaskWriter {
 
   void operator()(const api::SearchMission& from) const {
     pb::SearchMission* search = to->mutable_search();
-    for (const api::TargetSpec& target : from.targets) {
-      write_target(target, search->add_targets());
-    }
+    write_targets(from.targets, search);
     search->set_mode(static_cast<pb::SearchMode>(wire_enum(from.mode)));
     search->set_on_found(static_cast<pb::OnFound>(wire_enum(from.on_found)));
     write_areas(from, search);
@@ -109,16 +134,16 @@ struct TaskWriter {
     to->mutable_localise()->set_landmarks(clean_text(from.landmarks, kMaxNameBytes));
     to->mutable_localise()->set_headings(static_cast<std::uint32_t>(from.headings));
   }
+  void operator()(const api::RecogniseMission& from) const {
+    write_targets(from.targets, to->mutable_recognise());
+    to->mutable_recognise()->set_headings(static_cast<std::uint32_t>(from.headings));
+  }
 };
 
 void read_search(const pb::SearchMission& from, api::SearchMission& to, Check& check) {
-  if (!check.count("targets", static_cast<std::size_t>(from.targets_size()), api::kMaxTargets)) {
+  read_targets(from, to.targets, check);
+  if (!check.ok()) {
     return;
-  }
-  to.targets.resize(static_cast<std::size_t>(from.targets_size()));
-  for (std::size_t k = 0; k < to.targets.size() && check.ok(); ++k) {
-    const auto scope = check.in("targets", k);
-    read_target(from.targets(static_cast<int>(k)), to.targets[k], check);
   }
   check.enumerator("mode", from.mode(), api::SearchMode::kPlan, to.mode);
   check.enumerator("on_found", from.on_found(), api::OnFound::kContinue, to.on_found);
@@ -146,6 +171,11 @@ void read_survey(const pb::SurveyMission& from, api::SurveyMission& to, Check& c
 
 void read_localise(const pb::LocaliseMission& from, api::LocaliseMission& to, Check& check) {
   to.landmarks = check.text("landmarks", from.landmarks(), kMaxNameBytes);
+  to.headings = check.natural("headings", from.headings());
+}
+
+void read_recognise(const pb::RecogniseMission& from, api::RecogniseMission& to, Check& check) {
+  read_targets(from, to.targets, check);
   to.headings = check.natural("headings", from.headings());
 }
 
@@ -213,6 +243,11 @@ void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check)
     case pb::MissionRequest::kLocalise: {
       const auto scope = check.in("localise");
       read_localise(from.localise(), to.task.emplace<api::LocaliseMission>(), check);
+      break;
+    }
+    case pb::MissionRequest::kRecognise: {
+      const auto scope = check.in("recognise");
+      read_recognise(from.recognise(), to.task.emplace<api::RecogniseMission>(), check);
       break;
     }
     case pb::MissionRequest::TASK_NOT_SET:

@@ -160,7 +160,7 @@ void read(const pb::Detection& from, api::Detection& to, Check& check) {
     const auto scope = check.in("position_covariance");
     read(from.position_covariance(), to.position_covariance, check);
   }
-  check.enumerator("range_source", from.range_source(), api::RangeSource::kTriangulation, to.range_source);
+  check.enumerator("range_source", from.range_source(), api::RangeSource::kFloor, to.range_source);
   to.sightings = check.natural("sightings", from.sightings());
   to.map_epoch = from.map_epoch();
 }

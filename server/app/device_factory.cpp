@@ -5,9 +5,11 @@
 #include "server/app/estimators.hpp"
 #include "server/app/explore_behaviour.hpp"
 #include "server/app/localise_behaviour.hpp"
+#include "server/app/recognise_behaviour.hpp"
 #include "server/app/tracker_estimator.hpp"
 #include "server/drivers/emulator/emulator_devices.hpp"
 #include "server/drivers/replay/replay.hpp"
+#include "server/options/solids_options.hpp"
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
 
@@ -47,6 +49,9 @@ void use_sim(drivers::SimDevices devices, Assembly& assembly) {
   assembly.simulation = devices.simulation;
   assembly.faults = devices.faults;
   take_devices(devices, "sim", assembly.parts.devices);
+  if (assembly.simulation->model().camera == sim::CameraKind::kTank) {
+    assembly.parts.devices.camera_name = "tank";
+  }
 }
 
 Result<drivers::SharedDevices> sim_devices(std::span<const RobotOptions> robots) {
@@ -211,12 +216,11 @@ class StereoMissions {
 /// Makes behaviours; holds what they share over missions.
 class Behaviours {
  public:
-  Behaviours(const RobotOptions& options, std::shared_ptr<const search::ControlTable> table, bool has_camera,
-             std::optional<StereoMissions> stereo)
+  Behaviours(const RobotOptions& options, SearchTools tools, bool has_camera, std::optional<StereoMissions> stereo)
       : go_(options.go),
         search_(options.search),
         explore_{options.explore, options.topology},
-        table_(std::move(table)),
+        tools_(std::move(tools)),
         has_camera_(has_camera),
         stereo_(std::move(stereo)) {}
 
@@ -242,10 +246,11 @@ class Behaviours {
     if (!has_camera_) {
       return fail(Errc::kRefused, "this robot has no camera to search with");
     }
+    if (const auto* recognise = std::get_if<api::RecogniseMission>(&task)) {
+      return RecogniseBehaviour::create(search_, *recognise, tools_.solids.get(), situation);
+    }
     return search(std::get<api::SearchMission>(task), situation);
   }
-
-  [[nodiscard]] const EvidenceMemory& memory() const { return memory_; }
 
  private:
   static Result<std::unique_ptr<Behaviour>> no_stereo() {
@@ -260,17 +265,34 @@ class Behaviours {
       }
       views = std::make_unique<MapViewFinder>(explore_.params, nav::ForbiddenAreas{mission.bound, mission.keep_out});
     }
-    return SearchBehaviour::create(search_, mission, table_, memory_, std::move(views));
+    return SearchBehaviour::create(search_, mission, tools_, std::move(views));
   }
 
   GotoParams go_;
   SearchBehaviourParams search_;
   ExploreSettings explore_;
-  std::shared_ptr<const search::ControlTable> table_;
+  SearchTools tools_;
   bool has_camera_;
   std::optional<StereoMissions> stereo_;
-  EvidenceMemory memory_ = std::make_shared<std::optional<search::EvidenceGrid>>();
 };
+
+/// The evidence of other searches is forgotten with the map.
+Result<SearchTools> make_search_tools(const RobotOptions& options) {
+  Result<search::ControlTable> table = search::ControlTable::create(options.control_table);
+  if (!table) {
+    return fail_with_context("control_table", table.error());
+  }
+  SearchTools tools{std::make_shared<const search::ControlTable>(std::move(*table)),
+                    std::make_shared<std::optional<search::EvidenceGrid>>(), nullptr};
+  if (!options.search.solids.model.empty()) {
+    Result<vision::SolidModel> model = options::load_solid_model(resolve(options, options.search.solids.model));
+    if (!model) {
+      return fail_with_context("search.solids.model", model.error());
+    }
+    tools.solids = std::make_shared<const vision::SolidModel>(std::move(*model));
+  }
+  return tools;
+}
 
 Status make_devices(const RobotOptions& options, Assembly& assembly) {
   switch (options.driver) {
@@ -296,9 +318,9 @@ Result<Assembly> complete(const RobotOptions& options, LandmarkStorage landmarks
   if (const Status ok = fleet::validate(options.topology); !ok) {
     return fail_with_context("topology", ok.error());
   }
-  Result<search::ControlTable> table = search::ControlTable::create(options.control_table);
-  if (!table) {
-    return fail_with_context("control_table", table.error());
+  const Result<SearchTools> tools = make_search_tools(options);
+  if (!tools) {
+    return tl::unexpected<Error>(tools.error());
   }
   LoopParts& parts = assembly.parts;
   std::optional<StereoMissions> stereo;
@@ -321,10 +343,8 @@ Result<Assembly> complete(const RobotOptions& options, LandmarkStorage landmarks
   }
   parts.estimator_type = to_string(options.estimator);
   parts.occupancy = options.occupancy;
-  Behaviours behaviours(options, std::make_shared<const search::ControlTable>(std::move(*table)),
-                        parts.devices.camera != nullptr, std::move(stereo));
-  parts.forget_places = [memory = behaviours.memory()] { memory->reset(); };
-  parts.behaviours = std::move(behaviours);
+  parts.forget_places = [memory = tools->memory] { memory->reset(); };
+  parts.behaviours = Behaviours(options, *tools, parts.devices.camera != nullptr, std::move(stereo));
   return assembly;
 }
 

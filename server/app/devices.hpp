@@ -18,6 +18,7 @@ struct Devices {
   std::shared_ptr<drivers::LidarDriver> lidar;
   std::shared_ptr<drivers::SonarDriver> sonar;
   std::shared_ptr<drivers::CameraDriver> camera;
+  std::string camera_name = "omni";  ///< as clients call it
   std::shared_ptr<drivers::StereoDriver> stereo;
   bool runs_without_mission = false;     ///< a replay goes on by itself; a simulated world stands still
   std::function<std::string()> summary;  ///< what the source says at its end; may be empty

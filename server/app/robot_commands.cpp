@@ -121,8 +121,8 @@ Result<api::ImageFrame> RobotLoop::grab_image(const std::string& camera) {
     Image& eye = camera == "left" ? frame->left : frame->right;
     return api::ImageFrame{.camera = camera, .frame = {frame->stamp, std::move(eye)}, .map_T_base = pose_.map_T_base};
   }
-  if (parts_.devices.camera == nullptr || (!camera.empty() && camera != "omni")) {
-    std::string there = parts_.devices.camera != nullptr ? "omni" : "";
+  if (parts_.devices.camera == nullptr || (!camera.empty() && camera != parts_.devices.camera_name)) {
+    std::string there = parts_.devices.camera != nullptr ? parts_.devices.camera_name : "";
     there += parts_.devices.stereo != nullptr ? std::string(there.empty() ? "" : ", ") + "left, right" : "";
     return fail(Errc::kNotFound,
                 there.empty() ? "this robot has no camera" : "no camera '" + camera + "'; there are: " + there);
@@ -131,7 +131,8 @@ Result<api::ImageFrame> RobotLoop::grab_image(const std::string& camera) {
   if (!frame) {
     return tl::unexpected<Error>(frame.error());
   }
-  return api::ImageFrame{.camera = "omni", .frame = std::move(*frame), .map_T_base = pose_.map_T_base};
+  return api::ImageFrame{
+      .camera = parts_.devices.camera_name, .frame = std::move(*frame), .map_T_base = pose_.map_T_base};
 }
 
 void RobotLoop::client_lost(const std::string& client, const std::string& why, WallTime wall_now) {

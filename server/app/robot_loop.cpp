@@ -292,8 +292,9 @@ void RobotLoop::look() {
   clear("camera-failed");
   components_.count_output("camera", now());
   if (hub_.wanted(api::Topic::kImage)) {
-    hub_.publish(api::Topic::kImage, now(),
-                 api::ImageFrame{.camera = "omni", .frame = *frame, .map_T_base = pose_.map_T_base});
+    hub_.publish(
+        api::Topic::kImage, now(),
+        api::ImageFrame{.camera = parts_.devices.camera_name, .frame = *frame, .map_T_base = pose_.map_T_base});
   }
   Recognition context;
   context.stamp = frame->stamp;

@@ -150,11 +150,6 @@ void describe(config::Fields& f, ReplaySettings& settings) {
   f.section("laser", settings.params);
 }
 
-void describe(config::Fields& f, SearchBehaviourParams& params) {
-  f.section("coverage", params.search);
-  f.section("recogniser", params.recogniser);
-}
-
 void describe(config::Fields& f, LandmarkEstimatorParams& params) {
   f.field("database", params.database);
   f.seconds("look_period_s", params.look_period);
@@ -171,6 +166,23 @@ void describe(config::Fields& f, TurnAndLookParams& params) {
   f.field("turn_time_s", params.turn_time_s);
   f.field("tries", params.tries);
   f.check("tries", params.tries > 0, "must be above 0");
+}
+
+void describe(config::Fields& f, RoundParams& params) {
+  f.section("look", params.look);
+  f.angle_deg("overlap_deg", params.overlap_rad);
+  f.check("overlap_deg", params.overlap_rad >= 0.0, "must be 0 or more");
+  f.field("picture_timeout_s", params.picture_timeout_s);
+  f.check("picture_timeout_s", params.picture_timeout_s > 0.0, "must be above 0");
+}
+
+void describe(config::Fields& f, SolidSettings& settings) { f.field("model", settings.model); }
+
+void describe(config::Fields& f, SearchBehaviourParams& params) {
+  f.section("coverage", params.search);
+  f.section("recogniser", params.recogniser);
+  f.section("solids", params.solids);
+  f.section("round", params.round);
 }
 
 void describe(config::Fields& f, SurveyParams& params) {

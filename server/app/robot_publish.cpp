@@ -112,7 +112,7 @@ std::vector<std::string> RobotLoop::capabilities() const {
     words.insert(words.end(), {"survey", "localise", "camera:left", "camera:right"});
   }
   if (parts_.devices.camera) {
-    words.insert(words.end(), {"search", "camera:omni"});
+    words.insert(words.end(), {"search", "recognise", "camera:" + parts_.devices.camera_name});
   }
   if (parts_.devices.lidar) {
     words.emplace_back("lidar");

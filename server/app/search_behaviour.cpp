@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/app/target_values.hpp"
+
 namespace seeker::app {
 namespace {
 
@@ -16,9 +18,7 @@ search::OnFound to_search(api::OnFound on_found) {
 
 search::SearchRequest to_search(const SearchBehaviourParams& params, const api::SearchMission& mission) {
   search::SearchRequest request;
-  for (const api::TargetSpec& target : mission.targets) {
-    request.targets.push_back({target.name, target.width_m, target.height_m, target.depth_m});
-  }
+  request.targets = search_targets(mission.targets);
   request.strategy = params.strategy.value_or(mission.mode == api::SearchMode::kPaper ? search::Strategy::kPaper
                                                                                       : search::Strategy::kPlan);
   request.on_found = to_search(mission.on_found);
@@ -26,19 +26,6 @@ search::SearchRequest to_search(const SearchBehaviourParams& params, const api::
   request.areas.keep_out = mission.keep_out;
   request.gaps_only = mission.gaps_only;
   return request;
-}
-
-std::vector<vision::TargetModel> target_models(const api::SearchMission& mission) {
-  std::vector<vision::TargetModel> models;
-  for (const api::TargetSpec& target : mission.targets) {
-    models.push_back({.name = target.name,
-                      .picture = target.picture,
-                      .width_m = target.width_m,
-                      .height_m = target.height_m,
-                      .kind = target.recogniser == api::RecogniserKind::kFeatures ? vision::TargetKind::kFeature
-                                                                                  : vision::TargetKind::kTemplate});
-  }
-  return models;
 }
 
 api::MissionEnd to_api(const search::SearchEnd& end, const std::vector<Point2>& unreachable) {
@@ -53,34 +40,6 @@ api::MissionEnd to_api(const search::SearchEnd& end, const std::vector<Point2>& 
   return out;
 }
 
-api::RangeSource to_api(search::RangeSource source) {
-  switch (source) {
-    case search::RangeSource::kNone: return api::RangeSource::kNone;
-    case search::RangeSource::kSonar: return api::RangeSource::kSonar;
-    case search::RangeSource::kLidar: return api::RangeSource::kLidar;
-    case search::RangeSource::kTriangulation: return api::RangeSource::kTriangulation;
-  }
-  return api::RangeSource::kNone;
-}
-
-api::Detection to_api(const search::Detection& detection, const search::SearchRequest& request) {
-  api::Detection out;
-  out.id = detection.id;
-  out.target = request.targets[static_cast<std::size_t>(detection.target)].name;
-  out.stamp = detection.stamp;
-  out.u_px = detection.u_px;
-  out.v_px = detection.v_px;
-  out.score = detection.score;
-  out.map_T_base = detection.map_T_base;
-  out.bearing_base_rad = detection.bearing_base_rad;
-  out.bearing_map_rad = detection.bearing_map_rad;
-  out.position = detection.position_map;
-  out.position_covariance = detection.position_covariance;
-  out.range_source = to_api(detection.range_source);
-  out.sightings = detection.sightings;
-  return out;
-}
-
 api::CoverageSummary to_api(const search::CoverageSummary& summary) {
   return {.reachable_area_m2 = summary.reachable_area_m2,
           .covered_area_m2 = summary.covered_area_m2,
@@ -92,28 +51,35 @@ api::CoverageSummary to_api(const search::CoverageSummary& summary) {
 }  // namespace
 
 Result<std::unique_ptr<Behaviour>> SearchBehaviour::create(const SearchBehaviourParams& params,
-                                                           const api::SearchMission& mission,
-                                                           const std::shared_ptr<const search::ControlTable>& table,
-                                                           EvidenceMemory memory,
+                                                           const api::SearchMission& mission, const SearchTools& tools,
                                                            std::unique_ptr<MapViewFinder> views) {
   Result<std::unique_ptr<vision::Recogniser>> recogniser =
-      vision::make_recogniser(target_models(mission), params.recogniser);
+      vision::make_target_recogniser(target_models(mission.targets), params.recogniser, tools.solids.get());
   if (!recogniser) {
     return tl::unexpected<Error>(recogniser.error());
   }
-  Result<search::SearchMission> core = search::SearchMission::create(to_search(params, mission), params.search, table);
+  search::SearchParams core_params = params.search;
+  const bool sees_all_around = params.recogniser.view.omni.has_value();
+  core_params.plan.look_while_moving = core_params.plan.look_while_moving && sees_all_around;
+  Result<search::SearchMission> core =
+      search::SearchMission::create(to_search(params, mission), core_params, tools.table);
   if (!core) {
     return tl::unexpected<Error>(core.error());
   }
   if (mission.gaps_only) {
-    if (!memory->has_value()) {
+    if (!tools.memory->has_value()) {
       return fail(Errc::kNotReady, "there is no earlier search whose gaps could be searched; leave out --gaps-only");
     }
-    core->keep_evidence(**memory);
+    core->keep_evidence(**tools.memory);
   }
-  return std::unique_ptr<Behaviour>(
+  std::unique_ptr<SearchBehaviour> behaviour(
       new SearchBehaviour(std::move(*core), std::shared_ptr<const vision::Recogniser>(std::move(*recogniser)),
-                          std::move(memory), std::move(views)));
+                          tools.memory, std::move(views)));
+  if (!sees_all_around) {
+    behaviour->round_.emplace(params.round);
+    behaviour->pictures_around_ = pictures_around(params.recogniser.view, params.round);
+  }
+  return std::unique_ptr<Behaviour>(std::move(behaviour));
 }
 
 SearchBehaviour::SearchBehaviour(search::SearchMission mission, std::shared_ptr<const vision::Recogniser> recogniser,
@@ -129,8 +95,25 @@ SearchBehaviour::~SearchBehaviour() {
   }
 }
 
+Decision SearchBehaviour::look_around(const Situation& situation) {
+  Decision decision;
+  decision.phase = "look";
+  decision.activity =
+      "looking around, direction " + std::to_string(round_->index() + 1) + " of " + std::to_string(round_->headings());
+  decision.progress = mission_.progress();
+  round_->step(situation, decision);
+  return decision;
+}
+
 Decision SearchBehaviour::step(const Situation& situation) {
   stepped_ = true;
+  if (round_ && round_->active()) {
+    return look_around(situation);
+  }
+  if (round_ && round_->started()) {
+    const std::vector<Recognition> seen = round_->finish();
+    mission_.on_looks(to_looks(seen));
+  }
   const search::MapViews views =
       views_ ? search::MapViews([&] { return views_->find(situation); }) : search::MapViews();
   search::SearchStep step = mission_.step({.now = situation.now,
@@ -152,6 +135,10 @@ Decision SearchBehaviour::step(const Situation& situation) {
     decision.step_done = decision.step_done || event.kind == "cell_searched";
     decision.events.push_back({std::move(event.kind), std::move(event.text), api::Severity::kInfo});
   }
+  if (decision.wants_image && round_) {
+    decision.wants_image = false;
+    round_->start(situation, pictures_around_);
+  }
   if (step.end) {
     decision.end = to_api(*step.end, mission_.lists().unreachable);
   }
@@ -159,6 +146,10 @@ Decision SearchBehaviour::step(const Situation& situation) {
 }
 
 void SearchBehaviour::on_recognition(const Recognition& recognition) {
+  if (round_) {
+    round_->take(recognition);
+    return;
+  }
   mission_.on_sightings(recognition.stamp, recognition.map_T_base, recognition.sightings,
                         recognition.scan ? &*recognition.scan : nullptr,
                         recognition.sonar ? &*recognition.sonar : nullptr);
@@ -166,12 +157,19 @@ void SearchBehaviour::on_recognition(const Recognition& recognition) {
 
 void SearchBehaviour::map_moved(const Pose2& new_T_old) {
   mission_.transform(new_T_old);
+  if (round_) {
+    round_->map_moved(new_T_old);
+  }
   if (views_) {
     views_->transform(new_T_old);
   }
 }
 
 void SearchBehaviour::resumed(RobotTime now) {
+  if (round_ && round_->started()) {
+    // The robot may have been moved: the search asks for another one.
+    static_cast<void>(round_->finish());
+  }
   mission_.pause();
   mission_.resume(now);
 }
@@ -201,7 +199,7 @@ std::vector<api::Detection> SearchBehaviour::detections() const {
   std::vector<api::Detection> confirmed;
   for (const search::Detection& detection : mission_.detections()) {
     if (detection.confirmed) {
-      confirmed.push_back(to_api(detection, mission_.request()));
+      confirmed.push_back(to_api(detection, mission_.request().targets));
     }
   }
   return confirmed;

@@ -4,30 +4,46 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "server/app/behaviour.hpp"
 #include "server/app/map_views.hpp"
+#include "server/app/picture_round.hpp"
 #include "server/search/search_mission.hpp"
-#include "server/vision/multi_recogniser.hpp"
+#include "server/vision/solids/target_recogniser.hpp"
 
 namespace seeker::app {
 
 /// What searches leave behind for one another: the evidence that `gaps_only` continues from.
 using EvidenceMemory = std::shared_ptr<std::optional<search::EvidenceGrid>>;
 
+/// The recogniser of solids (spec S6).
+struct SolidSettings {
+  std::string model;  ///< file that `seeker-lab train-solids` wrote, relative to the robot file; empty: no solids
+};
+
 struct SearchBehaviourParams {
   search::SearchParams search;
   vision::RecogniserParams recogniser;
+  SolidSettings solids;
+  RoundParams round;                         ///< of cameras that do not see all around
   std::optional<search::Strategy> strategy;  ///< instead of the mission's mode: the baselines of the experiments
+};
+
+/// What all missions that look for targets share.
+struct SearchTools {
+  std::shared_ptr<const search::ControlTable> table;
+  EvidenceMemory memory;
+  std::shared_ptr<const vision::SolidModel> solids;  ///< null: this robot recognises none
 };
 
 class SearchBehaviour final : public Behaviour {
  public:
   /// Refuses targets that the recogniser cannot use. `views` where the mission explores too, else null.
-  [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(
-      const SearchBehaviourParams& params, const api::SearchMission& mission,
-      const std::shared_ptr<const search::ControlTable>& table, EvidenceMemory memory,
-      std::unique_ptr<MapViewFinder> views = nullptr);
+  [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(const SearchBehaviourParams& params,
+                                                                 const api::SearchMission& mission,
+                                                                 const SearchTools& tools,
+                                                                 std::unique_ptr<MapViewFinder> views = nullptr);
   ~SearchBehaviour() override;
 
   [[nodiscard]] Decision step(const Situation& situation) override;
@@ -41,11 +57,14 @@ class SearchBehaviour final : public Behaviour {
  private:
   SearchBehaviour(search::SearchMission mission, std::shared_ptr<const vision::Recogniser> recogniser,
                   EvidenceMemory memory, std::unique_ptr<MapViewFinder> views);
+  [[nodiscard]] Decision look_around(const Situation& situation);
 
   search::SearchMission mission_;
   std::shared_ptr<const vision::Recogniser> recogniser_;
   EvidenceMemory memory_;
   std::unique_ptr<MapViewFinder> views_;
+  std::optional<PictureRound> round_;  ///< in place of a single picture
+  int pictures_around_ = 1;
   bool stepped_ = false;
 };
 

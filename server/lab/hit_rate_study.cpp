@@ -6,11 +6,13 @@
 #include "common/config/yaml.hpp"
 #include "common/core/angle.hpp"
 #include "common/image/plot.hpp"
+#include "server/app/target_values.hpp"
 #include "server/lab/table.hpp"
 #include "server/options/search_options.hpp"
+#include "server/options/solids_options.hpp"
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
-#include "server/vision/multi_recogniser.hpp"
+#include "server/vision/solids/target_recogniser.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -30,14 +32,66 @@ bool in_view(const LaserScan& scan, double bearing_rad, double range_m) {
   return std::isfinite(seen_m) && std::abs(seen_m - range_m) < kTargetRadius_m;
 }
 
+/// What is looked at, and how far from straight ahead.
+struct Subject {
+  sim::World world;
+  Point2 place = Point2::Zero();
+  double largest_heading_rad = kLargestHeading_rad;
+};
+
+Result<Subject> place_solid(const sim::World& world, SolidKind kind, double largest_heading_rad, Rng& rng) {
+  const auto found = std::find_if(world.solids.begin(), world.solids.end(),
+                                  [kind](const sim::TankSolid& solid) { return solid.shape == kind; });
+  if (found == world.solids.end()) {
+    return fail(Errc::kNotFound, "world '" + world.name + "' has no " + std::string(to_string(kind)));
+  }
+  constexpr double kFromWall_m = 0.6;
+  const Point2 low = world.min_corner.array() + kFromWall_m;
+  const Point2 high = world.max_corner.array() - kFromWall_m;
+  Subject subject{world, Point2(rng.uniform(low.x(), high.x()), rng.uniform(low.y(), high.y())), largest_heading_rad};
+  sim::TankSolid solid = *found;
+  solid.world_T_solid = {subject.place.x(), subject.place.y(), rng.uniform(-kPi, kPi)};
+  subject.world.solids = {solid};
+  return subject;
+}
+
+Result<Subject> place_subject(const sim::World& world, const app::RobotOptions& options, const HitRateParams& params,
+                              Rng& rng) {
+  if (params.solid) {
+    const int pictures = app::pictures_around(options.search.recogniser.view, options.search.round);
+    return place_solid(world, *params.solid, kPi / pictures, rng);
+  }
+  Subject subject{world};
+  const Result<Pose2> pose = sim::place_target(subject.world, 0, rng);
+  if (!pose) {
+    return tl::unexpected<Error>(pose.error());
+  }
+  subject.place = pose->translation();
+  return subject;
+}
+
+Result<std::unique_ptr<vision::Recogniser>> make_recogniser(const app::RobotOptions& options,
+                                                            const api::TargetSpec& target) {
+  std::optional<vision::SolidModel> solids;
+  if (!options.search.solids.model.empty()) {
+    Result<vision::SolidModel> model = options::load_solid_model(app::resolve(options, options.search.solids.model));
+    if (!model) {
+      return tl::unexpected<Error>(model.error());
+    }
+    solids = std::move(*model);
+  }
+  return vision::make_target_recogniser(app::target_models({target}), options.search.recogniser,
+                                        solids ? &*solids : nullptr);
+}
+
 /// One picture counted into its bin, when it can be taken.
-Status take_picture(const sim::World& world, const app::RobotOptions& options, const vision::Recogniser& recogniser,
+Status take_picture(const Subject& subject, const app::RobotOptions& options, const vision::Recogniser& recogniser,
                     const HitRateParams& params, Rng& rng, HitRateBin& bin) {
-  const Point2 target = world.targets.front().world_T_target.translation();
+  const Point2 target = subject.place;
   const double direction_rad = rng.uniform(-kPi, kPi);
-  const double heading_offset_rad = rng.uniform(-kLargestHeading_rad, kLargestHeading_rad);
+  const double heading_offset_rad = rng.uniform(-subject.largest_heading_rad, subject.largest_heading_rad);
   const Point2 place = target + bin.range_m * Point2(std::cos(direction_rad), std::sin(direction_rad));
-  sim::World placed = world;
+  sim::World placed = subject.world;
   placed.starts = {Pose2{place.x(), place.y(), wrap_angle(direction_rad + kPi - heading_offset_rad)}};
   Result<sim::Simulation> simulation = sim::Simulation::create(std::move(placed), options.sim.robot, rng.bits());
   if (!simulation) {
@@ -46,7 +100,7 @@ Status take_picture(const sim::World& world, const app::RobotOptions& options, c
   if (!in_view(simulation->scan(), heading_offset_rad, bin.range_m)) {
     return {};
   }
-  const Result<vision::RecognitionReport> report = recogniser.recognise(simulation->omni_image());
+  const Result<vision::RecognitionReport> report = recogniser.recognise(simulation->camera_image());
   if (!report) {
     return tl::unexpected<Error>(report.error());
   }
@@ -76,6 +130,10 @@ double log_likelihood(const std::vector<HitRateBin>& bins, double size_m, const 
 
 }  // namespace
 
+Result<api::TargetSpec> studied_target(const sim::World& world, const HitRateParams& params) {
+  return params.solid ? api::solid_target(*params.solid) : target_of(world, params.spec);
+}
+
 Result<std::vector<HitRateBin>> measure_hit_rate(const HitRateParams& params) {
   const Result<app::RobotOptions> options = options_of(params.spec);
   if (!options) {
@@ -85,13 +143,11 @@ Result<std::vector<HitRateBin>> measure_hit_rate(const HitRateParams& params) {
   if (!world) {
     return tl::unexpected<Error>(world.error());
   }
-  const Result<api::TargetSpec> target = target_of(*world, params.spec);
+  const Result<api::TargetSpec> target = studied_target(*world, params);
   if (!target) {
     return tl::unexpected<Error>(target.error());
   }
-  const auto recogniser = vision::make_recogniser(
-      {{.name = target->name, .picture = target->picture, .width_m = target->width_m, .height_m = target->height_m}},
-      options->search.recogniser);
+  const Result<std::unique_ptr<vision::Recogniser>> recogniser = make_recogniser(*options, *target);
   if (!recogniser) {
     return tl::unexpected<Error>(recogniser.error());
   }
@@ -101,13 +157,13 @@ Result<std::vector<HitRateBin>> measure_hit_rate(const HitRateParams& params) {
   }
   for (const std::uint64_t seed : params.seeds) {
     Rng rng(seed);
-    sim::World placed = *world;
-    if (const Result<Pose2> pose = sim::place_target(placed, 0, rng); !pose) {
-      return tl::unexpected<Error>(pose.error());
+    const Result<Subject> subject = place_subject(*world, *options, params, rng);
+    if (!subject) {
+      return tl::unexpected<Error>(subject.error());
     }
     for (HitRateBin& bin : bins) {
       for (int n = 0; n < params.directions; ++n) {
-        if (const Status ok = take_picture(placed, *options, **recogniser, params, rng, bin); !ok) {
+        if (const Status ok = take_picture(*subject, *options, **recogniser, params, rng, bin); !ok) {
           return tl::unexpected<Error>(ok.error());
         }
       }

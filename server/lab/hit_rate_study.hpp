@@ -3,16 +3,19 @@
 /// it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/core/solid.hpp"
 #include "server/lab/search_run.hpp"
 #include "server/search/hit_rate.hpp"
 
 namespace seeker::lab {
 
 struct HitRateParams {
-  RunSpec spec;  ///< world, robot file and overrides; its seed is not used
+  RunSpec spec;                    ///< world, robot file and overrides; its seed is not used
+  std::optional<SolidKind> solid;  ///< that of the world instead of its target, by a camera that looks one way
   std::vector<std::uint64_t> seeds;
   double range_min_m = 0.4;
   double range_max_m = 5.0;
@@ -31,8 +34,12 @@ struct HitRateBin {
   [[nodiscard]] double rate() const { return pictures > 0 ? static_cast<double>(hits) / pictures : 0.0; }
 };
 
+/// The solid, or the world's target.
+[[nodiscard]] Result<api::TargetSpec> studied_target(const sim::World& world, const HitRateParams& params);
+
 /// Every picture is taken from a place with room for the robot and a clear line (laser height) to the target, which
-/// stands at a place drawn from the seed.
+/// stands at a place drawn from the seed. A solid is alone in its world, turned anyhow, and so far from the picture's
+/// middle at most as the nearest picture of a round has it.
 [[nodiscard]] Result<std::vector<HitRateBin>> measure_hit_rate(const HitRateParams& params);
 
 /// The curve that makes the measured hits most likely; `size_m` is the target's smaller side. Ranges beyond the last

@@ -18,23 +18,10 @@
 namespace seeker::lab {
 namespace {
 
-constexpr std::array kSolids{vision::SolidClass::kSphere, vision::SolidClass::kTriangularPrism,
-                             vision::SolidClass::kQuadrangularPrism, vision::SolidClass::kEllipsoid};
-
 /// Table 2 of the paper, in the order of the classes, less 3 points (spec S6).
 constexpr std::array<double, vision::kSolidClasses> kPaperAccuracy{0.95, 0.97, 0.94, 0.98};
 constexpr double kSlack = 0.03;
 constexpr double kTimeLimit_s = 0.5;
-
-sim::SolidShape shape_of(vision::SolidClass solid) {
-  switch (solid) {
-    case vision::SolidClass::kSphere: return sim::SolidShape::kSphere;
-    case vision::SolidClass::kTriangularPrism: return sim::SolidShape::kTriangularPrism;
-    case vision::SolidClass::kQuadrangularPrism: return sim::SolidShape::kQuadrangularPrism;
-    case vision::SolidClass::kEllipsoid: return sim::SolidShape::kEllipsoid;
-  }
-  return sim::SolidShape::kSphere;
-}
 
 std::size_t band_of(const sim::SolidView& view) {
   constexpr double kFirst_deg = 20.0;
@@ -44,7 +31,7 @@ std::size_t band_of(const sim::SolidView& view) {
 }
 
 void add_rows(Table& table, const std::string& view, const Confusion& confusion) {
-  for (const vision::SolidClass solid : kSolids) {
+  for (const vision::SolidClass solid : kSolidKinds) {
     std::vector<std::string> row{view, std::string(to_string(solid))};
     for (const int count : confusion[static_cast<std::size_t>(solid)]) {
       row.push_back(std::to_string(count));
@@ -58,20 +45,20 @@ Image examples(const vision::SolidModel& model, const SolidPictures& pictures) {
   constexpr int kEach = 3;
   std::vector<CaptionedImage> sheet;
   for (int i = 0; i < kEach; ++i) {
-    for (const vision::SolidClass solid : kSolids) {
+    for (const vision::SolidClass solid : kSolidKinds) {
       const SolidPicture picture = draw_picture(pictures, solid, i);
       const auto found = vision::classify_solid(picture.image, model);
       sheet.push_back({found ? std::string(to_string(found->solid)) : "none", picture.image});
     }
   }
-  return contact_sheet(sheet, static_cast<int>(kSolids.size()));
+  return contact_sheet(sheet, static_cast<int>(kSolidKinds.size()));
 }
 
 }  // namespace
 
 SolidPicture draw_picture(const SolidPictures& pictures, vision::SolidClass solid, int index) {
   Rng rng = Rng(pictures.seed).fork(std::string(to_string(solid)) + " " + std::to_string(index));
-  const sim::SolidView view = sim::draw_view(shape_of(solid), rng);
+  const sim::SolidView view = sim::draw_view(solid, rng);
   const sim::TurbidWater water = sim::draw_water(rng);
   return {view, sim::render_solid(view, water, rng)};
 }
@@ -79,8 +66,8 @@ SolidPicture draw_picture(const SolidPictures& pictures, vision::SolidClass soli
 Result<TrainedSolids> train_solids(const SolidPictures& pictures, const vision::TrainingParams& params) {
   TrainedSolids trained;
   std::vector<vision::TrainingSample> samples;
-  samples.reserve(kSolids.size() * static_cast<std::size_t>(std::max(0, pictures.per_class)));
-  for (const vision::SolidClass solid : kSolids) {
+  samples.reserve(kSolidKinds.size() * static_cast<std::size_t>(std::max(0, pictures.per_class)));
+  for (const vision::SolidClass solid : kSolidKinds) {
     for (int i = 0; i < pictures.per_class; ++i) {
       const auto sight = vision::look_at_solid(draw_picture(pictures, solid, i).image, trained.model.segment);
       if (!sight) {
@@ -110,7 +97,7 @@ double accuracy(const Confusion& confusion, vision::SolidClass solid) {
 SolidsStudy test_solids(const vision::SolidModel& model, const SolidPictures& pictures) {
   SolidsStudy study;
   std::chrono::steady_clock::duration spent{};
-  for (const vision::SolidClass solid : kSolids) {
+  for (const vision::SolidClass solid : kSolidKinds) {
     for (int i = 0; i < pictures.per_class; ++i) {
       const SolidPicture picture = draw_picture(pictures, solid, i);
       const auto begin = std::chrono::steady_clock::now();
@@ -122,14 +109,14 @@ SolidsStudy test_solids(const vision::SolidModel& model, const SolidPictures& pi
       ++study.by_elevation[band_of(picture.view)][row][column];
     }
   }
-  const double count = static_cast<double>(kSolids.size()) * std::max(1, pictures.per_class);
+  const double count = static_cast<double>(kSolidKinds.size()) * std::max(1, pictures.per_class);
   study.mean_time_s = std::chrono::duration<double>(spent).count() / count;
   return study;
 }
 
 std::string confusion_csv(const SolidsStudy& study) {
   std::vector<std::string> header{"view", "class"};
-  for (const vision::SolidClass solid : kSolids) {
+  for (const vision::SolidClass solid : kSolidKinds) {
     header.emplace_back(to_string(solid));
   }
   header.emplace_back("none");
@@ -152,7 +139,7 @@ Check check_solids(const std::vector<SolidsStudy>& studies, const std::vector<st
     }
   }
   Check check{.id = "R11", .passed = time_s <= kTimeLimit_s, .figures = {{"seeds", print_seeds(seeds)}}};
-  for (const vision::SolidClass solid : kSolids) {
+  for (const vision::SolidClass solid : kSolidKinds) {
     const double share = accuracy(all, solid);
     const double limit = kPaperAccuracy[static_cast<std::size_t>(solid)] - kSlack;
     double worst = 1.0;

@@ -17,6 +17,7 @@ namespace {
 struct HitRateOptions {
   CommonOptions common;
   std::string world = "office";
+  std::string solid;
   HitRateParams params;
 };
 
@@ -47,7 +48,8 @@ int run_hit_rate(HitRateOptions o) {
   if (!options || !world) {
     return report_error(!options ? options.error().message : world.error().message);
   }
-  const Result<api::TargetSpec> target = target_of(*world, o.params.spec);
+  o.params.solid = solid_named(o.solid);
+  const Result<api::TargetSpec> target = studied_target(*world, o.params);
   const Result<std::vector<HitRateBin>> bins = measure_hit_rate(o.params);
   if (!target || !bins) {
     return report_error(!target ? target.error().message : bins.error().message);
@@ -75,6 +77,10 @@ Verb add_hit_rate(CLI::App& app) {
       app.add_subcommand("hit-rate", "The recogniser's hit rate against range, and the curve for evidence");
   add_common(*verb, o->common);
   verb->add_option("--world", o->world, "World file, or the name of one in worlds/")->capture_default_str();
+  verb->add_option("--solid", o->solid, "A solid of the world instead of its target: sphere, triangular-prism, ...")
+      ->check([](const std::string& name) {
+        return solid_named(name) ? std::string() : "there is no solid '" + name + "'";
+      });
   verb->add_option("--directions", o->params.directions, "Places around the target per range and seed")
       ->check(CLI::Range(1, 360))
       ->capture_default_str();

@@ -86,6 +86,7 @@ void describe(config::Fields& f, DetectionParams& params) {
   f.angle_deg("bearing_sigma_deg", params.bearing_sigma_rad);
   f.field("sonar_sigma_m", params.sonar_sigma_m);
   f.field("lidar_sigma_m", params.lidar_sigma_m);
+  f.field("floor_sigma_m", params.floor_sigma_m);
   f.field("sonar_max_range_m", params.sonar_max_range_m);
   f.field("lidar_max_range_m", params.lidar_max_range_m);
   f.angle_deg("lidar_window_deg", params.lidar_window_rad);

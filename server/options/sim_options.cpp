@@ -79,6 +79,12 @@ void describe(config::Fields& f, OmniModel& model) {
   f.field("vignetting", model.vignetting);
 }
 
+void describe(config::Fields& f, TankCameraModel& model) {
+  f.field("base_T_camera", model.base_T_camera);
+  f.field("height_m", model.height_m);
+  f.angle_deg("tilt_deg", model.tilt_rad);
+}
+
 void describe(config::Fields& f, EyeErrors& errors) {
   f.field("shift_u_px", errors.shift_u_px);
   f.field("shift_v_px", errors.shift_v_px);
@@ -115,7 +121,10 @@ void describe(config::Fields& f, RobotModel& model) {
   f.section("odometry", model.odometry);
   f.section("lidar", model.lidar);
   f.section("sonar", model.sonar);
+  f.choice("camera", model.camera,
+           config::Choices<CameraKind>{{"omni", CameraKind::kOmni}, {"tank", CameraKind::kTank}});
   f.section("omni", model.omni);
+  f.section("tank", model.tank);
   f.section("stereo", model.stereo);
 }
 

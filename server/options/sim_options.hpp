@@ -11,6 +11,7 @@ void describe(config::Fields& f, OdometryModel& model);
 void describe(config::Fields& f, LidarModel& model);
 void describe(config::Fields& f, SonarModel& model);
 void describe(config::Fields& f, OmniModel& model);
+void describe(config::Fields& f, TankCameraModel& model);
 void describe(config::Fields& f, EyeErrors& errors);
 void describe(config::Fields& f, StereoModel& model);
 void describe(config::Fields& f, RobotModel& model);

@@ -10,6 +10,7 @@ void describe(config::Fields& f, SegmentParams& params) {
   f.field("stretch_high", params.stretch_high);
   f.field("floor_sigmas", params.floor_sigmas);
   f.field("face_share", params.face_share);
+  f.field("contrast_sigmas", params.contrast_sigmas);
   f.field("opening_px", params.opening_px);
   f.field("closing_px", params.closing_px);
   f.field("min_area", params.min_area);

@@ -21,6 +21,7 @@ struct TargetFile {
   double depth_m = 0.30;  ///< 0: a flat poster
   double z_min_m = 0.05;  ///< lower edge over the floor
   std::string recogniser = "template";
+  std::string solid{};  ///< which one, of the recogniser `solid`; such a target has no picture
 };
 void describe(config::Fields& f, TargetFile& target);
 
@@ -30,7 +31,8 @@ struct TargetDescription {
   Image picture;
 };
 
-/// Errors: those of the strict reader, kInvalidArgument for sizes, those of image::read_png.
+/// Errors: those of the strict reader, kInvalidArgument for sizes and for a solid (a world places it by its shape),
+/// those of image::read_png.
 [[nodiscard]] Result<TargetDescription> load_target(const std::filesystem::path& path);
 
 }  // namespace seeker::options

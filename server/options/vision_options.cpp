@@ -31,6 +31,8 @@ void describe(config::Fields& f, OmniCameraParams& params) {
 void describe(config::Fields& f, ViewParams& params) {
   f.optional_section("omni", params.omni);
   f.angle_deg("photo_fov_deg", params.photo_fov_rad);
+  f.angle_deg("photo_tilt_deg", params.photo_tilt_rad);
+  f.field("photo_height_m", params.photo_height_m);
   f.field("panorama_scale", params.panorama_scale);
   f.angle_deg("min_elevation_deg", params.min_elevation_rad);
 }

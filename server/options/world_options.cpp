@@ -56,6 +56,21 @@ void describe(config::Fields& f, BookcaseShape& shape) {
   f.check("empty_share", shape.empty_share >= 0.0 && shape.empty_share <= 1.0, "must be from 0 to 1");
 }
 
+void describe(config::Fields& f, TurbidWater& water) {
+  f.field("attenuation_per_m", water.attenuation_per_m);
+  f.field("veil", water.veil);
+  f.field("blur_px", water.blur_px);
+  f.field("noise", water.noise);
+  f.field("floor_albedo", water.floor_albedo);
+  f.field("ambient", water.ambient);
+  f.field("lamp_right_m", water.lamp_right_m);
+  f.field("lamp_up_m", water.lamp_up_m);
+  f.field("lamp_turn_u", water.lamp_turn_u);
+  f.field("lamp_turn_v", water.lamp_turn_v);
+  f.field("beam", water.beam);
+  f.field("gain", water.gain);
+}
+
 }  // namespace seeker::sim
 
 namespace seeker::options {
@@ -129,6 +144,20 @@ void describe(config::Fields& f, PlacedTargetFile& target) {
   f.field("pose", target.pose);
 }
 
+void describe(config::Fields& f, SolidFile& solid) {
+  f.require("shape");
+  config::Choices<SolidKind> shapes;
+  for (const SolidKind kind : kSolidKinds) {
+    shapes.emplace_back(to_string(kind), kind);
+  }
+  f.choice("shape", solid.shape, shapes);
+  f.require("pose");
+  f.field("pose", solid.pose);
+  f.field("size_m", solid.size_m);
+  f.field("elongation", solid.elongation);
+  f.field("albedo", solid.albedo);
+}
+
 void describe(config::Fields& f, PersonFile& person) {
   f.require("waypoints");
   f.field("waypoints", person.waypoints);
@@ -163,6 +192,8 @@ void describe(config::Fields& f, WorldFile& world) {
   f.list("chairs", world.chairs);
   f.list("cylinders", world.cylinders);
   f.list("targets", world.targets);
+  f.list("solids", world.solids);
+  f.section("water", world.water);
   f.list("people", world.people);
   f.field("people_walk", world.people_walk);
   f.field("pattern_seed", world.pattern_seed);
@@ -247,6 +278,9 @@ void add_furniture(const WorldFile& file, sim::World& world) {
   for (const CylinderFile& c : file.cylinders) {
     world.cylinders.push_back({c.centre, c.radius_m, c.z_m.x(), c.z_m.y(), c.surface});
   }
+  for (const SolidFile& solid : file.solids) {
+    world.solids.push_back({solid.shape, solid.pose, solid.size_m, solid.elongation, solid.albedo});
+  }
   for (const PersonFile& person : file.people) {
     sim::PersonPath path;
     path.waypoints = person.waypoints;
@@ -298,6 +332,7 @@ Result<sim::World> build_world(const WorldFile& file, const TargetLoader& load_t
   world.floor = file.floor;
   world.people_walk = file.people_walk;
   world.pattern_seed = file.pattern_seed;
+  world.water = file.water;
   for (const StartFile& start : file.starts) {
     world.starts.push_back(start.pose);
   }

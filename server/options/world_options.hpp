@@ -21,6 +21,7 @@ void describe(config::Fields& f, Lighting& lighting);
 void describe(config::Fields& f, Surface& surface);
 void describe(config::Fields& f, TableShape& shape);
 void describe(config::Fields& f, BookcaseShape& shape);
+void describe(config::Fields& f, TurbidWater& water);
 
 }  // namespace seeker::sim
 
@@ -93,6 +94,16 @@ struct PlacedTargetFile {
 };
 void describe(config::Fields& f, PlacedTargetFile& target);
 
+/// A solid on the floor of a tank: see sim::TankSolid.
+struct SolidFile {
+  SolidKind shape = SolidKind::kSphere;
+  Pose2 pose;
+  double size_m = 0.1;
+  double elongation = 1.0;
+  double albedo = 0.75;
+};
+void describe(config::Fields& f, SolidFile& solid);
+
 struct PersonFile {
   Polygon waypoints;
   double speed_m_s = 0.7;
@@ -129,6 +140,8 @@ struct WorldFile {
   std::vector<ChairFile> chairs;
   std::vector<CylinderFile> cylinders;
   std::vector<PlacedTargetFile> targets;
+  std::vector<SolidFile> solids;
+  sim::TurbidWater water;
   std::vector<PersonFile> people;
   bool people_walk = false;
   std::uint64_t pattern_seed = 0;  ///< the same building in other textures

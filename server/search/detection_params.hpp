@@ -12,6 +12,7 @@ struct DetectionParams {
   double bearing_sigma_rad = deg_to_rad(1.5);  ///< camera alignment error 1-2 deg (spec S3.5)
   double sonar_sigma_m = 0.10;                 ///< of an interpolated sonar range
   double lidar_sigma_m = 0.03;
+  double floor_sigma_m = 0.08;     ///< of a range by the camera's height, to the middle of what stands there
   double sonar_max_range_m = 3.0;  ///< farther sonar ranges are not used
   double lidar_max_range_m = 8.0;
   double lidar_window_rad = deg_to_rad(2.0);   ///< half width of the bundle around the bearing

@@ -18,8 +18,19 @@ constexpr double kSamePlace_m = 0.1;
 /// Two sightings of one thing differ at least so much: its extent.
 constexpr double kTargetSpread_m = 0.15;
 
+/// The surest range is that of the highest rank.
+int rank(RangeSource source) {
+  switch (source) {
+    case RangeSource::kLidar: return 3;
+    case RangeSource::kFloor: return 2;
+    case RangeSource::kSonar: return 1;
+    case RangeSource::kTriangulation:
+    case RangeSource::kNone: break;
+  }
+  return 0;
+}
+
 bool better(RangeSource a, double score_a, RangeSource b, double score_b) {
-  const auto rank = [](RangeSource s) { return s == RangeSource::kLidar ? 2 : s == RangeSource::kSonar ? 1 : 0; };
   return rank(a) != rank(b) ? rank(a) > rank(b) : score_a > score_b;
 }
 
@@ -35,8 +46,10 @@ DetectionTracker::Observation DetectionTracker::observe(const Look& look, const 
   m.map_T_camera = look.map_T_base * params_.base_T_camera;
   m.bearing_rad = wrap_angle(sighting.bearing_base_rad - params_.base_T_camera.theta_rad);
   m.bearing_sigma_rad = params_.bearing_sigma_rad;
-  if (const auto range =
-          range_in_direction(sighting.bearing_base_rad, look.laser, look.sonar, sighting.range_m, params_)) {
+  const bool on_floor = sighting.floor_range_m.has_value();
+  const auto range = range_in_direction(sighting.bearing_base_rad, look.laser, on_floor ? nullptr : look.sonar,
+                                        sighting.range_m, params_);
+  if (range) {
     const SearchTarget& target = targets_[static_cast<std::size_t>(sighting.target)];
     m.range_m = range->range_m + target.depth_m / 2.0;
     if (range->source == RangeSource::kLidar && target.depth_m > 0.0) {
@@ -46,6 +59,10 @@ DetectionTracker::Observation DetectionTracker::observe(const Look& look, const 
     }
     m.range_sigma_m = std::hypot(range->sigma_m, params_.depth_sigma_m);
     observation.source = range->source;
+  } else if (on_floor) {
+    m.range_m = sighting.floor_range_m;
+    m.range_sigma_m = params_.floor_sigma_m;
+    observation.source = RangeSource::kFloor;
   }
   return observation;
 }
@@ -165,7 +182,7 @@ void DetectionTracker::estimate(Track& track) const {
   RangeSource source = RangeSource::kTriangulation;
   for (const Observation& o : track.observations) {
     all.push_back(o.measurement);
-    if (o.source == RangeSource::kLidar || (o.source == RangeSource::kSonar && source != RangeSource::kLidar)) {
+    if (rank(o.source) > rank(source)) {
       source = o.source;
     }
   }

@@ -30,7 +30,14 @@ SearchStep SearchMission::step(const SearchInput& input) { return impl_->step(in
 void SearchMission::on_sightings(RobotTime stamp, const Pose2& map_T_base_at_exposure,
                                  const std::vector<vision::Sighting>& sightings, const LaserScan* laser,
                                  const SonarScan* sonar) {
-  impl_->add_look({stamp, map_T_base_at_exposure, impl_->pose_covariance_, sightings, laser, sonar});
+  on_looks({{stamp, map_T_base_at_exposure, Matrix3::Zero(), sightings, laser, sonar}});
+}
+
+void SearchMission::on_looks(std::vector<Look> looks) {
+  for (Look& look : looks) {
+    look.pose_covariance = impl_->pose_covariance_;
+  }
+  impl_->add_looks(looks);
 }
 
 // The clock stops with the last step; resume() makes up for what passed.

@@ -13,6 +13,7 @@
 #include "common/core/scan.hpp"
 #include "common/core/time.hpp"
 #include "server/search/control_table.hpp"
+#include "server/search/detection_tracker.hpp"
 #include "server/search/evidence.hpp"
 #include "server/search/search_params.hpp"
 #include "server/search/search_types.hpp"
@@ -68,6 +69,10 @@ class SearchMission {
   /// its exposure. Answers nobody asked for are welcome too (they add evidence).
   void on_sightings(RobotTime stamp, const Pose2& map_T_base_at_exposure,
                     const std::vector<vision::Sighting>& sightings, const LaserScan* laser, const SonarScan* sonar);
+
+  /// The same by several pictures that together show all around one place: evidence counts them as one look. Their
+  /// covariances are filled in here.
+  void on_looks(std::vector<Look> looks);
 
   /// Between pause and resume nothing times out; step() must not be called. The robot may have been moved meanwhile.
   void pause();

@@ -21,7 +21,7 @@ class SearchMission::Impl {
   Impl(SearchRequest request, const SearchParams& params, const std::shared_ptr<const ControlTable>& table);
 
   [[nodiscard]] SearchStep step(const SearchInput& input);
-  void add_look(const Look& look);
+  void add_looks(const std::vector<Look>& looks);
   void resume(RobotTime now);
   void transform(const Pose2& new_T_old);
 
@@ -40,7 +40,7 @@ class SearchMission::Impl {
   Matrix3 pose_covariance_ = Matrix3::Zero();  ///< of the last step, for pictures taken since
 
  private:
-  /// A picture whose sightings are in the tracker and whose evidence waits for the next step's map.
+  /// Pictures from one place whose sightings are in the tracker and whose evidence waits for the next step's map.
   struct PendingLook {
     Point2 camera_map;
     std::vector<std::uint64_t> seen;

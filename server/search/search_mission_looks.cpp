@@ -27,12 +27,22 @@ bool floor_at(const Grid<std::uint8_t>& floor, const Point2& p_map) {
 
 }  // namespace
 
-void SearchMission::Impl::add_look(const Look& look) {
-  if (end_ || !is_finite(look.map_T_base) || looks_.size() >= kMaxPendingLooks) {
+void SearchMission::Impl::add_looks(const std::vector<Look>& looks) {
+  const bool finite =
+      std::all_of(looks.begin(), looks.end(), [](const Look& look) { return is_finite(look.map_T_base); });
+  if (end_ || looks.empty() || !finite || looks_.size() >= kMaxPendingLooks) {
     return;
   }
-  const Point2 camera = (look.map_T_base * params_.detection.base_T_camera).translation();
-  looks_.push_back({camera, tracker_.add(look)});
+  PendingLook pending;
+  pending.camera_map = (looks.front().map_T_base * params_.detection.base_T_camera).translation();
+  for (const Look& look : looks) {
+    for (const std::uint64_t id : tracker_.add(look)) {
+      if (std::find(pending.seen.begin(), pending.seen.end(), id) == pending.seen.end()) {
+        pending.seen.push_back(id);
+      }
+    }
+  }
+  looks_.push_back(std::move(pending));
 }
 
 void SearchMission::Impl::process_looks(const StrategyInput& input, SearchStep& out) {

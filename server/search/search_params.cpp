@@ -44,7 +44,8 @@ Status validate_lengths(const SearchParams& p) {
                        {"evidence.cell_m", p.evidence.cell_m},
                        {"detection.bearing_sigma_rad", p.detection.bearing_sigma_rad},
                        {"detection.sonar_sigma_m", p.detection.sonar_sigma_m},
-                       {"detection.lidar_sigma_m", p.detection.lidar_sigma_m}});
+                       {"detection.lidar_sigma_m", p.detection.lidar_sigma_m},
+                       {"detection.floor_sigma_m", p.detection.floor_sigma_m}});
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ std::string_view to_string(RangeSource source) {
     case RangeSource::kSonar: return "sonar";
     case RangeSource::kLidar: return "lidar";
     case RangeSource::kTriangulation: return "triangulation";
+    case RangeSource::kFloor: return "floor";
   }
   return "unknown";
 }

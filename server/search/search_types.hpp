@@ -98,7 +98,7 @@ struct GridLists {
 };
 
 /// Where the range of a detection comes from.
-enum class RangeSource : std::uint8_t { kNone, kSonar, kLidar, kTriangulation };
+enum class RangeSource : std::uint8_t { kNone, kSonar, kLidar, kTriangulation, kFloor };
 [[nodiscard]] std::string_view to_string(RangeSource source);
 
 /// A target, as all its sightings together tell it. Field for field what api::Detection needs.

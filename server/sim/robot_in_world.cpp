@@ -6,6 +6,7 @@
 
 #include "common/core/angle.hpp"
 #include "server/sim/range_sensors.hpp"
+#include "server/sim/tank_renderer.hpp"
 
 namespace seeker::sim {
 namespace {
@@ -13,6 +14,23 @@ namespace {
 constexpr double kSecondsPerHour = 3600.0;
 /// What the housing of a robot looks like to others.
 constexpr Surface kHousing{0.22, 0.15, 0.10, 9001};
+
+/// Farther away the water is all that a camera sees.
+constexpr double kTankSight_m = 10.0;
+
+/// What is as high as the eye stands in its way like a wall; solids are lower and drawn for themselves.
+TankWalls walls_around(const Scene& scene, const Pose2& world_T_camera, double height_m) {
+  constexpr int kDirections = 361;
+  TankWalls walls{-kPi / 2.0, kPi / (kDirections - 1), {}};
+  walls.distance_m.reserve(kDirections);
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = world_T_camera.theta_rad + walls.first_rad + i * walls.step_rad;
+    const Point2 direction(std::cos(angle), std::sin(angle));
+    const auto hit = scene.nearest(world_T_camera.translation(), direction, kTankSight_m, height_m);
+    walls.distance_m.push_back(hit ? std::max(hit->distance_m, 1e-3) : kTankSight_m);
+  }
+  return walls;
+}
 
 }  // namespace
 
@@ -29,6 +47,7 @@ RobotInWorld::RobotInWorld(const World& world, RobotModel model, std::uint64_t s
       lidar_rng_(root_.fork("lidar")),
       sonar_rng_(root_.fork("sonar")),
       camera_rng_(root_.fork("omni")),
+      tank_rng_(root_.fork("tank")),
       stereo_rng_(root_.fork("stereo")) {}
 
 void RobotInWorld::step(Duration period) {
@@ -68,6 +87,16 @@ Image RobotInWorld::omni_image(RobotTime now) {
   }
   const double brightness = exposure(now, camera_rng_);
   return omni_->render(scene_, world_.lighting, body_.world_T_base(), brightness, camera_rng_);
+}
+
+Image RobotInWorld::tank_image() {
+  const Pose2 world_T_camera = body_.world_T_base() * model_.tank.base_T_camera;
+  TankEye eye;
+  eye.position = {world_T_camera.x_m, world_T_camera.y_m, model_.tank.height_m};
+  eye.heading_rad = world_T_camera.theta_rad;
+  eye.tilt_rad = model_.tank.tilt_rad;
+  const TankWalls walls = walls_around(scene_, world_T_camera, model_.tank.height_m);
+  return render_tank(world_.solids, eye, walls, world_.water, tank_rng_);
 }
 
 StereoFrame RobotInWorld::stereo_pair(RobotTime now) {

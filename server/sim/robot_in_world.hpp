@@ -62,6 +62,7 @@ class RobotInWorld {
   [[nodiscard]] LaserScan scan(RobotTime now);
   [[nodiscard]] SonarScan sonar(RobotTime now);
   [[nodiscard]] Image omni_image(RobotTime now);
+  [[nodiscard]] Image tank_image();
   [[nodiscard]] StereoFrame stereo_pair(RobotTime now);
 
   [[nodiscard]] GroundTruth truth() const;
@@ -86,6 +87,7 @@ class RobotInWorld {
   Rng lidar_rng_;
   Rng sonar_rng_;
   Rng camera_rng_;
+  Rng tank_rng_;
   Rng stereo_rng_;
   std::unique_ptr<OmniRenderer> omni_;  ///< made with the first picture: its tables are large
   std::unique_ptr<StereoRenderer> stereo_;

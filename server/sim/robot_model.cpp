@@ -96,6 +96,13 @@ Status check_omni(const OmniModel& o) {
   return {};
 }
 
+Status check_tank(const TankCameraModel& t) {
+  if (!is_finite(t.base_T_camera) || !positive({t.height_m}) || !(std::abs(t.tilt_rad) < deg_to_rad(90.0))) {
+    return refuse("tank camera", "has a value outside its range");
+  }
+  return {};
+}
+
 bool valid_eye(const EyeErrors& e) {
   constexpr double kLargestShift_px = 100.0;
   for (const double v : {e.shift_u_px, e.shift_v_px, e.distortion_px}) {
@@ -134,6 +141,9 @@ Status validate(const RobotModel& model) {
   if (const Status omni = check_omni(model.omni); !omni) {
     return omni;
   }
+  if (const Status tank = check_tank(model.tank); !tank) {
+    return tank;
+  }
   return check_stereo(model.stereo);
 }
 
@@ -147,6 +157,7 @@ RobotModel without_errors(RobotModel model) {
   OmniModel& omni = model.omni;
   omni.base_T_camera.theta_rad = 0.0;
   omni.noise_sigma = omni.shot_noise = omni.blur_sigma_px = omni.vignetting = 0.0;
+  model.tank.base_T_camera.theta_rad = 0.0;
   StereoModel& stereo = model.stereo;
   stereo.noise_sigma = stereo.shot_noise = stereo.blur_sigma_px = stereo.exposure_jitter = 0.0;
   stereo.left = stereo.right = EyeErrors{0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0};

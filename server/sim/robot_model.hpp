@@ -3,6 +3,7 @@
 /// are those of the hardware, with its errors: the simulator must not flatter (design.md 8).
 #pragma once
 
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -104,6 +105,17 @@ struct StereoModel {
   EyeErrors right{-0.04, 0.10, deg_to_rad(-0.008), -0.10, 1.06, 1.0, 0.19};
 };
 
+/// A camera over the turning centre that looks down at the floor of a tank, without roll. Its picture is that of
+/// server/sim/tank_renderer.
+struct TankCameraModel {
+  Pose2 base_T_camera{0.0, 0.0, deg_to_rad(0.5)};  ///< mounted with an error of half a degree, never told
+  double height_m = 0.80;
+  double tilt_rad = deg_to_rad(40.0);  ///< down from the horizon
+};
+
+/// Which camera the robot has beside the stereo camera.
+enum class CameraKind : std::uint8_t { kOmni, kTank };
+
 struct RobotModel {
   double radius_m = 0.26;  ///< spec S3.3
   double body_height_m = 0.65;
@@ -118,7 +130,9 @@ struct RobotModel {
   OdometryModel odometry;
   LidarModel lidar;
   SonarModel sonar;
+  CameraKind camera = CameraKind::kOmni;
   OmniModel omni;
+  TankCameraModel tank;
   StereoModel stereo;
 };
 

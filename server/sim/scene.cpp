@@ -6,6 +6,7 @@
 #include "common/core/angle.hpp"
 #include "common/core/polygon.hpp"
 #include "server/sim/mix.hpp"
+#include "server/sim/tank_renderer.hpp"
 
 namespace seeker::sim {
 namespace {
@@ -88,6 +89,9 @@ Scene::Scene(const World& world)
   for (const Target& target : world.targets) {
     add_target(target);
   }
+  for (const TankSolid& solid : world.solids) {
+    add_solid(solid);
+  }
   std::vector<Segment> segments;
   segments.reserve(faces_.size());
   for (const Face& face : faces_) {
@@ -148,6 +152,12 @@ void Scene::add_target(const Target& target) {
     faces_[first + i].picture = picture;
     faces_[first + i].paint.albedo = side_light(lighting_, faces_[first + i].normal);
   }
+}
+
+/// For all but the camera of a tank it is as wide at every height as at its widest.
+void Scene::add_solid(const TankSolid& solid) {
+  const Surface plain{solid.albedo, 0.0, 1.0, 0};
+  add_prism(outline(solid), 0.0, 2.0 * half_height_m(solid), plain);
 }
 
 std::optional<RayHit> Scene::nearest(const Point2& origin, const Point2& direction, double range_max_m,

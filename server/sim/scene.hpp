@@ -94,6 +94,7 @@ class Scene {
   void add_prism(const std::vector<Point2>& corners, double z_min, double z_max, const Surface& surface);
   void add_wall(const Wall& wall);
   void add_target(const Target& target);
+  void add_solid(const TankSolid& solid);
   [[nodiscard]] bool inside(const Solid& solid, const Point2& p) const;
 
   Lighting lighting_;

@@ -32,6 +32,8 @@ BaseReading Simulation::odometry() const { return shared_->robot(index_).odometr
 LaserScan Simulation::scan() { return shared_->robot(index_).scan(now()); }
 SonarScan Simulation::sonar() { return shared_->robot(index_).sonar(now()); }
 Image Simulation::omni_image() { return shared_->robot(index_).omni_image(now()); }
+Image Simulation::tank_image() { return shared_->robot(index_).tank_image(); }
+Image Simulation::camera_image() { return model().camera == CameraKind::kTank ? tank_image() : omni_image(); }
 StereoFrame Simulation::stereo_pair() { return shared_->robot(index_).stereo_pair(now()); }
 GroundTruth Simulation::truth() const { return shared_->robot(index_).truth(); }
 const World& Simulation::world() const { return shared_->world(); }

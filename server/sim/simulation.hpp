@@ -39,6 +39,10 @@ class Simulation {
   [[nodiscard]] SonarScan sonar();
   /// Grey picture of the mirror: image up = forward, image left = +90 deg, centre as in the model.
   [[nodiscard]] Image omni_image();
+  /// Grey picture of the camera that looks down at the floor of a tank.
+  [[nodiscard]] Image tank_image();
+  /// That of the two which the model has.
+  [[nodiscard]] Image camera_image();
 
   /// Both eyes of the stereo camera at this moment, grey, rectified up to the errors of the model.
   [[nodiscard]] StereoFrame stereo_pair();

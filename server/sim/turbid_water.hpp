@@ -3,15 +3,23 @@
 /// tested on. Attenuation, veiling light, blur, noise and an uneven lamp.
 #pragma once
 
-#include <cstdint>
-
 #include "common/core/image.hpp"
+#include "common/core/pose2.hpp"
 #include "common/core/rng.hpp"
+#include "common/core/solid.hpp"
 
 namespace seeker::sim {
 
-enum class SolidShape : std::uint8_t { kSphere, kTriangularPrism, kQuadrangularPrism, kEllipsoid };
-inline constexpr int kSolidShapes = 4;
+using SolidShape = SolidKind;
+
+/// A solid on the floor of a tank, as a world has it.
+struct TankSolid {
+  SolidShape shape = SolidShape::kSphere;
+  Pose2 world_T_solid;      ///< x axis: an ellipsoid's long axis, across a side of a prism
+  double size_m = 0.1;      ///< as in SolidView
+  double elongation = 1.0;  ///< as in SolidView
+  double albedo = 0.75;
+};
 
 /// A solid as it lies, and from where it is seen.
 struct SolidView {
@@ -44,6 +52,7 @@ struct TurbidWater {
 
 inline constexpr int kTankWidth_px = 640;
 inline constexpr int kTankHeight_px = 480;
+inline constexpr double kTankFocal_px = 700.0;
 
 /// Grey picture of kTankWidth_px x kTankHeight_px.
 [[nodiscard]] Image render_solid(const SolidView& view, const TurbidWater& water, Rng& rng);

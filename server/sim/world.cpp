@@ -1,6 +1,9 @@
 #include "server/sim/world.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "server/sim/tank_renderer.hpp"
 
 namespace seeker::sim {
 namespace {
@@ -50,7 +53,8 @@ void check_bounds(const World& w, Checker& c) {
   c.require(w.min_corner.allFinite() && w.max_corner.allFinite() && side.minCoeff() > 0.0 &&
                 side.maxCoeff() <= kMaxWorldSide_m,
             "bounds", "must be finite, not empty and at most 500 m on a side");
-  const std::size_t items = w.walls.size() + w.boxes.size() + w.cylinders.size() + w.targets.size() + w.people.size();
+  const std::size_t items =
+      w.walls.size() + w.boxes.size() + w.cylinders.size() + w.targets.size() + w.solids.size() + w.people.size();
   c.require(items <= kMaxWorldItems, "number of items", "is over the limit of " + std::to_string(kMaxWorldItems));
   c.surface(w.floor, "floor");
   const Lighting& l = w.lighting;
@@ -109,6 +113,29 @@ void check_targets(const World& w, Checker& c) {
   }
 }
 
+void check_tank(const World& w, Checker& c) {
+  for (std::size_t i = 0; i < w.solids.size(); ++i) {
+    const TankSolid& solid = w.solids[i];
+    c.require(is_finite(solid.world_T_solid), item("solid", i), "has no finite pose");
+    c.size(solid.size_m, item("solid", i), "size");
+    c.require(solid.elongation > 0.0 && solid.elongation <= 10.0, item("solid", i), "needs an elongation up to 10");
+    c.require(solid.albedo >= 0.0 && solid.albedo <= 1.0, item("solid", i), "needs an albedo from 0 to 1");
+    if (c.status()) {
+      const std::vector<Point2> corners = outline(solid);
+      std::for_each(corners.begin(), corners.end(), [&](const Point2& p) { c.inside(p, item("solid", i)); });
+    }
+  }
+  const TurbidWater& water = w.water;
+  const auto from_0 = [](double value, double most) { return value >= 0.0 && value <= most; };
+  constexpr double kMost = 100.0;
+  c.require(from_0(water.attenuation_per_m, kMost) && from_0(water.veil, 1.0) && from_0(water.blur_px, kMost) &&
+                from_0(water.noise, kMost) && from_0(water.floor_albedo, 1.0) && from_0(water.ambient, 1.0) &&
+                from_0(water.beam, kMost) && from_0(water.gain, kMost) && std::abs(water.lamp_right_m) <= kMost &&
+                from_0(water.lamp_up_m, kMost) && std::abs(water.lamp_turn_u) <= kMost &&
+                std::abs(water.lamp_turn_v) <= kMost,
+            "water", "has a value outside its range");
+}
+
 void check_people(const World& w, Checker& c) {
   for (std::size_t i = 0; i < w.people.size(); ++i) {
     const PersonPath& person = w.people[i];
@@ -131,6 +158,7 @@ Status validate(const World& world) {
   check_bounds(world, checker);
   check_solids(world, checker);
   check_targets(world, checker);
+  check_tank(world, checker);
   check_people(world, checker);
   return checker.status();
 }

@@ -10,6 +10,7 @@
 #include "common/core/image.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
+#include "server/sim/turbid_water.hpp"
 
 namespace seeker::sim {
 
@@ -94,6 +95,8 @@ struct World {
   std::vector<Box> boxes;
   std::vector<Cylinder> cylinders;
   std::vector<Target> targets;
+  std::vector<TankSolid> solids;  ///< on the floor; only the camera of a tank sees their shape
+  TurbidWater water;              ///< that the camera of a tank looks through
   std::vector<PersonPath> people;
   bool people_walk = false;  ///< people exist only when this is on
   Lighting lighting;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "common/core/assert.hpp"
 #include "server/vision/feature_recogniser.hpp"
 #include "server/vision/overlap.hpp"
 #include "server/vision/template_recogniser.hpp"
@@ -67,6 +68,9 @@ Status check_all(const std::vector<TargetModel>& targets, const RecogniserParams
   const int width_px = params.view.omni ? params.view.omni->width_px : kMaxTargetSide_px;
   const int height_px = params.view.omni ? params.view.omni->height_px : kMaxTargetSide_px;
   for (const TargetModel& target : targets) {
+    if (target.kind == TargetKind::kSolid) {
+      continue;
+    }
     if (Status ok = check_target(target, width_px, height_px); !ok) {
       return ok;
     }
@@ -124,6 +128,14 @@ Result<std::unique_ptr<Recogniser>> make_recogniser(const std::vector<TargetMode
     }
     parts.push_back(std::move(*features));
   }
+  if (parts.empty()) {
+    return fail(Errc::kInvalidArgument, "no target has a picture to look for");
+  }
+  return combine(std::move(parts));
+}
+
+std::unique_ptr<Recogniser> combine(std::vector<std::unique_ptr<Recogniser>> parts) {
+  SEEKER_ASSERT(!parts.empty());
   return std::make_unique<MultiRecogniser>(std::move(parts));
 }
 

@@ -13,7 +13,9 @@ Status validate_view(const ViewParams& p) {
       return omni;
     }
   }
-  return check_bounds(std::array<Bound, 3>{{{"view.photo_fov_rad", p.photo_fov_rad, 0.01, 3.1},
+  return check_bounds(std::array<Bound, 5>{{{"view.photo_fov_rad", p.photo_fov_rad, 0.01, 3.1},
+                                            {"view.photo_tilt_rad", p.photo_tilt_rad, -1.5, 1.5},
+                                            {"view.photo_height_m", p.photo_height_m, 0.0, 100.0},
                                             {"view.panorama_scale", p.panorama_scale, 0.1, 3.0},
                                             {"view.min_elevation_rad", p.min_elevation_rad, -1.4, 0.0}}});
 }

@@ -14,6 +14,8 @@ struct ViewParams {
   /// Set: pictures of this omnidirectional camera, searched in its cylindrical panorama. Unset: plain photographs.
   std::optional<OmniCameraParams> omni;
   double photo_fov_rad = deg_to_rad(62.8);  ///< horizontal field of view of plain photographs
+  double photo_tilt_rad = 0.0;              ///< of their camera, down from the horizon
+  double photo_height_m = 0.0;              ///< of their camera above the floor; 0: not known
   double panorama_scale = 1.0;              ///< columns of the panorama per pixel of the horizon circle
   double min_elevation_rad = -0.70;         ///< the panorama's lower edge
 

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/core/angle.hpp"
+#include "server/vision/photo_view.hpp"
 #include "server/vision/picture.hpp"
 
 namespace seeker::vision {
@@ -137,13 +138,13 @@ void SceneView::locate_in_panorama(const std::array<cv::Point2d, 4>& corners, do
 void SceneView::locate_in_photo(const std::array<cv::Point2d, 4>& corners, const cv::Size& working, double height_m,
                                 Sighting& sighting) const {
   const cv::Point2d centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-  const double focal_px = 0.5 * working.width / std::tan(0.5 * params_.photo_fov_rad);
+  const PhotoView view(params_, working.width, working.height);
   sighting.u_px = centre.x;
   sighting.v_px = centre.y;
-  sighting.bearing_base_rad = std::atan2(0.5 * (working.width - 1) - centre.x, focal_px);
+  sighting.bearing_base_rad = view.bearing_rad(centre.x, centre.y);
   const cv::Point2d up = 0.5 * (corners[0] + corners[1] - corners[2] - corners[3]);
   sighting.rotation_rad = std::atan2(-up.x, -up.y);
-  sighting.range_m = height_m * focal_px / std::max(1.0, cv::norm(up));
+  sighting.range_m = height_m * view.focal_px() / std::max(1.0, cv::norm(up));
   std::array<PixelPoint, 8> points;
   const std::array<cv::Point2d, 8> sides = outline(corners);
   std::transform(sides.begin(), sides.end(), points.begin(), to_pixel);

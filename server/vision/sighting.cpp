@@ -6,6 +6,7 @@ std::string_view to_string(TargetKind kind) {
   switch (kind) {
     case TargetKind::kTemplate: return "template";
     case TargetKind::kFeature: return "feature";
+    case TargetKind::kSolid: return "solid";
   }
   return "unknown";
 }

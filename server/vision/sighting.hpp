@@ -11,6 +11,7 @@
 
 #include "common/core/image.hpp"
 #include "common/core/result.hpp"
+#include "common/core/solid.hpp"
 
 namespace seeker::vision {
 
@@ -36,16 +37,18 @@ struct PixelSize {
 enum class TargetKind : std::uint8_t {
   kTemplate,  ///< dynamic template matching, spec S3.4: cheap, for pictures of strong contrast that face the robot
   kFeature,   ///< SIFT and a homography: dearer, for textured pictures, also oblique or partly hidden
+  kSolid,     ///< a solid by its shape, spec S6 (server/vision/solids)
 };
 [[nodiscard]] std::string_view to_string(TargetKind kind);
 
-/// A thing to look for. The picture shows the target upright and fills it from edge to edge.
+/// A thing to look for. The picture shows the target upright and fills it from edge to edge; a solid has none.
 struct TargetModel {
   std::string name;
   Image picture;          ///< grey or colour
   double width_m = 0.30;  ///< of the real thing
   double height_m = 0.30;
   TargetKind kind = TargetKind::kTemplate;
+  SolidKind solid = SolidKind::kSphere;  ///< of kind kSolid
 
   friend bool operator==(const TargetModel&, const TargetModel&) = default;
 };
@@ -64,7 +67,9 @@ struct Sighting {
   double bearing_base_rad = 0.0;
   std::optional<double> elevation_rad;  ///< of the centre above the camera's horizon; omnidirectional pictures only
   std::optional<double> range_m;        ///< hint from the apparent and the real size; about 15 %; never a measurement
-  PixelSize size;                       ///< as seen: across and up, in pixels of the original picture
+  /// Of the middle of what stands on the floor, by the camera's height and where the picture shows the floor before it.
+  std::optional<double> floor_range_m;
+  PixelSize size;  ///< as seen: across and up, in pixels of the original picture
 
   friend bool operator==(const Sighting&, const Sighting&) = default;
 };

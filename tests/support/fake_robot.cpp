@@ -163,7 +163,7 @@ class FakeRobot final : public api::RobotApi {
   }
   void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override {
     read<api::ImageFrame>("grab_image " + camera, reply, [&](const FakeRobotValues& v) -> Result<api::ImageFrame> {
-      const auto found = v.cameras.find(camera);
+      const auto found = camera.empty() ? v.cameras.begin() : v.cameras.find(camera);
       if (found == v.cameras.end()) {
         return fail(Errc::kNotFound, "no camera '" + camera + "'");
       }

@@ -15,9 +15,10 @@ namespace seeker::testing {
 
 class SimulatedRobot {
  public:
-  /// `overrides` as for seekerd --set; the robot file is config/robots/sim.yaml.
-  explicit SimulatedRobot(const std::vector<std::string>& overrides = {}) {
-    Result<app::RobotOptions> options = app::load_robot_options(source_file("config/robots/sim.yaml"), overrides);
+  /// `overrides` as for seekerd --set.
+  explicit SimulatedRobot(const std::vector<std::string>& overrides = {},
+                          const std::string& robot_file = "config/robots/sim.yaml") {
+    Result<app::RobotOptions> options = app::load_robot_options(source_file(robot_file), overrides);
     if (!options) {
       throw std::runtime_error(options.error().message);
     }

@@ -227,7 +227,7 @@ Result<CameraFrame> SimCamera::grab() {
   if (faults_->camera_dead) {
     return fail(Errc::kIo, "the simulated camera does not answer; check its cable");
   }
-  return CameraFrame{simulation_->now(), simulation_->omni_image()};
+  return CameraFrame{simulation_->now(), simulation_->camera_image()};
 }
 
 SimStereo::SimStereo(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults)

@@ -101,7 +101,7 @@ class SimSonar final : public SonarDriver {
   std::optional<RobotTime> last_sample_;
 };
 
-/// The omnidirectional camera.
+/// The camera that the model has.
 class SimCamera final : public CameraDriver {
  public:
   SimCamera(std::shared_ptr<sim::Simulation> simulation, std::shared_ptr<const SimFaults> faults);

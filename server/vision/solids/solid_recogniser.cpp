@@ -1,10 +1,10 @@
 #include "server/vision/solids/solid_recogniser.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "common/core/angle.hpp"
+#include "common/core/assert.hpp"
+#include "server/vision/photo_view.hpp"
 #include "server/vision/picture.hpp"
 
 namespace seeker::vision {
@@ -16,17 +16,30 @@ tl::unexpected<Error> no_picture() {
   return fail(Errc::kInvalidArgument, "recogniser of solids: the picture is empty");
 }
 
-}  // namespace
-
-std::string_view to_string(SolidClass solid) {
+/// How far behind the lower edge of what is seen its middle stands, as a share of the width that is seen: the mean over
+/// the views of spec S6.
+double share_behind(SolidClass solid) {
   switch (solid) {
-    case SolidClass::kSphere: return "sphere";
-    case SolidClass::kTriangularPrism: return "triangular-prism";
-    case SolidClass::kQuadrangularPrism: return "quadrangular-prism";
-    case SolidClass::kEllipsoid: return "ellipsoid";
+    case SolidClass::kSphere: return 0.18;
+    case SolidClass::kTriangularPrism: return 0.40;
+    case SolidClass::kQuadrangularPrism: return 0.50;
+    case SolidClass::kEllipsoid: return 0.14;
   }
-  return "?";
+  return 0.0;
 }
+
+void place_on_floor(const PhotoView& view, SolidClass solid, Sighting& sighting) {
+  const double low_px = sighting.box.top_px + sighting.box.height_px - 1.0;
+  sighting.bearing_base_rad = view.bearing_rad(sighting.u_px, sighting.v_px);
+  const std::optional<double> near_m = view.floor_range_m(sighting.u_px, low_px);
+  const std::optional<double> scale_m = view.floor_scale_m(sighting.u_px, low_px);
+  if (near_m && scale_m) {
+    sighting.floor_range_m = *near_m + share_behind(solid) * sighting.box.width_px * *scale_m;
+    sighting.range_m = sighting.floor_range_m;
+  }
+}
+
+}  // namespace
 
 Status validate(const SegmentParams& p) {
   const auto odd = [](int side) {
@@ -37,7 +50,8 @@ Status validate(const SegmentParams& p) {
                       p.stretch_high <= 1.0 && p.stretch_low < p.stretch_high;
   constexpr double kWidest_px = 1000.0;
   if (!shares || !odd(p.opening_px) || !odd(p.closing_px) || !(p.light_sigma_px >= 8.0) ||
-      !(p.light_sigma_px <= kWidest_px) || !(p.floor_sigmas >= 0.0) || !(p.face_share >= 0.0 && p.face_share <= 1.0)) {
+      !(p.light_sigma_px <= kWidest_px) || !(p.floor_sigmas >= 0.0) || !(p.contrast_sigmas >= 0.0) ||
+      !(p.face_share >= 0.0 && p.face_share <= 1.0)) {
     return refuse("a parameter of the segmentation is outside its range (opening_px and closing_px are odd)");
   }
   return {};
@@ -86,12 +100,13 @@ std::optional<ClassifiedSolid> classify_solid(const Image& picture, const SolidM
   return solid;
 }
 
-Result<std::unique_ptr<SolidRecogniser>> SolidRecogniser::make(const std::vector<SolidClass>& wanted,
-                                                               const SolidModel& model, const ViewParams& view) {
+Result<std::unique_ptr<SolidRecogniser>> SolidRecogniser::make(const WantedSolids& wanted, const SolidModel& model,
+                                                               const ViewParams& view) {
   if (const Status valid = validate(model); !valid) {
     return tl::unexpected<Error>(valid.error());
   }
-  if (wanted.empty() || view.omni) {
+  const bool any = std::any_of(wanted.begin(), wanted.end(), [](const auto& solid) { return solid.has_value(); });
+  if (!any || view.omni) {
     return fail(Errc::kInvalidArgument,
                 "recogniser of solids: name at least one solid, and a camera that is not omnidirectional");
   }
@@ -122,9 +137,7 @@ Result<RecognitionReport> SolidRecogniser::recognise(const Image& picture) const
   sighting.v_px = solid->box.top_px + (solid->box.height_px - 1) / 2.0;
   sighting.score = sighting.verify_score = probability;
   sighting.size = {static_cast<double>(solid->box.width_px), static_cast<double>(solid->box.height_px)};
-  const double half_px = picture.width_px() / 2.0;
-  const double focal_px = half_px / std::tan(view_.photo_fov_rad / 2.0);
-  sighting.bearing_base_rad = std::atan2(half_px - 0.5 - sighting.u_px, focal_px);
+  place_on_floor(PhotoView(view_, picture.width_px(), picture.height_px()), solid->solid, sighting);
   report.stages.accepted = 1;
   report.sightings.push_back(sighting);
   return report;

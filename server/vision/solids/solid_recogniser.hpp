@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "common/core/image.hpp"
+#include "common/core/solid.hpp"
 #include "server/vision/recogniser_params.hpp"
 #include "server/vision/sighting.hpp"
 #include "server/vision/solids/moment_features.hpp"
@@ -18,10 +18,8 @@
 
 namespace seeker::vision {
 
-/// In the order of the paper's Table 2.
-enum class SolidClass : std::uint8_t { kSphere, kTriangularPrism, kQuadrangularPrism, kEllipsoid };
-inline constexpr std::size_t kSolidClasses = 4;
-[[nodiscard]] std::string_view to_string(SolidClass solid);
+using SolidClass = SolidKind;
+inline constexpr std::size_t kSolidClasses = kSolidKinds.size();
 
 /// What training gives.
 struct SolidModel {
@@ -51,21 +49,24 @@ struct ClassifiedSolid {
 /// The most probable class, however improbable. Nothing where no solid is seen. `model` must be valid.
 [[nodiscard]] std::optional<ClassifiedSolid> classify_solid(const Image& picture, const SolidModel& model);
 
+/// Which solid each target is; nothing where a target is none.
+using WantedSolids = std::vector<std::optional<SolidClass>>;
+
 /// Sighting::target counts in `wanted`; score is the probability. There is one sighting at most.
 class SolidRecogniser final : public Recogniser {
  public:
   /// kInvalidArgument: nothing wanted, an invalid model, an omnidirectional view.
-  [[nodiscard]] static Result<std::unique_ptr<SolidRecogniser>> make(const std::vector<SolidClass>& wanted,
+  [[nodiscard]] static Result<std::unique_ptr<SolidRecogniser>> make(const WantedSolids& wanted,
                                                                      const SolidModel& model, const ViewParams& view);
 
   [[nodiscard]] Result<RecognitionReport> recognise(const Image& picture) const override;
   [[nodiscard]] Result<std::vector<StageImage>> explain(const Image& picture) const override;
 
  private:
-  SolidRecogniser(std::vector<SolidClass> wanted, SolidModel model, const ViewParams& view)
+  SolidRecogniser(WantedSolids wanted, SolidModel model, const ViewParams& view)
       : wanted_(std::move(wanted)), model_(std::move(model)), view_(view) {}
 
-  std::vector<SolidClass> wanted_;
+  WantedSolids wanted_;
   SolidModel model_;
   ViewParams view_;
 };

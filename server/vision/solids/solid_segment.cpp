@@ -62,8 +62,14 @@ cv::Mat above(const cv::Mat& smooth, double level, const SegmentParams& params) 
   return binary;
 }
 
-/// Otsu's threshold parts the bright faces from the rest. A lower one, from the floor around them, has the dim ones.
-double face_level(const cv::Mat& smooth, const cv::Mat& bright, const SegmentParams& params) {
+/// Grey values of the brightest faces and of the floor around them.
+struct Contrast {
+  double faces = 0.0;
+  double floor = 0.0;
+  double floor_sigma = 0.0;
+};
+
+Contrast contrast_of(const cv::Mat& smooth, const cv::Mat& bright) {
   constexpr int kAround_px = 41;
   cv::Mat floor;
   cv::dilate(bright, floor, kernel(kAround_px));
@@ -71,8 +77,12 @@ double face_level(const cv::Mat& smooth, const cv::Mat& bright, const SegmentPar
   cv::Scalar mean;
   cv::Scalar sigma;
   cv::meanStdDev(smooth, mean, sigma, floor);
-  const double faces = cv::mean(smooth, bright)[0];
-  return mean[0] + std::max(params.floor_sigmas * sigma[0], params.face_share * (faces - mean[0]));
+  return {cv::mean(smooth, bright)[0], mean[0], sigma[0]};
+}
+
+/// Otsu's threshold parts the bright faces from the rest. A lower one, from the floor around them, has the dim ones.
+double face_level(const Contrast& c, const SegmentParams& params) {
+  return c.floor + std::max(params.floor_sigmas * c.floor_sigma, params.face_share * (c.faces - c.floor));
 }
 
 void fill_hull(SolidRegion& region) {
@@ -108,8 +118,13 @@ std::optional<SolidRegion> segment_solid(const cv::Mat& grey, const SegmentParam
   if (bright.empty()) {
     return std::nullopt;
   }
+  // Of an empty floor, Otsu's threshold parts noise from noise.
+  const Contrast contrast = contrast_of(smooth, bright);
+  if (contrast.faces - contrast.floor < params.contrast_sigmas * contrast.floor_sigma) {
+    return std::nullopt;
+  }
   SolidRegion region;
-  const double low = face_level(smooth, bright, params);
+  const double low = face_level(contrast, params);
   region.mask = low < *level ? largest(above(smooth, low, params), params) : bright;
   if (region.mask.empty() || cv::countNonZero(region.mask & bright) == 0) {
     region.mask = bright;

@@ -15,9 +15,11 @@ struct SegmentParams {
   double stretch_high = 0.995;
   double floor_sigmas = 4.0;  ///< a face is brighter than the floor by so many of its sigmas ...
   double face_share = 0.22;   ///< ... and by this share of what the brightest faces are brighter
-  int opening_px = 7;         ///< odd
-  int closing_px = 9;         ///< odd
-  double min_area = 0.004;    ///< of the picture
+  double contrast_sigmas =
+      5.0;             ///< the brightest faces stand out from the floor by so many of its sigmas, or there is nothing
+  int opening_px = 7;  ///< odd
+  int closing_px = 9;  ///< odd
+  double min_area = 0.004;  ///< of the picture
   double max_area = 0.5;
 
   friend bool operator==(const SegmentParams&, const SegmentParams&) = default;
@@ -30,7 +32,8 @@ struct SolidRegion {
   cv::Rect box;
 };
 
-/// Nothing where no region is of a solid's size or all touch the border. `grey` is CV_8UC1 and not empty.
+/// Nothing where no region is of a solid's size, all touch the border, or the floor is empty. `grey` is CV_8UC1 and not
+/// empty.
 [[nodiscard]] std::optional<SolidRegion> segment_solid(const cv::Mat& grey, const SegmentParams& params);
 
 }  // namespace seeker::vision

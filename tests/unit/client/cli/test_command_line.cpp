@@ -26,13 +26,14 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
     }
   };
   visit(tree, {});
-  EXPECT_EQ(names, (std::vector<std::string>{
-                       "status", "watch",      "map",      "export",  "save",       "load",   "list",       "info",
-                       "verify", "delete",     "download", "upload",  "relocalise", "grid",   "detections", "camera",
-                       "grab",   "components", "search",   "explore", "goto",       "survey", "localise",   "landmarks",
-                       "info",   "verify",     "export",   "prune",   "revert",     "delete", "fleet",      "status",
-                       "merge",  "split",      "map",      "drive",   "stop",       "estop",  "pause",      "resume",
-                       "run",    "completion", "version"}));
+  EXPECT_EQ(
+      names,
+      (std::vector<std::string>{
+          "status", "watch",     "map",     "export",     "save",   "load",       "list",       "info",   "verify",
+          "delete", "download",  "upload",  "relocalise", "grid",   "detections", "camera",     "grab",   "components",
+          "search", "recognise", "explore", "goto",       "survey", "localise",   "landmarks",  "info",   "verify",
+          "export", "prune",     "revert",  "delete",     "fleet",  "status",     "merge",      "split",  "map",
+          "drive",  "stop",      "estop",   "pause",      "resume", "run",        "completion", "version"}));
 }
 
 TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
@@ -42,6 +43,9 @@ TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
       {"status", "--no-such-option"},
       {"search"},
       {"search", "--target", "a", "--mode", "fast"},
+      {"search", "--solid", "cube"},
+      {"recognise"},
+      {"recognise", "--solid", "sphere", "--headings", "73"},
       {"search", "--target", "a", "--time-limit", "-3"},
       {"search", "--target", "a", "--detach", "--save", "x"},
       {"explore", "--strategy", "by-chance"},

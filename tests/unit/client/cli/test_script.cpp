@@ -33,10 +33,16 @@ TEST(Script, StepsKeepTheirValues) {
       "return_to_start: true}\n"
       "  - search: {targets: [ring], explore: true}\n"
       "  - survey: {landmarks: lab, places: [[1, 2]], headings: 6, replace: true}\n"
-      "  - localise: {landmarks: lab, time_limit: 60s}\n",
+      "  - localise: {landmarks: lab, time_limit: 60s}\n"
+      "  - recognise: {targets: [ring], solids: [sphere], headings: 4}\n",
       "m.yaml");
   ASSERT_TRUE(script) << script.error().message;
-  ASSERT_EQ(script->steps.size(), 12U);
+  ASSERT_EQ(script->steps.size(), 13U);
+  const auto& recognise = std::get<RecogniseStep>(script->steps[12].action);
+  EXPECT_EQ(recognise.targets, std::vector<std::string>{"ring"});
+  EXPECT_EQ(recognise.solids, std::vector<std::string>{"sphere"});
+  EXPECT_EQ(recognise.headings, 4);
+  EXPECT_TRUE(is_mission(script->steps[12].action));
   const auto& survey = std::get<SurveyStep>(script->steps[10].action);
   EXPECT_EQ(survey.landmarks, "lab");
   EXPECT_EQ(survey.places, std::vector<Point2>{Point2(1.0, 2.0)});
@@ -59,6 +65,8 @@ TEST(Script, StepsKeepTheirValues) {
 
 TEST(Script, ErrorsNameFileLineAndPath) {
   EXPECT_NE(error_of("steps:\n  - search: {targts: [ring]}\n").find("m.yaml:2: steps[0].search"), std::string::npos);
+  EXPECT_NE(error_of("steps:\n  - recognise: {solids: [cube]}\n").find("'cube' is none of"), std::string::npos);
+  EXPECT_NE(error_of("steps:\n  - search: {mode: plan}\n").find("1 to 16 targets"), std::string::npos);
   EXPECT_NE(error_of("steps:\n  - wait: soon\n").find("m.yaml:2: steps[0].wait: 'soon' is no duration"),
             std::string::npos);
   EXPECT_NE(
@@ -77,7 +85,8 @@ TEST(Script, MissionsAreMadeOfTheirSteps) {
   const auto script = parse_script(
       "steps:\n"
       "  - explore: {strategy: horizon, return_to_start: true, time_limit: 60s}\n"
-      "  - search: {targets: [ring], explore: true}\n",
+      "  - search: {targets: [ring], explore: true}\n"
+      "  - recognise: {targets: [sphere], solids: [ellipsoid]}\n",
       "m.yaml");
   ASSERT_TRUE(script) << script.error().message;
   const auto request = [&](std::size_t step) {
@@ -86,6 +95,8 @@ TEST(Script, MissionsAreMadeOfTheirSteps) {
   EXPECT_EQ(request(0).task, api::MissionTask(api::ExploreMission{api::ExploreStrategy::kHorizon, {}, {}, true}));
   EXPECT_EQ(*request(0).time_limit, seconds(60));
   EXPECT_TRUE(std::get<api::SearchMission>(request(1).task).explore);
+  EXPECT_EQ(request(2).task, api::MissionTask(api::RecogniseMission{
+                                 {api::solid_target(SolidKind::kSphere), api::solid_target(SolidKind::kEllipsoid)}}));
 }
 
 TEST(Script, ShippedMissionsAreSound) {

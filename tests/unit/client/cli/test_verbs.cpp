@@ -160,6 +160,42 @@ TEST_F(Verbs, ExploreSendsWhatTheUserAskedFor) {
   EXPECT_TRUE(std::get<api::SearchMission>(missions[2].task).explore);
 }
 
+TEST_F(Verbs, RecogniseAndSearchSendSolidsBesidePictures) {
+  write("ball.yaml", "name: ball\nrecogniser: solid\nsolid: sphere\n");
+  write("flat.yaml", "recogniser: solid\nsolid: sphere\npicture: board.png\n");
+  EXPECT_EQ(run({"recognise", "-t", path("board.png"), "--solid", "ellipsoid", "--headings", "12", "--detach"}).code,
+            0);
+  host->edit([](testing::FakeRobotValues& v) { v.mission.reset(); });
+  EXPECT_EQ(run({"search", "-t", "ball", "--targets", folder_.string(), "--solid", "triangular-prism", "--width", "0.3",
+                 "--detach"})
+                .code,
+            0);
+  const Ran flat = run({"recognise", "-t", path("flat.yaml")});
+  EXPECT_EQ(flat.code, 2);
+  EXPECT_NE(flat.err.find("a solid has no picture"), std::string::npos) << flat.err;
+  const auto missions = host->values().missions;
+  ASSERT_EQ(missions.size(), 2U);
+  const auto& recognise = std::get<api::RecogniseMission>(missions[0].task);
+  EXPECT_EQ(recognise.headings, 12);
+  ASSERT_EQ(recognise.targets.size(), 2U);
+  EXPECT_EQ(recognise.targets[0].name, "board");
+  EXPECT_EQ(recognise.targets[1], api::solid_target(SolidKind::kEllipsoid));
+  const auto& search = std::get<api::SearchMission>(missions[1].task);
+  ASSERT_EQ(search.targets.size(), 2U);
+  EXPECT_EQ(search.targets[0].name, "ball");
+  EXPECT_EQ(search.targets[0].solid, SolidKind::kSphere);
+  EXPECT_DOUBLE_EQ(search.targets[0].depth_m, api::kSolidSize_m);
+  EXPECT_EQ(search.targets[1].name, "triangular-prism");
+  EXPECT_DOUBLE_EQ(search.targets[1].width_m, 0.3);
+}
+
+TEST_F(Verbs, RecogniseThatSawNothingHasDoneItsWork) {
+  const Ran ran = run({"recognise", "--solid", "sphere", "--json"}, [&] { end_mission(api::Outcome::kComplete); });
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(is_json(ran.out)) << ran.out;
+  EXPECT_NE(ran.out.find("\"detections\":"), std::string::npos);
+}
+
 TEST_F(Verbs, SurveyAndLocaliseSendWhatTheUserAskedFor) {
   EXPECT_EQ(run({"survey", "lab", "--at", "1,0", "--at", "4,2.5", "--headings", "8", "--replace", "--keep-out",
                  "1,1 2,1 2,2", "--detach"})

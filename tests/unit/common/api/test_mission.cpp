@@ -48,6 +48,38 @@ TEST(MissionRequest, OrdinaryMissionsAreAccepted) {
   EXPECT_TRUE(validate({"back", ReturnMission{}, LinkPolicy::kReturn, std::chrono::seconds(5)}));
 }
 
+TEST(MissionRequest, ASolidNeedsNoPictureAndAPictureTargetDoes) {
+  for (const SolidKind solid : kSolidKinds) {
+    const TargetSpec spec = solid_target(solid);
+    EXPECT_EQ(spec.name, to_string(solid));
+    EXPECT_EQ(solid_named(spec.name), solid);
+    EXPECT_TRUE(validate(search_for(spec))) << spec.name;
+  }
+  EXPECT_FALSE(solid_named("cube"));
+  TargetSpec both = target();
+  both.recogniser = RecogniserKind::kSolid;
+  EXPECT_EQ(validate(search_for(both)).error().code, Errc::kInvalidArgument);
+  TargetSpec neither = solid_target(SolidKind::kSphere);
+  neither.recogniser = RecogniserKind::kTemplate;
+  EXPECT_EQ(validate(search_for(neither)).error().code, Errc::kInvalidArgument);
+  TargetSpec unknown = solid_target(SolidKind::kSphere);
+  unknown.solid = static_cast<SolidKind>(9);
+  EXPECT_EQ(validate(search_for(unknown)).error().code, Errc::kInvalidArgument);
+}
+
+TEST(MissionRequest, RecogniseNeedsTargetsAndHeadings) {
+  const auto check = [](std::vector<TargetSpec> targets, int headings) {
+    return validate({"m-1", RecogniseMission{std::move(targets), headings}, LinkPolicy::kStop, std::nullopt});
+  };
+  EXPECT_TRUE(check({target(), solid_target(SolidKind::kEllipsoid)}, 1));
+  EXPECT_TRUE(check({target()}, kMaxHeadings));
+  EXPECT_THAT(check({}, 1).error().message, HasSubstr("recognise needs 1 to 16 targets"));
+  EXPECT_EQ(check({target(), target()}, 1).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(check({target()}, 0).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(check({target()}, kMaxHeadings + 1).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(task_name(RecogniseMission{}), "recognise");
+}
+
 TEST(MissionRequest, IdOutsideItsAlphabetIsRefused) {
   for (const char* id : {"", "Upper", "with space", "../up", "semi;colon"}) {
     MissionRequest request = go_to({0, 0});

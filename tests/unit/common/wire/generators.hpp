@@ -56,6 +56,7 @@ class ValueMaker {
   api::CoverageSummary coverage();
   api::GridReport grid();
   ExploreDecision decision();
+  std::vector<api::TargetSpec> targets();
   api::MissionRequest mission();
   api::MissionStatus mission_status();
   PoseEstimate estimate();

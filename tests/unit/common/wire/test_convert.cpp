@@ -137,6 +137,14 @@ TEST(Convert, RefusalsNameTheField) {
   survey.set_id("m");
   survey.mutable_survey()->set_headings(1U << 31U);
   expect_refused<api::MissionRequest>(survey, "survey.headings", Errc::kInvalidArgument);
+  pb::MissionRequest recognise;
+  recognise.set_id("m");
+  recognise.mutable_recognise()->set_headings(1);
+  pb::Target& target = *recognise.mutable_recognise()->add_targets();
+  target.set_recogniser(pb::RECOGNISER_SOLID);
+  expect_refused<api::MissionRequest>(recognise, "recognise.targets[0].solid", Errc::kInvalidArgument);
+  target.set_recogniser(pb::RECOGNISER_TEMPLATE);
+  expect_refused<api::MissionRequest>(recognise, "recognise.targets[0].picture", Errc::kInvalidArgument);
   auto landmark = to_message<pb::Landmark>(make.landmark());
   landmark.set_z_m(std::nan(""));
   expect_refused<api::LandmarkPoint>(landmark, "z_m", Errc::kInvalidArgument);

@@ -61,7 +61,7 @@ api::Detection ValueMaker::detection() {
   }
   const double xy = number();
   d.position_covariance << number(), xy, xy, number();
-  d.range_source = one_of(api::RangeSource::kTriangulation);
+  d.range_source = one_of(api::RangeSource::kFloor);
   d.sightings = count(50);
   d.map_epoch = static_cast<std::uint32_t>(count(9));
   return d;
@@ -97,6 +97,20 @@ ExploreDecision ValueMaker::decision() {
   return d;
 }
 
+std::vector<api::TargetSpec> ValueMaker::targets() {
+  std::vector<api::TargetSpec> out;
+  for (int k = count(3); k > 0; --k) {
+    api::TargetSpec target{text(), {}, number(), number(), number(), one_of(api::RecogniserKind::kSolid)};
+    if (target.recogniser == api::RecogniserKind::kSolid) {
+      target.solid = one_of(kSolidKinds.back());
+    } else {
+      target.picture = image();
+    }
+    out.push_back(std::move(target));
+  }
+  return out;
+}
+
 api::MissionRequest ValueMaker::mission() {
   api::MissionRequest m;
   m.id = "m-" + std::to_string(count(99));
@@ -104,13 +118,10 @@ api::MissionRequest ValueMaker::mission() {
   if (flag()) {
     m.time_limit = Duration(count(1'000'000));
   }
-  switch (count(5)) {
+  switch (count(6)) {
     case 0: {
       api::SearchMission search;
-      for (int k = count(3); k > 0; --k) {
-        search.targets.push_back(
-            {text(), image(), number(), number(), number(), one_of(api::RecogniserKind::kFeatures)});
-      }
+      search.targets = targets();
       search.mode = one_of(api::SearchMode::kPlan);
       search.on_found = one_of(api::OnFound::kContinue);
       if (flag()) {
@@ -140,6 +151,7 @@ api::MissionRequest ValueMaker::mission() {
     }
     case 3: m.task = api::SurveyMission{text(), points(), count(99), flag(), {points()}}; break;
     case 4: m.task = api::LocaliseMission{text(), count(99)}; break;
+    case 5: m.task = api::RecogniseMission{targets(), count(99)}; break;
     default: m.task = api::ReturnMission{};
   }
   return m;

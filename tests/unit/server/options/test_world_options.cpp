@@ -42,14 +42,14 @@ TEST_P(ShippedWorld, LoadsAndHasRoomForTheRobotAtEveryStart) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedWorld,
                          ::testing::Values("arena-20", "paper-a", "paper-b", "no-target", "office", "office-no-target",
                                            "demo", "corridor", "hospital", "hall", "closet", "closet-gap", "open-door",
-                                           "laboratory", "laboratory-moved"));
+                                           "laboratory", "laboratory-moved", "tank", "tank-no-sphere"));
 
 TEST(ShippedWorlds, AreAllInTheTestAbove) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/worlds"))) {
     files += entry.path().extension() == ".yaml" ? 1 : 0;
   }
-  EXPECT_EQ(files, 15U);
+  EXPECT_EQ(files, 17U);
 }
 
 TEST(ShippedWorlds, AreAsLargeAsTheyShouldBe) {
@@ -171,6 +171,21 @@ TEST(WorldFile, OverridesReachIntoTheWorld) {
   EXPECT_EQ(world->lighting.gain, 0.5);
 }
 
+TEST(WorldFile, ATankHasSolidsAndWaterAndAWorldOnItsBaseMayHaveOthers) {
+  const auto tank = load_world(testing::source_file("config/worlds/tank.yaml"));
+  ASSERT_TRUE(tank) << tank.error().message;
+  EXPECT_EQ(tank->solids.size(), 4U);
+  EXPECT_DOUBLE_EQ(tank->water.attenuation_per_m, 0.5);
+  const auto without = load_world(testing::source_file("config/worlds/tank-no-sphere.yaml"));
+  ASSERT_TRUE(without) << without.error().message;
+  EXPECT_EQ(without->solids.size(), 3U);
+  EXPECT_DOUBLE_EQ(without->water.attenuation_per_m, 0.5);
+  const std::string start = "name: x\nstarts: [{pose: [1, 1, 0]}]\n";
+  EXPECT_NE(error_of(start + "solids: [{shape: cube, pose: [2, 2, 0]}]\n").find("shape"), std::string::npos);
+  EXPECT_NE(error_of(start + "solids: [{shape: sphere, pose: [4.99, 2, 0]}]\n").find("solid 0"), std::string::npos);
+  EXPECT_NE(error_of(start + "water: {noise: -1}\n").find("water"), std::string::npos);
+}
+
 TEST(TargetFile, ShippedTargetsLoadAndTheirPicturesHaveTheirShape) {
   for (const char* name : {"cross", "ring", "arrow"}) {
     const auto target = load_target(testing::source_file(std::string("config/targets/") + name + ".yaml"));
@@ -182,6 +197,9 @@ TEST(TargetFile, ShippedTargetsLoadAndTheirPicturesHaveTheirShape) {
     EXPECT_LT(*target->picture.at(0, 0), 40);  // a dark border all around
   }
   EXPECT_EQ(load_target("nowhere.yaml").error().code, Errc::kNotFound);
+  const auto solid = load_target(testing::source_file("config/targets/sphere.yaml"));
+  ASSERT_FALSE(solid);
+  EXPECT_NE(solid.error().message.find("places it under `solids`"), std::string::npos) << solid.error().message;
 }
 
 }  // namespace

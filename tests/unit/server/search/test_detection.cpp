@@ -168,6 +168,29 @@ TEST(Triangulation, ErrorIsWhatItsCovarianceSays) {
   EXPECT_LT(nees, 2.0 * 1.15);
 }
 
+TEST(DetectionTracker, RangeByTheFloorStandsInForALidarThatSeesAnotherThing) {
+  DetectionParams params;
+  params.size_range_factor = 0.3;
+  vision::Sighting sighting = sighting_at(0.2);
+  sighting.floor_range_m = sighting.range_m = 1.2;
+  for (const double laser_m : {1.1, 3.0}) {
+    DetectionTracker tracker({{"thing", 0.2, 0.2, 0.2}}, params);
+    const LaserScan laser = scan_with(0.2, laser_m, 7.0);
+    Look look;
+    look.sightings = {sighting};
+    look.laser = &laser;
+    (void)tracker.add(look);
+    const Detection seen = tracker.detections().at(0);
+    ASSERT_TRUE(seen.position_map);
+    EXPECT_EQ(seen.range_source, laser_m < 2.0 ? RangeSource::kLidar : RangeSource::kFloor);
+    EXPECT_NEAR(seen.position_map->norm(), 1.2, 0.02) << "to its middle";
+    const double along =
+        Point2(std::cos(0.2), std::sin(0.2)).dot(seen.position_covariance * Point2(std::cos(0.2), std::sin(0.2)));
+    EXPECT_NEAR(std::sqrt(along),
+                laser_m < 2.0 ? std::hypot(params.lidar_sigma_m, params.depth_sigma_m) : params.floor_sigma_m, 0.01);
+  }
+}
+
 // A drifted pose, common to all sightings of one target, three looks with a lidar: NEES of the fused position.
 TEST(DetectionTracker, PositionErrorIsWhatItsCovarianceSays) {
   Rng rng(82);

@@ -65,6 +65,21 @@ TEST(SearchMission, PlanCoversTwoRoomsWithoutTarget) {
   EXPECT_EQ(report.summary.gaps, static_cast<int>(report.gaps.size()));
 }
 
+TEST(SearchMission, SeveralPicturesOfOnePlaceAreOneLook) {
+  ToyRun runs[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    SearchMission mission = mission_of(Strategy::kPlan);
+    ToyRobot robot(one_room(), {1.0, 1.0, 0.3}, true, 3);
+    robot.pictures_at_once = k == 0 ? 1 : 12;
+    runs[k] = robot.run(mission, 600.0);
+  }
+  ASSERT_TRUE(runs[0].end && runs[1].end);
+  EXPECT_EQ(runs[0].end->kind, EndKind::kNotFoundAreaCovered);
+  EXPECT_EQ(runs[0].end, runs[1].end);
+  EXPECT_EQ(runs[0].images, runs[1].images);
+  EXPECT_EQ(runs[0].summary, runs[1].summary);
+}
+
 TEST(SearchMission, SearchThatMapsTooVisitsEachViewOnceAndEnds) {
   auto mission = mission_of(Strategy::kPlan);
   ToyRobot robot(one_room(), {1.0, 1.0, 0.3}, true, 5);

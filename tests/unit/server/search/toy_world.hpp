@@ -64,7 +64,8 @@ class ToyRobot : public seeker::testing::ToyBase {
     return {sighting};
   }
 
-  MapViews map_views;  ///< handed to the mission
+  MapViews map_views;                ///< handed to the mission
+  std::size_t pictures_at_once = 1;  ///< that answer for one
 
   ToyRun run(SearchMission& mission, double limit_s, const std::optional<Polygon>& bound = {}) {
     ToyRun out;
@@ -89,7 +90,12 @@ class ToyRobot : public seeker::testing::ToyBase {
       }
       if (step.wants_image) {
         ++out.images;
-        mission.on_sightings(now, pose_, recognise(), laser_or_none, &sonar_scan);
+        if (pictures_at_once == 1) {
+          mission.on_sightings(now, pose_, recognise(), laser_or_none, &sonar_scan);
+        } else {
+          mission.on_looks(std::vector<Look>(pictures_at_once,
+                                             {now, pose_, Matrix3::Zero(), recognise(), laser_or_none, &sonar_scan}));
+        }
       }
       drive(step.command);
       out.least_clearance_m = std::min(out.least_clearance_m, world_.clearance(pose_.translation()));

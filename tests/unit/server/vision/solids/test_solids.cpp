@@ -6,7 +6,11 @@
 
 #include "common/core/angle.hpp"
 #include "server/options/solids_options.hpp"
+#include "server/sim/tank_renderer.hpp"
 #include "server/sim/turbid_water.hpp"
+#include "server/vision/photo_view.hpp"
+#include "server/vision/solids/target_recogniser.hpp"
+#include "tests/support/data.hpp"
 
 namespace seeker::vision {
 namespace {
@@ -150,18 +154,18 @@ TEST(TurbidWater, TakesContrastWithTheWay) {
 /// A model from few pictures: enough for the four solids seen plainly.
 SolidModel quick_model() {
   std::vector<TrainingSample> samples;
-  for (int shape = 0; shape < sim::kSolidShapes; ++shape) {
+  for (const SolidKind shape : kSolidKinds) {
     for (std::uint64_t i = 0; i < 7; ++i) {
       Rng rng(1000U * static_cast<std::uint64_t>(shape) + i);
-      const sim::SolidView view = sim::draw_view(static_cast<sim::SolidShape>(shape), rng);
+      const sim::SolidView view = sim::draw_view(shape, rng);
       if (const auto sight = look_at_solid(sim::render_solid(view, {}, rng), {})) {
-        samples.push_back({{sight->features.begin(), sight->features.end()}, shape});
+        samples.push_back({{sight->features.begin(), sight->features.end()}, static_cast<int>(shape)});
       }
     }
   }
   Rng rng(1);
   SolidModel model;
-  model.network = train_network(samples, sim::kSolidShapes, {.epochs = 400}, rng)->network;
+  model.network = train_network(samples, static_cast<int>(kSolidClasses), {.epochs = 400}, rng)->network;
   return model;
 }
 
@@ -187,6 +191,101 @@ TEST(SolidRecogniser, FindsWhatIsWantedAndKeepsSilentAboutTheRest) {
   EXPECT_EQ((*prisms)->explain(picture)->size(), 3U);
   EXPECT_FALSE(SolidRecogniser::make({}, model, {}));
   EXPECT_FALSE(SolidRecogniser::make({SolidClass::kSphere}, SolidModel{}, {}));
+}
+
+/// What the camera of config/robots/tank.yaml is told about itself.
+RecogniserParams tank_view() {
+  RecogniserParams params;
+  params.view.photo_fov_rad = deg_to_rad(49.13);
+  params.view.photo_tilt_rad = deg_to_rad(40.0);
+  params.view.photo_height_m = 0.8;
+  return params;
+}
+
+/// A sphere of 0.1 m radius at (range, bearing) from the camera, as that camera sees it.
+Image sphere_in_tank(double range_m, double bearing_rad) {
+  sim::TankEye eye;
+  eye.position = {0.0, 0.0, 0.8};
+  eye.tilt_rad = deg_to_rad(40.0);
+  const Pose2 place{range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad), 0.0};
+  Rng rng(5);
+  return sim::render_tank({{SolidKind::kSphere, place, 0.1, 1.0, 0.75}}, eye, {}, {}, rng);
+}
+
+TEST(SolidRecogniser, TellsWhereTheSolidStandsByTheCamerasHeightAndTilt) {
+  const SolidModel model = quick_model();
+  const WantedSolids all{kSolidKinds.begin(), kSolidKinds.end()};
+  const auto recogniser = SolidRecogniser::make(all, model, tank_view().view);
+  ASSERT_TRUE(recogniser);
+  for (const double range_m : {0.7, 0.95, 1.2}) {
+    for (const double bearing_deg : {-12.0, 0.0, 12.0}) {
+      const auto report = (*recogniser)->recognise(sphere_in_tank(range_m, deg_to_rad(bearing_deg)));
+      ASSERT_TRUE(report);
+      ASSERT_EQ(report->sightings.size(), 1U) << range_m << " " << bearing_deg;
+      const Sighting& sighting = report->sightings[0];
+      EXPECT_NEAR(rad_to_deg(sighting.bearing_base_rad), bearing_deg, 1.0) << range_m;
+      ASSERT_TRUE(sighting.floor_range_m);
+      EXPECT_NEAR(*sighting.floor_range_m, range_m, 0.08) << bearing_deg;
+    }
+  }
+}
+
+TEST(PhotoView, OfALevelCameraNeverSeesTheFloorAtTheHorizon) {
+  ViewParams params = tank_view().view;
+  params.photo_tilt_rad = 0.0;
+  const PhotoView level(params, 640, 480);
+  EXPECT_FALSE(level.floor_range_m(319.5, 239.5));
+  ASSERT_TRUE(level.floor_range_m(319.5, 439.5));
+  EXPECT_NEAR(*level.floor_range_m(319.5, 439.5), 0.8 * level.focal_px() / 200.0, 1e-9);
+  params.photo_height_m = 0.0;
+  EXPECT_FALSE(PhotoView(params, 640, 480).floor_range_m(319.5, 439.5)) << "its height is not known";
+}
+
+TEST(TargetRecogniser, FindsPicturesAndSolidsOfOneListAndCountsInIt) {
+  TargetModel board;
+  board.name = "board";
+  board.picture = Image(32, 32, 1);
+  for (int v = 0; v < 32; ++v) {
+    for (int u = 0; u < 32; ++u) {
+      *board.picture.at(u, v) = static_cast<std::uint8_t>((u / 4 + v / 4) % 2 == 0 ? 20 : 230);
+    }
+  }
+  TargetModel sphere;
+  sphere.kind = TargetKind::kSolid;
+  const SolidModel model = quick_model();
+  const auto both = make_target_recogniser({board, sphere}, tank_view(), &model);
+  ASSERT_TRUE(both) << both.error().message;
+  const auto report = (*both)->recognise(sphere_in_tank(0.95, 0.0));
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->sightings.size(), 1U);
+  EXPECT_EQ(report->sightings[0].target, 1);
+  EXPECT_FALSE(make_target_recogniser({}, tank_view(), &model));
+}
+
+TEST(TargetRecogniser, RefusesSolidsWithTheRemedyWhereTheRobotCannotTellThem) {
+  TargetModel sphere;
+  sphere.kind = TargetKind::kSolid;
+  const auto no_model = make_target_recogniser({sphere}, tank_view(), nullptr);
+  ASSERT_FALSE(no_model);
+  EXPECT_EQ(no_model.error().code, Errc::kRefused);
+  EXPECT_NE(no_model.error().message.find("train-solids"), std::string::npos) << no_model.error().message;
+  RecogniserParams mirror;
+  mirror.view.omni.emplace();
+  const SolidModel model = quick_model();
+  const auto omni = make_target_recogniser({sphere}, mirror, &model);
+  ASSERT_FALSE(omni);
+  EXPECT_EQ(omni.error().code, Errc::kRefused);
+  EXPECT_NE(omni.error().message.find("omnidirectional"), std::string::npos);
+}
+
+TEST(SolidModelFile, EveryShippedOneIsSound) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/solids"))) {
+    const auto model = options::load_solid_model(entry.path());
+    EXPECT_TRUE(model) << model.error().message;
+    ++count;
+  }
+  EXPECT_GE(count, 1);
 }
 
 TEST(SolidModelFile, ComesBackAndRefusesOthers) {
