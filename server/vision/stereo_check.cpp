@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace seeker::vision {
 namespace {
@@ -12,10 +13,12 @@ constexpr std::uint8_t kDark = 16;  // grey levels: the sensor's floor and its n
 constexpr std::uint8_t kBright = 250;
 constexpr double kMaxDarkShare = 0.98;
 constexpr double kMaxBrightShare = 0.5;
-constexpr double kMinContrast = 10.0;  // squared grey levels; a bare wall with noise of 2 has below 5
-constexpr double kMinSharpness = 0.085;
+constexpr double kMinTileContrast = 20.0;  // squared grey levels; a bare wall with noise of 2 has below 5
+constexpr std::size_t kMinTiles = 20;      // with contrast: fewer say nothing about the lens
+constexpr double kSharpestShare = 0.1;
+constexpr double kMinSharpness = 0.11;
 constexpr double kMinSharpnessToOther = 0.5;
-constexpr double kSurelySharp = 0.2;
+constexpr double kSurelySharp = 0.17;
 constexpr int kTile_px = 16;  // the coarsest cell; every third tile of every second row of tiles is looked at
 constexpr int kLevels = 5;    // cells of 1, 2, 4, 8, 16 px
 
@@ -25,8 +28,9 @@ constexpr double kSwappedShare = 0.75;
 
 using Energies = std::array<double, kLevels>;
 
-/// Adds the sums of squared means of the tile's cells, coarser cells made of finer ones.
-void add_tile(const Image& grey, int left, int top, Energies& energies) {
+/// Mean of the squared means of the tile's cells, coarser cells made of finer ones.
+Energies energies_of(const Image& grey, int left, int top) {
+  Energies energies{};
   std::array<double, kTile_px * kTile_px> mean{};
   for (int v = 0; v < kTile_px; ++v) {
     for (int u = 0; u < kTile_px; ++u) {
@@ -40,7 +44,7 @@ void add_tile(const Image& grey, int left, int top, Energies& energies) {
     for (std::size_t i = 0; i < cells; ++i) {
       squares += mean[i] * mean[i];
     }
-    energies[level] += squares / static_cast<double>(cells);
+    energies[level] = squares / static_cast<double>(cells);
     const int half = side / 2;
     for (int v = 0; v < half; ++v) {
       for (int u = 0; u < half; ++u) {
@@ -52,6 +56,27 @@ void add_tile(const Image& grey, int left, int top, Energies& energies) {
     }
     side = half;
   }
+  return energies;
+}
+
+/// Structures of 2 to 4 px, less the noise's share, in those of 2 to 16 px; nothing where there is hardly any. An edge
+/// that lies between two cells is all in the coarse ones, however sharp: one tile alone says little.
+std::optional<double> fine_share(const Energies& energies) {
+  // What cells of one size say more than those of twice the size. White noise falls to a quarter from level to level.
+  const auto detail = [&](std::size_t level) { return energies[level] - energies[level + 1]; };
+  const double fine = std::max(0.0, detail(1) - 0.25 * detail(0));
+  const double all = fine + detail(2) + detail(3);
+  return all < kMinTileContrast ? std::nullopt : std::optional(fine / all);
+}
+
+/// What only the sharpest of the tiles exceed; nothing where too few were judged.
+std::optional<double> sharpness_of(std::vector<double>& shares) {
+  if (shares.size() < kMinTiles) {
+    return std::nullopt;
+  }
+  const auto rank = static_cast<std::ptrdiff_t>((1.0 - kSharpestShare) * static_cast<double>(shares.size()));
+  std::nth_element(shares.begin(), shares.begin() + rank, shares.end());
+  return shares[static_cast<std::size_t>(rank)];
 }
 
 std::string remedy(PictureFault fault) {
@@ -79,12 +104,14 @@ Status check_size(const Image& picture, const StereoGeometry& geometry, const ch
 }  // namespace
 
 PictureQuality measure_quality(const Image& grey) {
-  Energies energies{};
+  std::vector<double> fine_shares;
   int tiles = 0;
   std::array<int, 256> histogram{};
   for (int top = 0; top + kTile_px <= grey.height_px(); top += 2 * kTile_px) {
     for (int left = 0; left + kTile_px <= grey.width_px(); left += 3 * kTile_px) {
-      add_tile(grey, left, top, energies);
+      if (const auto share = fine_share(energies_of(grey, left, top))) {
+        fine_shares.push_back(*share);
+      }
       ++tiles;
       for (int v = top; v < top + kTile_px; ++v) {
         for (int u = left; u < left + kTile_px; ++u) {
@@ -107,12 +134,7 @@ PictureQuality measure_quality(const Image& grey) {
   };
   quality.dark_share = share(0, kDark);
   quality.bright_share = share(kBright, 255);
-  // What cells of one size say more than those of twice the size. White noise falls to a quarter from level to level.
-  const auto detail = [&](std::size_t level) { return (energies[level] - energies[level + 1]) / tiles; };
-  quality.contrast = detail(3);
-  if (quality.contrast > 0.0) {
-    quality.sharpness = std::max(0.0, detail(1) - 0.25 * detail(0)) / quality.contrast;
-  }
+  quality.sharpness = sharpness_of(fine_shares);
   return quality;
 }
 
@@ -123,12 +145,12 @@ PictureFault fault_of(const PictureQuality& picture, const PictureQuality& other
   if (picture.bright_share > kMaxBrightShare) {
     return PictureFault::kSaturated;
   }
-  if (picture.contrast < kMinContrast) {
+  if (!picture.sharpness) {
     return PictureFault::kNone;
   }
-  const bool against_other = picture.sharpness < kSurelySharp && other_eye.contrast >= kMinContrast &&
-                             picture.sharpness < kMinSharpnessToOther * other_eye.sharpness;
-  return picture.sharpness < kMinSharpness || against_other ? PictureFault::kBlurred : PictureFault::kNone;
+  const bool against_other = *picture.sharpness < kSurelySharp && other_eye.sharpness &&
+                             *picture.sharpness < kMinSharpnessToOther * *other_eye.sharpness;
+  return *picture.sharpness < kMinSharpness || against_other ? PictureFault::kBlurred : PictureFault::kNone;
 }
 
 Status check_pictures(const StereoFrame& frame, const StereoGeometry& geometry) {

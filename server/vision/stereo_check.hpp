@@ -20,15 +20,17 @@ enum class PairFault : std::uint8_t { kNone, kSwapped, kRowsDisagree };
 struct PictureQuality {
   double dark_share = 0.0;    ///< of the pixels: so dark that they carry nothing
   double bright_share = 0.0;  ///< at the upper end
-  double contrast = 0.0;      ///< energy of structures of 8 to 16 px, squared grey levels
-  double sharpness = 0.0;     ///< that of structures of 2 to 4 px, less the noise's share, over `contrast`
+  /// Of the tiles with contrast, all but the sharpest tenth have less than this share of their structures of 2 to 16 px
+  /// in those of 2 to 4 px. Nothing where too few tiles have contrast (a bare wall).
+  std::optional<double> sharpness;
 };
 
 /// `grey` has one channel.
 [[nodiscard]] PictureQuality measure_quality(const Image& grey);
-/// Sharp photographs of rooms, corridors and plants have a sharpness of 0.11 to 0.76, blurred by a Gaussian of 4 px
-/// (with noise of 2 grey levels) at most 0.10, by one of 8 px at most 0.075: blurred is below 0.085, or less than half
-/// as sharp as the other eye. A picture without contrast (a bare wall) is not called blurred.
+/// Blurred is what is blurred everywhere; a sharp picture of smooth things has something sharp in it. Sharp photographs
+/// of rooms, corridors and plants and rendered rooms have a sharpness from 0.114 on, with a median of 0.4; blurred by a
+/// Gaussian of 6 px (with noise of 2 grey levels) most have less than 0.11, by one of 8 px nearly all: blurred is below
+/// 0.11, or below 0.17 and less than half as sharp as the other eye. A picture without contrast is not called blurred.
 [[nodiscard]] PictureFault fault_of(const PictureQuality& picture, const PictureQuality& other_eye);
 
 /// kInvalidArgument naming the eye, the cause and the remedy; also for pictures whose size is not the geometry's.

@@ -2,11 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "common/image/jpeg.hpp"
+#include "scenes.hpp"
 #include "server/vision/feature_match.hpp"
+#include "server/vision/picture.hpp"
+#include "server/vision/stereo_check.hpp"
 #include "server/vision/stereo_features.hpp"
 #include "tests/support/data.hpp"
 
@@ -112,6 +116,47 @@ TEST_F(Aloe, SwappedEyesAreTold) {
   const auto found = make_stereo_extractor(geometry_of(frame.left), {})->extract(frame);
   ASSERT_FALSE(found.has_value());
   EXPECT_NE(found.error().message.find("swap"), std::string::npos) << found.error().message;
+}
+
+struct Judged {
+  int pictures = 0;
+  int blurred = 0;
+};
+
+/// All photographs, blurred by a Gaussian first, each for both eyes.
+Judged judge_photographs(const std::filesystem::path& folder, double sigma_px) {
+  Judged judged;
+  Rng rng(77);
+  for (const char* where : {"aloe", "corridor", "euroc", "stereo_1024x768"}) {
+    for (const auto& file : std::filesystem::directory_iterator(folder / where)) {
+      const auto extension = file.path().extension();
+      if ((extension != ".jpg" && extension != ".png") || file.path().filename() == "aloeGT.png") {
+        continue;
+      }
+      const auto picture = image::read_picture(file.path());
+      EXPECT_TRUE(picture) << file.path();
+      cv::Mat grey = to_grey_mat(*picture).clone();
+      if (sigma_px > 0.0) {
+        testing::degrade(grey, sigma_px, 2.0, rng);
+      }
+      const PictureQuality quality = measure_quality(to_image(grey));
+      const bool blurred = fault_of(quality, quality) == PictureFault::kBlurred;
+      EXPECT_FALSE(blurred && sigma_px == 0.0) << file.path() << " is sharp";
+      ++judged.pictures;
+      judged.blurred += blurred ? 1 : 0;
+    }
+  }
+  std::printf("photographs blurred by %.0f px: %d of %d refused\n", sigma_px, judged.blurred, judged.pictures);
+  return judged;
+}
+
+TEST(PictureQuality, PhotographsAreOnlyRefusedWhenTheyAreBlurred) {
+  SEEKER_REQUIRE_DATA(folder, "vision");
+  const Judged sharp = judge_photographs(folder, 0.0);
+  EXPECT_EQ(sharp.pictures, 102);
+  EXPECT_EQ(sharp.blurred, 0);
+  const Judged blurred = judge_photographs(folder, 8.0);
+  EXPECT_GE(blurred.blurred, blurred.pictures * 95 / 100);
 }
 
 /// Share of pairs that cannot be one place (40 rows apart, though of like scale and orientation) within each gate.
