@@ -122,23 +122,37 @@ void check_accuracy(const std::vector<S2Result>& runs, Report& report) {
   }
 }
 
+std::string share_of(int part, int whole) { return std::to_string(part) + "/" + std::to_string(whole); }
+
+/// Robots that turn about are judged; what their first views told is reported with them.
 void check_places(const std::vector<S2Result>& runs, Report& report) {
   S2Result sum;
   for (const S2Result& run : runs) {
     sum.places += run.places;
     sum.places_found += run.places_found;
     sum.places_wrong += run.places_wrong;
+    sum.at_once += run.at_once;
+    sum.at_once_wrong += run.at_once_wrong;
+    sum.looks += run.looks;
+    sum.looks_refused += run.looks_refused;
+    sum.looks_most = std::max(sum.looks_most, run.looks_most);
     sum.foreign += run.foreign;
     sum.foreign_found += run.foreign_found;
+    sum.foreign_empty += run.foreign_empty;
   }
   add(report, "S2-PLACE",
       sum.places > 0 && sum.places_found - sum.places_wrong >= kS2PlaceShare * sum.places && sum.places_wrong == 0,
       runs,
-      {{"found", std::to_string(sum.places_found) + "/" + std::to_string(sum.places)},
+      {{"found", share_of(sum.places_found, sum.places)},
        {"wrong", std::to_string(sum.places_wrong)},
-       {"limit", fixed(kS2PlaceShare, 2)}});
+       {"limit", fixed(kS2PlaceShare, 2)},
+       {"looks_mean", fixed(static_cast<double>(sum.looks) / std::max(1, sum.places), 1)},
+       {"looks_most", std::to_string(sum.looks_most)},
+       {"looks_refused", share_of(sum.looks_refused, sum.looks)},
+       {"first_view_found", share_of(sum.at_once, sum.places)},
+       {"first_view_wrong", std::to_string(sum.at_once_wrong)}});
   add(report, "S2-FOREIGN", sum.foreign > 0 && sum.foreign_found == 0, runs,
-      {{"found", std::to_string(sum.foreign_found) + "/" + std::to_string(sum.foreign)}});
+      {{"found", share_of(sum.foreign_found, sum.foreign)}, {"without_features", std::to_string(sum.foreign_empty)}});
 }
 
 }  // namespace

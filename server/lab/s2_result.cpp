@@ -38,8 +38,14 @@ void describe(config::Fields& f, S2Result& result) {
   f.field("places", result.places);
   f.field("places_found", result.places_found);
   f.field("places_wrong", result.places_wrong);
+  f.field("at_once", result.at_once);
+  f.field("at_once_wrong", result.at_once_wrong);
+  f.field("looks", result.looks);
+  f.field("looks_refused", result.looks_refused);
+  f.field("looks_most", result.looks_most);
   f.field("foreign", result.foreign);
   f.field("foreign_found", result.foreign_found);
+  f.field("foreign_empty", result.foreign_empty);
   f.field("relocalise_ms", result.relocalise_ms);
 }
 

@@ -48,12 +48,18 @@ struct S2Result {
   int after = 0;
   std::string refused;  ///< why there was no update; empty: there was
 
-  int places = 0;  ///< places of the surveyed room that were looked for without a guess
+  int places = 0;  ///< of the surveyed room, at which a robot woke up and turned about until it was LOCALISED
   int places_found = 0;
-  int places_wrong = 0;  ///< found, and more than half a metre off
-  int foreign = 0;       ///< views of rooms never surveyed
+  int places_wrong = 0;   ///< found, and off by more than s2::kWrongPlace_m or s2::kWrongPlace_rad
+  int at_once = 0;        ///< places that the first view alone told
+  int at_once_wrong = 0;  ///< and told wrong
+  int looks = 0;          ///< of all that turned about
+  int looks_refused = 0;  ///< of these: pictures that the check of the camera did not let pass
+  int looks_most = 0;     ///< of one of them
+  int foreign = 0;        ///< single views of rooms never surveyed
   int foreign_found = 0;
-  double relocalise_ms = 0.0;  ///< median
+  int foreign_empty = 0;       ///< of the views: no feature in them
+  double relocalise_ms = 0.0;  ///< of a single view, its features apart; median
 
   [[nodiscard]] const DatabaseScore* find(std::string_view name) const;
 };

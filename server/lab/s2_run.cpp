@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cmath>
 #include <memory>
-#include <optional>
 
-#include "common/core/angle.hpp"
 #include "server/lab/s2_parts.hpp"
+#include "server/lab/s2_places.hpp"
 #include "server/lab/sim_run.hpp"
 #include "server/lab/table.hpp"
 #include "server/localize/database_update.hpp"
-#include "server/localize/landmark_map.hpp"
-#include "server/localize/relocaliser.hpp"
 #include "server/sim/rearrange.hpp"
 
 namespace seeker::lab {
@@ -34,10 +29,9 @@ constexpr double kForeignShare = 1.0;
 /// The least and the most that it is longer, and narrower.
 constexpr std::array<double, 2> kForeignLonger = {1.05, 1.2};
 constexpr std::array<double, 2> kForeignNarrower = {0.8, 0.95};
-constexpr int kPlaces = 20;         ///< looked for without a guess; of 200 over ten seeds
-constexpr int kForeignViews = 100;  ///< of 1000
+constexpr int kPlaces = 20;         ///< at which a robot wakes up; 200 over ten seeds
+constexpr int kForeignViews = 100;  ///< 1000 over ten seeds
 constexpr std::uint64_t kForeignTextures = 100'000;
-constexpr double kWrongPlace_m = 0.5;
 
 SimSpec sim_spec_of(const S2Spec& spec) {
   SimSpec sim;
@@ -63,7 +57,8 @@ class S2Run {
   Status localise(const std::string& name, const Database& database, const Frames& frames,
                   localize::DatabaseUpdate* update);
   void note_frames(const Frames& frames);
-  Status look_for(const sim::World& world, int views, int& found, int* wrong);
+  Status wake_up();
+  Status look_at_foreign();
 
   const S2Spec& spec_;
   const Bench& bench_;
@@ -169,41 +164,30 @@ Status S2Run::change_and_update() {
   return localise("updated", std::make_shared<const LandmarkDatabase>(staged->database), *scoring, nullptr);
 }
 
-/// Single views of a room, without a guess.
-Status S2Run::look_for(const sim::World& world, int views, int& found, int* wrong) {
-  Rng rng = rng_.fork(wrong != nullptr ? "places" : "foreign");
-  const std::vector<Pose2> poses = random_poses(world, bench_.model, views, rng);
-  const auto seen = look_from(world, bench_.model, bench_.features, poses, rng);
-  if (!seen) {
-    return tl::unexpected<Error>(seen.error());
-  }
-  const localize::LandmarkMap map(salient_, bench_.localiser.landmark_sigma_floor_m);
-  const StereoGeometry& geometry = bench_.model.stereo.geometry;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto before = std::chrono::steady_clock::now();
-    const auto lifted = localize::lift(geometry, (*seen)[i].features, bench_.localiser);
-    const localize::RelocaliseAnswer answer =
-        localize::relocalise(geometry, map, (*seen)[i].features, lifted, bench_.localiser, rng);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
-    relocalise_ms_.push_back(took.count());
-    if (answer.verdict != localize::RelocaliseVerdict::kFound) {
-      continue;
+/// Robots that are switched on anywhere in the surveyed room.
+Status S2Run::wake_up() {
+  S2Result& result = record_.result;
+  Rng rng = rng_.fork("places");
+  for (const Pose2& pose : random_poses(world_, bench_.model, kPlaces, rng)) {
+    const Result<s2::Awakening> woken = s2::wake_up(bench_, salient_, world_, pose, rng.bits());
+    if (!woken) {
+      return tl::unexpected<Error>(woken.error());
     }
-    ++found;
-    const Pose2 place = localize::base_from_eye(answer.belief.map_T_eye, bench_.localiser.arm);
-    if (wrong != nullptr && distance_m(place, poses[i]) > kWrongPlace_m) {
-      ++*wrong;
-    }
+    ++result.places;
+    result.places_found += woken->found ? 1 : 0;
+    result.places_wrong += woken->wrong ? 1 : 0;
+    result.at_once += woken->at_once ? 1 : 0;
+    result.at_once_wrong += woken->at_once_wrong ? 1 : 0;
+    result.looks += woken->looks;
+    result.looks_refused += woken->refused;
+    result.looks_most = std::max(result.looks_most, woken->looks);
+    relocalise_ms_.push_back(woken->relocalise_ms);
   }
   return {};
 }
 
-Status S2Run::relocalise() {
+Status S2Run::look_at_foreign() {
   S2Result& result = record_.result;
-  result.places = kPlaces;
-  if (Status ok = look_for(world_, kPlaces, result.places_found, &result.places_wrong); !ok) {
-    return ok;
-  }
   Result<sim::World> foreign = load_laboratory(spec_.config, kForeignTextures + spec_.seed);
   if (!foreign) {
     return tl::unexpected<Error>(foreign.error());
@@ -214,13 +198,32 @@ Status S2Run::relocalise() {
   if (const auto moved = sim::move_objects(*foreign, kForeignShare, rng); !moved) {
     return tl::unexpected<Error>(moved.error());
   }
+  Rng views_rng = rng_.fork("foreign");
+  const Result<s2::ForeignViews> views = s2::look_at_foreign(bench_, salient_, *foreign, kForeignViews, views_rng);
+  if (!views) {
+    return tl::unexpected<Error>(views.error());
+  }
   result.foreign = kForeignViews;
-  if (Status ok = look_for(*foreign, kForeignViews, result.foreign_found, nullptr); !ok) {
+  result.foreign_found = views->found;
+  result.foreign_empty = views->empty;
+  relocalise_ms_.insert(relocalise_ms_.end(), views->relocalise_ms.begin(), views->relocalise_ms.end());
+  return {};
+}
+
+Status S2Run::relocalise() {
+  // What is asked of the localiser is not asked of the paper's.
+  if (spec_.paper) {
+    return {};
+  }
+  if (Status ok = wake_up(); !ok) {
+    return ok;
+  }
+  if (Status ok = look_at_foreign(); !ok) {
     return ok;
   }
   const auto middle = relocalise_ms_.begin() + static_cast<std::ptrdiff_t>(relocalise_ms_.size() / 2);
   std::nth_element(relocalise_ms_.begin(), middle, relocalise_ms_.end());
-  result.relocalise_ms = *middle;
+  record_.result.relocalise_ms = *middle;
   return {};
 }
 
@@ -233,7 +236,8 @@ Result<std::string> settings_of(const S2Spec& spec) {
     return tl::unexpected<Error>(hash.error());
   }
   hash->add(spec.paper ? "paper" : "default");
-  hash->add("poses adjusted, foreign rooms stretched");  // what a run is has changed with these
+  hash->add(
+      "poses adjusted, foreign rooms stretched, woken robots turn about");  // what a run is has changed with these
   return hash->hex();
 }
 

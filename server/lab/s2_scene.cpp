@@ -8,7 +8,6 @@
 #include "server/options/world_options.hpp"
 #include "server/sim/rearrange.hpp"
 #include "server/sim/scene.hpp"
-#include "server/sim/simulation.hpp"
 #include "server/sim/stereo_renderer.hpp"
 
 namespace seeker::lab {
@@ -51,12 +50,7 @@ class Eyes {
 
   Result<vision::StereoFeatures> look(const Pose2& world_T_base, Rng& rng) {
     const double exposure = std::max(0.0, 1.0 + rng.normal(world_.lighting.exposure_jitter));
-    return seen_in(extractor_->extract(renderer_.render(scene_, world_.lighting, world_T_base, exposure, rng)));
-  }
-
-  /// A frame in which nothing is to be seen (a blank wall from near) is a frame without features.
-  static Result<vision::StereoFeatures> seen_in(Result<vision::StereoFeatures> seen) {
-    return seen || seen.error().code != Errc::kInvalidArgument ? seen : vision::StereoFeatures{};
+    return or_nothing(extractor_->extract(renderer_.render(scene_, world_.lighting, world_T_base, exposure, rng)));
   }
 
  private:
@@ -97,6 +91,47 @@ class Driver {
 };
 
 }  // namespace
+
+Result<SeeingRobot> SeeingRobot::create(sim::World world, const sim::RobotModel& model,
+                                        const vision::StereoFeatureParams& features, const Pose2& start,
+                                        std::uint64_t seed) {
+  world.starts = {start};
+  Result<sim::Simulation> simulation = sim::Simulation::create(std::move(world), model, seed);
+  if (!simulation) {
+    return tl::unexpected<Error>(simulation.error());
+  }
+  return SeeingRobot(std::move(*simulation), vision::make_stereo_extractor(model.stereo.geometry, features));
+}
+
+Twist2 SeeingRobot::move(const Twist2& wanted) {
+  simulation_.command(wanted);
+  simulation_.advance(seconds(kEncoderPeriod_s));
+  const Pose2 before = std::exchange(odom_T_base_, simulation_.odometry().odom_T_base);
+  return twist_between(before, odom_T_base_, kEncoderPeriod_s);
+}
+
+std::vector<Twist2> SeeingRobot::turn(double by_rad) {
+  constexpr double kAligned_rad = 0.01;
+  constexpr double kGain = 2.0;
+  constexpr int kLongest = 600;  // periods
+  const double wanted_rad = odom_T_base_.theta_rad + by_rad;
+  std::vector<Twist2> velocities;
+  for (int i = 0; i < kLongest; ++i) {
+    const double error_rad = wrap_angle(wanted_rad - odom_T_base_.theta_rad);
+    if (std::abs(error_rad) < kAligned_rad) {
+      break;
+    }
+    velocities.push_back(move({0.0, std::clamp(kGain * error_rad, -kTurn_rad_s, kTurn_rad_s)}));
+  }
+  velocities.push_back(move({}));
+  return velocities;
+}
+
+Result<vision::StereoFeatures> SeeingRobot::look() { return extractor_->extract(simulation_.stereo_pair()); }
+
+Result<vision::StereoFeatures> or_nothing(Result<vision::StereoFeatures> seen) {
+  return seen || seen.error().code != Errc::kInvalidArgument ? seen : vision::StereoFeatures{};
+}
 
 Result<sim::World> load_laboratory(const std::filesystem::path& config, std::uint64_t pattern_seed) {
   return options::load_world(config / "worlds" / "laboratory.yaml", {"pattern_seed=" + std::to_string(pattern_seed)});
@@ -171,21 +206,19 @@ Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim:
                                              const vision::StereoFeatureParams& features, std::uint64_t seed,
                                              double period_s) {
   constexpr double kLongest_s = 600.0;
-  Result<sim::Simulation> simulation = sim::Simulation::create(world, model, seed);
-  if (!simulation) {
-    return tl::unexpected<Error>(simulation.error());
+  Result<SeeingRobot> robot = SeeingRobot::create(world, model, features, world.starts.front(), seed);
+  if (!robot) {
+    return tl::unexpected<Error>(robot.error());
   }
-  const auto extractor = vision::make_stereo_extractor(model.stereo.geometry, features);
   Driver driver(places_of_drive());
   std::vector<DriveFrame> frames;
   std::vector<Twist2> velocities;
-  Pose2 odometry = simulation->odometry().odom_T_base;
   double next_frame_s = 0.0;
-  while (to_seconds(simulation->now()) < kLongest_s) {
-    const Pose2 truth = simulation->truth().world_T_base;
+  while (robot->time_s() < kLongest_s) {
+    const Pose2 truth = robot->world_T_base();
     const auto wanted = driver.steer(truth);
-    if (to_seconds(simulation->now()) >= next_frame_s || !wanted) {
-      Result<vision::StereoFeatures> seen = Eyes::seen_in(extractor->extract(simulation->stereo_pair()));
+    if (robot->time_s() >= next_frame_s || !wanted) {
+      Result<vision::StereoFeatures> seen = or_nothing(robot->look());
       if (!seen) {
         return tl::unexpected<Error>(seen.error());
       }
@@ -196,11 +229,7 @@ Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim:
     if (!wanted) {
       return frames;
     }
-    simulation->command(*wanted);
-    simulation->advance(seconds(kEncoderPeriod_s));
-    const Pose2 now = simulation->odometry().odom_T_base;
-    velocities.push_back(twist_between(odometry, now, kEncoderPeriod_s));
-    odometry = now;
+    velocities.push_back(robot->move(*wanted));
   }
   return fail(Errc::kTimeout, "the drive does not end: something stands in its way");
 }

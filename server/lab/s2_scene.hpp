@@ -4,16 +4,47 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/core/rng.hpp"
 #include "server/localize/geometry.hpp"
-#include "server/sim/robot_model.hpp"
-#include "server/sim/world.hpp"
+#include "server/sim/simulation.hpp"
 #include "server/vision/stereo_features.hpp"
 
 namespace seeker::lab {
+
+inline constexpr double kEncoderPeriod_s = 0.1;
+
+/// A simulated robot as a localiser knows it: what its encoders and its eyes tell.
+class SeeingRobot {
+ public:
+  /// At `start`, where it must have room.
+  [[nodiscard]] static Result<SeeingRobot> create(sim::World world, const sim::RobotModel& model,
+                                                  const vision::StereoFeatureParams& features, const Pose2& start,
+                                                  std::uint64_t seed);
+
+  /// Moves for kEncoderPeriod_s and returns the velocity that the encoders told.
+  Twist2 move(const Twist2& wanted);
+  /// Turns on the spot, by its odometry, and stands still. The velocities as from move().
+  [[nodiscard]] std::vector<Twist2> turn(double by_rad);
+  /// kInvalidArgument: the pictures are refused.
+  [[nodiscard]] Result<vision::StereoFeatures> look();
+  [[nodiscard]] Pose2 world_T_base() const { return simulation_.truth().world_T_base; }
+  [[nodiscard]] double time_s() const { return to_seconds(simulation_.now()); }
+
+ private:
+  SeeingRobot(sim::Simulation simulation, std::unique_ptr<vision::StereoExtractor> extractor)
+      : simulation_(std::move(simulation)),
+        extractor_(std::move(extractor)),
+        odom_T_base_(simulation_.odometry().odom_T_base) {}
+
+  sim::Simulation simulation_;
+  std::unique_ptr<vision::StereoExtractor> extractor_;
+  Pose2 odom_T_base_;
+};
 
 /// One frame of a drive: where the robot truly was, what its encoders told since the frame before, what it saw.
 struct DriveFrame {
@@ -21,7 +52,6 @@ struct DriveFrame {
   std::vector<Twist2> velocities;  ///< each over kEncoderPeriod_s
   vision::StereoFeatures seen;
 };
-inline constexpr double kEncoderPeriod_s = 0.1;
 
 /// The laboratory with textures of `pattern_seed`.
 [[nodiscard]] Result<sim::World> load_laboratory(const std::filesystem::path& config, std::uint64_t pattern_seed);
@@ -35,7 +65,10 @@ inline constexpr double kEncoderPeriod_s = 0.1;
 [[nodiscard]] std::vector<Pose2> random_poses(const sim::World& world, const sim::RobotModel& model, int count,
                                               Rng& rng);
 
-/// What is seen from poses of the base, without a robot that drives there.
+/// A frame that is refused, since nothing is to be seen in it, is a frame without features.
+[[nodiscard]] Result<vision::StereoFeatures> or_nothing(Result<vision::StereoFeatures> seen);
+
+/// What is seen from poses of the base, without a robot that drives there; or_nothing().
 [[nodiscard]] Result<std::vector<vision::StereoFeatures>> look_from(const sim::World& world,
                                                                     const sim::RobotModel& model,
                                                                     const vision::StereoFeatureParams& features,

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/core/angle.hpp"
 #include "server/lab/s2_reproduce.hpp"
 #include "server/lab/s2_run.hpp"
 #include "server/lab/s2_scene.hpp"
@@ -113,6 +114,31 @@ TEST(S2Scene, SurveyStandsInFivePlacesWithRoomAroundThem) {
   for (std::size_t i = 0; i < poses.size(); i += 12) {
     EXPECT_GT(scene.clearance_m(poses[i].translation(), 0.3, {0.0, model.stereo.height_m}), 0.29);
   }
+}
+
+// Things near the camera look otherwise to each eye: beside a wall one eye's picture is the poorer by far.
+TEST(S2Scene, AViewOfSmoothThingsFromNearIsNotCalledBlurred) {
+  for (const Pose2& pose : {Pose2{3.29, 0.89, -2.58}, Pose2{1.08, 8.31, 2.49}, Pose2{8.12, 5.13, 0.65}}) {
+    auto robot =
+        SeeingRobot::create(*load_laboratory(testing::source_file("config"), 2), sim::RobotModel{}, {}, pose, 1);
+    ASSERT_TRUE(robot) << robot.error().message;
+    const auto seen = robot->look();
+    EXPECT_TRUE(seen) << seen.error().message;
+  }
+}
+
+TEST(S2Scene, ARobotThatTurnsTellsByHowMuch) {
+  const Pose2 start{4.4, 6.7, 1.0};
+  auto robot =
+      SeeingRobot::create(*load_laboratory(testing::source_file("config"), 2), sim::RobotModel{}, {}, start, 1);
+  ASSERT_TRUE(robot) << robot.error().message;
+  double told_rad = 0.0;
+  for (const Twist2& velocity : robot->turn(0.5)) {
+    told_rad += velocity.omega_rad_s * kEncoderPeriod_s;
+  }
+  EXPECT_NEAR(told_rad, 0.5, 0.03);
+  EXPECT_NEAR(wrap_angle(robot->world_T_base().theta_rad - start.theta_rad), 0.5, 0.06);
+  EXPECT_NEAR(distance_m(robot->world_T_base(), start), 0.0, 0.02);
 }
 
 TEST(S2Scene, MovedFurnitureLeavesTheWayFree) {
