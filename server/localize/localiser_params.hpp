@@ -44,8 +44,8 @@ struct RelocaliseParams {
   double min_lead = 1.5;                ///< inliers of the best place over those of the next one
   double rival_m = 0.5;                 ///< farther apart than this, or
   double rival_rad = deg_to_rad(10.0);  ///< turned by more, places are different
-  double max_sigma_m = 0.25;            ///< a place less certain than this is none
-  double confirm_m = 0.3;               ///< the second frame must agree with the first within
+  double max_sigma_m = 0.25;  ///< a place less certain than this is none, nor one that is without any one match
+  double confirm_m = 0.3;     ///< the second frame must agree with the first within
   double confirm_rad = deg_to_rad(4.0);
 
   friend bool operator==(const RelocaliseParams&, const RelocaliseParams&) = default;

@@ -47,6 +47,9 @@ class Search {
   /// One match a feature, the most alike.
   [[nodiscard]] std::vector<Pairing> inliers_at(const Pose2& map_T_eye) const;
   [[nodiscard]] EyeBelief refine(const Pose2& map_T_eye) const;
+  [[nodiscard]] EyeBelief fit(const Pose2& map_T_eye, std::span<const RangeBearing> seen) const;
+  [[nodiscard]] std::vector<RangeBearing> seen_by(const std::vector<Pairing>& pairs) const;
+  [[nodiscard]] double leaning_m(const RelocaliseAnswer& answer) const;
   [[nodiscard]] bool is_rival(const Pose2& a, const Pose2& b) const {
     return distance_m(a, b) > params_.relocalise.rival_m ||
            std::abs(wrap_angle(a.theta_rad - b.theta_rad)) > params_.relocalise.rival_rad;
@@ -183,25 +186,53 @@ std::vector<Place> Search::try_pairs(int attempts, Rng& rng) const {
   return places;
 }
 
-/// Least squares over the inliers, which are chosen anew each time.
-EyeBelief Search::refine(const Pose2& map_T_eye) const {
-  constexpr int kRounds = 3;
+std::vector<RangeBearing> Search::seen_by(const std::vector<Pairing>& pairs) const {
+  std::vector<RangeBearing> seen;
+  seen.reserve(pairs.size());
+  for (const Pairing& pair : pairs) {
+    seen.push_back(with_landmark(lifted_[pair.point], map_, pair.landmark, 1.0, params_));
+  }
+  return seen;
+}
+
+/// Least squares, from hardly any knowledge of the place.
+EyeBelief Search::fit(const Pose2& map_T_eye, std::span<const RangeBearing> seen) const {
   constexpr double kWideSigma_m = 1.0;
   constexpr double kWideSigma_rad = 0.5;
   EyeBelief belief;
   belief.map_T_eye = map_T_eye;
+  belief.covariance = Eigen::Vector4d(std::pow(kWideSigma_m, 2), std::pow(kWideSigma_m, 2), std::pow(kWideSigma_rad, 2),
+                                      std::pow(params_.disparity_offset_sigma_px, 2))
+                          .asDiagonal();
+  static_cast<void>(update_together(belief, seen, params_.batch));
+  return belief;
+}
+
+/// The inliers are chosen anew each time.
+EyeBelief Search::refine(const Pose2& map_T_eye) const {
+  constexpr int kRounds = 3;
+  EyeBelief belief;
+  belief.map_T_eye = map_T_eye;
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<RangeBearing> seen;
-    for (const Pairing& pair : inliers_at(belief.map_T_eye)) {
-      seen.push_back(with_landmark(lifted_[pair.point], map_, pair.landmark, 1.0, params_));
-    }
-    belief.disparity_offset_px = 0.0;
-    belief.covariance = Eigen::Vector4d(std::pow(kWideSigma_m, 2), std::pow(kWideSigma_m, 2),
-                                        std::pow(kWideSigma_rad, 2), std::pow(params_.disparity_offset_sigma_px, 2))
-                            .asDiagonal();
-    static_cast<void>(update_together(belief, seen, params_.batch));
+    belief = fit(belief.map_T_eye, seen_by(inliers_at(belief.map_T_eye)));
   }
   return belief;
+}
+
+/// How far the place moves when the match that it leans on most is left out, or how uncertain it is then. Far landmarks
+/// side by side leave the eye free to swing around them: a single near one then tells where it is, right or wrong.
+double Search::leaning_m(const RelocaliseAnswer& answer) const {
+  std::vector<RangeBearing> seen = seen_by(answer.inliers);
+  const Pose2& place = answer.belief.map_T_eye;
+  double most_m = 0.0;
+  for (RangeBearing& left_out : seen) {
+    std::swap(left_out, seen.back());
+    const EyeBelief without = fit(place, std::span(seen).first(seen.size() - 1));
+    std::swap(left_out, seen.back());
+    const Matrix2 covariance = without.covariance.topLeftCorner<2, 2>();
+    most_m = std::max({most_m, distance_m(place, without.map_T_eye), largest_sigma(covariance)});
+  }
+  return most_m;
 }
 
 /// What the matches that do not agree with the best place say: the most that agree on another one.
@@ -250,6 +281,10 @@ void Search::judge(RelocaliseAnswer& answer) const {
     answer.verdict = RelocaliseVerdict::kVague;
     answer.reason = figures + ", but in " + std::to_string(answer.cells) + " parts of the picture, sigma " +
                     std::to_string(sigma_m) + " m; turn the robot to where more can be seen";
+  } else if (const double leaning = leaning_m(answer); leaning > p.max_sigma_m) {
+    answer.verdict = RelocaliseVerdict::kVague;
+    answer.reason = figures + ", but without one of them the place is another by " + std::to_string(leaning) +
+                    " m; turn the robot to where more can be seen";
   } else {
     answer.verdict = RelocaliseVerdict::kFound;
     answer.reason = figures;

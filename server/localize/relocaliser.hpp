@@ -15,7 +15,7 @@ enum class RelocaliseVerdict : std::uint8_t {
   kFound,
   kNothing,    ///< too few features agree on a place
   kAmbiguous,  ///< more than one place explains the frame about as well: repeated structure
-  kVague,      ///< the matches lie too close together in the picture, or leave the place uncertain
+  kVague,      ///< the matches lie too close together in the picture, or leave the place uncertain, or all but one do
 };
 [[nodiscard]] std::string_view to_string(RelocaliseVerdict verdict);
 

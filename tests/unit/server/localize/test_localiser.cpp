@@ -270,6 +270,38 @@ TEST(Relocalisation, APosterThatHangsTwiceIsRefused) {
   }
 }
 
+// Seven metres away there is only one wall to see, and something near was moved.
+TEST(Relocalisation, APlaceThatLeansOnOneMatchIsNotFoundWrongly) {
+  const Pose2 truth{1.2, 2.6, 0.5 * kPi};
+  constexpr double kMoved_m = 0.4;
+  constexpr double kWrong_m = 0.3;
+  LandmarkRoom room(91, 1500);
+  const LocaliserParams params;
+  const LandmarkMap map(surveyed(room, 92), params.landmark_sigma_floor_m);
+  LandmarkRoom far = room;
+  std::erase_if(far.points(), [](const auto& point) { return point.p_map.y() < 9.99 || point.p_map.x() > 2.6; });
+  constexpr std::size_t kFar = 30;
+  far.points().resize(kFar);
+  int near = 0;
+  Rng rng(93);
+  for (const auto& point : room.points()) {
+    if (point.p_map.x() > 0.01 || point.p_map.y() < 4.4 || point.p_map.y() > 6.0) {
+      continue;
+    }
+    LandmarkRoom changed = far;
+    changed.points().push_back(point);
+    changed.points().back().p_map.x() += kMoved_m;
+    ViewNoise noise;
+    noise.detection = 1.0;
+    const auto features = changed.view(truth, {}, noise, rng);
+    const auto answer = relocalise({}, map, features, lift({}, features, params), params, rng);
+    EXPECT_FALSE(answer.verdict == RelocaliseVerdict::kFound && distance_m(answer.belief.map_T_eye, truth) > kWrong_m)
+        << answer.reason << ", " << distance_m(answer.belief.map_T_eye, truth) << " m off";
+    ++near;
+  }
+  EXPECT_GT(near, 10);
+}
+
 TEST(Relocalisation, AnEmptyFrameIsNothing) {
   const LandmarkMap map(surveyed(LandmarkRoom(2, 200), 2), 0.01);
   Rng rng(1);
