@@ -5,12 +5,17 @@
 // `recall2`: both nearest.
 #include <algorithm>
 #include <ctime>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/features2d.hpp>
 
+#include "server/localize/landmark_map.hpp"
+#include "server/localize/relocaliser.hpp"
+#include "server/localize/stereo_localiser.hpp"
+#include "server/localize/survey.hpp"
 #include "server/vision/bbf_tree.hpp"
 #include "server/vision/nearest_kernel.hpp"
 #include "server/vision/sift_features.hpp"
@@ -23,6 +28,7 @@ namespace {
 constexpr std::size_t kQueries = 500;
 constexpr int kTracked = 300;  ///< key points when the pose is known and half the resolution will do
 constexpr std::size_t kLargestDatabase = 20000;
+constexpr std::size_t kLandmarks = 5000;  ///< of a building
 
 const std::vector<double> kBands = {12.4, 25.0, 33.3, 50.7, 71.9, 100.2};
 
@@ -118,6 +124,97 @@ void BM_StereoTwoThreads(benchmark::State& state) { stereo(state, {}, 2); }
 void BM_StereoPaperOneThread(benchmark::State& state) { stereo(state, paper_stereo_params(), 1); }
 void BM_StereoHalfOneThread(benchmark::State& state) { stereo(state, half(), 1); }
 void BM_StereoHalfTwoThreads(benchmark::State& state) { stereo(state, half(), 2); }
+
+/// frame() as it looks a moment later: with other noise.
+const StereoFrame& frame_again() {
+  static const StereoFrame kFrame = [] {
+    Rng noise(52);
+    StereoFrame again = frame();
+    for (Image* eye : {&again.left, &again.right}) {
+      cv::Mat grey = to_grey_mat(*eye).clone();
+      testing::degrade(grey, 0.0, kNoise_greys, noise);
+      *eye = to_image(grey);
+    }
+    return again;
+  }();
+  return kFrame;
+}
+
+/// Landmarks of what frame() shows from the origin, and of other rooms behind it until there are kLandmarks.
+std::shared_ptr<const localize::LandmarkDatabase> make_landmarks() {
+  constexpr double kPace_m = 20.0;
+  localize::DatabaseParams params;
+  params.sparsity.on = false;
+  params.salient_seen = 1;
+  localize::SurveyBuilder builder(StereoGeometry{}, params);
+  const auto extractor = make_stereo_extractor(StereoGeometry{}, {});
+  for (std::uint64_t room = 0; builder.database().size() < kLandmarks; ++room) {
+    Rng rng(200 + room);
+    const StereoFrame pair = testing::banded_pair(StereoGeometry{}, kBands, rng, kNoise_greys, kContrast);
+    localize::Sighting sighting;
+    sighting.map_T_eye = {kPace_m * static_cast<double>(room), 0.0, 0.0};
+    sighting.pose_covariance = Matrix3::Identity() * 1e-6;
+    sighting.features = extractor->extract(room == 0 ? frame() : pair)->features;
+    static_cast<void>(builder.add(sighting).value());
+  }
+  return std::make_shared<const localize::LandmarkDatabase>(builder.database());
+}
+
+std::shared_ptr<const localize::LandmarkDatabase> landmarks() {
+  static const auto kDatabase = make_landmarks();
+  return kDatabase;
+}
+
+localize::LocaliserParams at_the_eye() {
+  localize::LocaliserParams params;
+  params.arm = {0.0, 0.0, 0.0};
+  return params;
+}
+
+/// Features, association and update of a robot that knows where it is, in a database of some thousand landmarks.
+void step(benchmark::State& state, const StereoFeatureParams& features, int threads) {
+  const auto extractor = make_stereo_extractor(StereoGeometry{}, features);
+  auto localiser = localize::StereoLocaliser::create(StereoGeometry{}, landmarks(), at_the_eye());
+  constexpr double kVariance = 1e-4;
+  if (!localiser || !localiser->start_at({}, kVariance * Matrix3::Identity())) {
+    state.SkipWithError("no localiser");
+    return;
+  }
+  Rng rng(53);
+  measure(state, threads, [&] {
+    localiser->predict({}, 0.1);
+    localiser->update(extractor->extract(frame_again())->features, rng);
+  });
+  state.counters["features"] = localiser->last().features;
+  state.counters["inliers"] = static_cast<double>(localiser->last().inliers.size());
+  if (localiser->last().quality != LocalisationQuality::kLocalised) {
+    state.SkipWithError("the localiser lost its place");
+  }
+}
+
+void BM_StepOneThread(benchmark::State& state) { step(state, {}, 1); }
+void BM_StepTwoThreads(benchmark::State& state) { step(state, {}, 2); }
+void BM_StepHalfOneThread(benchmark::State& state) { step(state, half(), 1); }
+void BM_StepHalfTwoThreads(benchmark::State& state) { step(state, half(), 2); }
+
+/// The whole database is asked, the features apart.
+void BM_Relocalise(benchmark::State& state) {
+  const localize::LocaliserParams params = at_the_eye();
+  const localize::LandmarkMap map(landmarks(), params.landmark_sigma_floor_m);
+  const StereoFeatures seen = *make_stereo_extractor(StereoGeometry{}, {})->extract(frame_again());
+  localize::RelocaliseAnswer answer;
+  Rng rng(54);
+  measure(state, 1, [&] {
+    const auto lifted = localize::lift(StereoGeometry{}, seen.features, params);
+    answer = localize::relocalise(StereoGeometry{}, map, seen.features, lifted, params, rng);
+  });
+  state.counters["landmarks"] = static_cast<double>(map.database->size());
+  state.counters["candidates"] = answer.candidates;
+  state.counters["inliers"] = static_cast<double>(answer.inliers.size());
+  if (answer.verdict != localize::RelocaliseVerdict::kFound) {
+    state.SkipWithError(answer.reason.c_str());
+  }
+}
 
 /// Real descriptors: what right eyes see is looked up among what left eyes saw, in many rooms.
 struct Database {
@@ -219,6 +316,11 @@ BENCHMARK(BM_StereoTwoThreads)->Apply(whole_picture);
 BENCHMARK(BM_StereoPaperOneThread)->Apply(whole_picture);
 BENCHMARK(BM_StereoHalfOneThread)->Apply(whole_picture);
 BENCHMARK(BM_StereoHalfTwoThreads)->Apply(whole_picture);
+BENCHMARK(BM_StepOneThread)->Apply(whole_picture);
+BENCHMARK(BM_StepTwoThreads)->Apply(whole_picture);
+BENCHMARK(BM_StepHalfOneThread)->Apply(whole_picture);
+BENCHMARK(BM_StepHalfTwoThreads)->Apply(whole_picture);
+BENCHMARK(BM_Relocalise)->Apply(whole_picture);
 BENCHMARK(BM_ExactL2)->Apply(sizes);
 BENCHMARK(BM_ExactL1)->Apply(sizes);
 BENCHMARK(BM_ExactL2Plain)->Apply(sizes);
