@@ -19,8 +19,11 @@ void describe(config::Fields& f, NormalParams& params) {
   f.field("neighbours", params.neighbours);
   f.field("radius_m", params.radius_m);
   f.field("spacings", params.spacings);
+  f.field("noise_sigmas", params.noise_sigmas);
+  f.field("max_reach_m", params.max_reach_m);
   f.field("min_points", params.min_points);
   f.field("max_thickness_ratio", params.max_thickness_ratio);
+  f.field("noisy_thickness_ratio", params.noisy_thickness_ratio);
 }
 
 void describe(config::Fields& f, MatchParams& params) {
@@ -42,6 +45,10 @@ void describe(config::Fields& f, MatchParams& params) {
   f.field("search_step_m", params.search_step_m);
   f.angle_deg("search_step_deg", params.search_step_rad);
   f.field("search_points", params.search_points);
+  f.field("search_ratio", params.search_ratio);
+  f.field("surprise_share", params.surprise_share);
+  f.field("max_surprise_share", params.max_surprise_share);
+  f.field("search_starts", params.search_starts);
 }
 
 void describe(config::Fields& f, LocalCloudParams& params) {

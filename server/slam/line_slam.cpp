@@ -183,7 +183,8 @@ Status LineSlam::update(const LaserScan& scan) {
   Scan step{
       .scan = scan, .found = {}, .observations = {}, .all_points = {}, .points = {}, .predicted = lines_->robot()};
   step.gap = moved({}, increment, params_.points.gap_m, params_.points.gap_rad);
-  step.all_points = oriented_points(scan, params_.points.normals);
+  extractor_.extract(scan, step.found);
+  step.all_points = oriented_points(scan, params_.points.normals, extractor_.noise());
   Status outcome;
   if (step.all_points.size() < static_cast<std::size_t>(params_.points.match.min_pairs)) {
     quality_ = LocalisationQuality::kDegraded;
@@ -191,7 +192,6 @@ Status LineSlam::update(const LaserScan& scan) {
     outcome = fail(Errc::kNotReady, "the scan has too few returns on surfaces to say where the robot is");
   } else {
     step.points = thin_out(step.all_points, params_.points.match_points);
-    extractor_.extract(scan, step.found);
     step.observations = lines::observe(scan, step.found, params_.observation);
     counts_.lines += step.observations.size();
     follow(step);
@@ -236,25 +236,25 @@ void LineSlam::follow(Scan& scan) {
 
 MatchResult LineSlam::match_points(Scan& scan) {
   const ReferenceCloud& reference = cloud_.around(scan.predicted);
-  MatchResult match = matcher_.match(reference, scan.points, scan.predicted);
-  // After a gap even a fair match may be a wrong one: look at the whole window and let the inliers decide.
-  const bool poor = match.inlier_ratio < params_.points.good_ratio;
-  const bool unsure = failures_ > 0 || quality_ != LocalisationQuality::kLocalised;
-  if (!scan.gap && !(poor && unsure)) {
-    return match;
-  }
-  ++counts_.searched;
-  if (const auto start = matcher_.search(reference, scan.points, scan.predicted)) {
-    MatchResult other = matcher_.match(reference, scan.points, *start);
-    if (other.inliers > match.inliers) {
-      match = std::move(other);
+  if (!scan.gap) {
+    MatchResult match = matcher_.match(reference, scan.points, scan.predicted);
+    if (match.inlier_ratio >= params_.points.good_ratio) {
+      return match;
     }
   }
-  return match;
+  // After a gap even a fair match may be a wrong one, and a poor one may only have begun in the wrong place.
+  ++counts_.searched;
+  return matcher_.match_widely(reference, scan.points, scan.predicted, lines_->robot_covariance_map());
 }
 
 bool LineSlam::believable(const MatchResult& match, const Pose2& predicted) const {
-  return match.pairs >= params_.points.match.min_pairs && match.inlier_ratio >= params_.points.accept_ratio &&
+  if (match.pairs < params_.points.match.min_pairs || match.inlier_ratio < params_.points.accept_ratio) {
+    return false;
+  }
+  // What the odometry did not expect asks for more than a corner that happens to fit.
+  const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
+  const bool surprising = lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction;
+  return (!surprising || match.inlier_ratio >= params_.points.good_ratio) &&
          !moved(predicted, match.map_T_base, params_.points.max_correction_m, params_.points.max_correction_rad);
 }
 
@@ -284,7 +284,7 @@ void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covarianc
 void LineSlam::use_leftover(const Scan& scan, const Association& association) {
   const LaserScan rest = without_paired_lines(scan.scan, scan.found, scan.observations, association);
   const std::vector<OrientedPoint> points =
-      thin_out(oriented_points(rest, params_.points.normals), params_.points.match_points);
+      thin_out(oriented_points(rest, params_.points.normals, extractor_.noise()), params_.points.match_points);
   const MatchResult match = matcher_.match(cloud_.around(lines_->robot()), points, lines_->robot());
   const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
   if (match.pairs >= params_.points.match.min_pairs &&

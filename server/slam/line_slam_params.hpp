@@ -31,7 +31,7 @@ struct PointNetParams {
   double accept_ratio = 0.25;      ///< below it the match is not believed
   double gap_m = 0.3;              ///< way since the last scan beyond which a poor match is searched for
   double gap_rad = 0.2;
-  double new_space_ratio = 0.25;  ///< fewer points than this near known ones: unseen space, not a contradiction
+  double new_space_ratio = 0.5;   ///< fewer points than this near known ones: unseen space, not a contradiction
   double max_correction_m = 1.2;  ///< a match farther from the prediction is not believed
   double max_correction_rad = 0.6;
   std::size_t carried_keyframes = 6;  ///< of one local map into the next

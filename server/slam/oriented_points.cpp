@@ -7,60 +7,94 @@
 namespace seeker::slam {
 namespace {
 
-/// Beams as points in the frame `laser`, with holes where nothing usable came back.
-struct BeamPoints {
+/// What came back, in the order of the beams and in the frame `laser`.
+struct Returns {
+  std::vector<float> ranges_m;
+  std::vector<std::int32_t> beams;
   std::vector<Point2> p;
-  std::vector<bool> valid;
 };
 
-BeamPoints beam_points(const LaserScan& scan) {
-  BeamPoints beams{std::vector<Point2>(scan.ranges_m.size(), Point2::Zero()),
-                   std::vector<bool>(scan.ranges_m.size(), false)};
+Returns returns_of(const LaserScan& scan) {
+  Returns returns;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double range_m = scan.ranges_m[i];
     const bool weak = !scan.quality.empty() && scan.quality[i] == 0;
     if (std::isfinite(range_m) && range_m > 0.0 && range_m >= scan.range_min_m && range_m <= scan.range_max_m &&
         !weak) {
       const double angle_rad = scan.angle_rad(i);
-      beams.p[i] = {range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
-      beams.valid[i] = true;
+      returns.ranges_m.push_back(scan.ranges_m[i]);
+      returns.beams.push_back(static_cast<std::int32_t>(i));
+      returns.p.emplace_back(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
     }
   }
-  return beams;
+  return returns;
 }
 
-std::optional<Point2> normal_at(const BeamPoints& beams, std::size_t beam, double radius_m,
-                                const NormalParams& params) {
-  const Point2 centre = beams.p[beam];
-  const auto reach = static_cast<std::size_t>(params.neighbours);
-  const std::size_t first = beam >= reach ? beam - reach : 0;
-  const std::size_t last = std::min(beam + reach, beams.p.size() - 1);
-  Point2 sum = Point2::Zero();
+lines::RangeNoise estimated_noise(const Returns& returns, double step_rad) {
+  lines::NoiseEstimator estimator;
+  std::vector<float> squares_m2;
+  estimator.differences(returns.ranges_m, returns.beams, step_rad, 0, squares_m2);
+  return estimator.estimate(returns.ranges_m, squares_m2, {});
+}
+
+/// Sums over the first points, so that those of any run are a difference.
+struct RunSums {
+  double x = 0.0;
+  double y = 0.0;
   double xx = 0.0;
   double xy = 0.0;
   double yy = 0.0;
-  int count = 0;
-  for (std::size_t k = first; k <= last; ++k) {
-    const Point2 d = beams.p[k] - centre;
-    if (beams.valid[k] && d.squaredNorm() <= radius_m * radius_m) {
-      sum += d;
-      xx += d.x() * d.x();
-      xy += d.x() * d.y();
-      yy += d.y() * d.y();
-      ++count;
-    }
+};
+
+std::vector<RunSums> run_sums(const std::vector<Point2>& points) {
+  std::vector<RunSums> sums(points.size() + 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point2& p = points[i];
+    const RunSums& s = sums[i];
+    sums[i + 1] = {s.x + p.x(), s.y + p.y(), s.xx + p.x() * p.x(), s.xy + p.x() * p.y(), s.yy + p.y() * p.y()};
   }
-  if (count < params.min_points) {
+  return sums;
+}
+
+/// The points first..last about one.
+struct Run {
+  std::size_t first;
+  std::size_t last;
+};
+
+/// At most `neighbours` beams to either side and within the radius.
+Run nearby(const Returns& returns, std::size_t centre, int neighbours, double radius_m) {
+  const auto belongs = [&](std::size_t k) {
+    return std::abs(returns.beams[k] - returns.beams[centre]) <= neighbours &&
+           (returns.p[k] - returns.p[centre]).squaredNorm() <= radius_m * radius_m;
+  };
+  Run run{centre, centre};
+  while (run.first > 0 && belongs(run.first - 1)) {
+    --run.first;
+  }
+  while (run.last + 1 < returns.p.size() && belongs(run.last + 1)) {
+    ++run.last;
+  }
+  return run;
+}
+
+/// Of the line through the run of points, turned towards the sensor; nothing when they form none.
+std::optional<Point2> normal_of(const std::vector<RunSums>& sums, const Run& run, const Point2& centre, int min_points,
+                                double max_thickness_ratio) {
+  const RunSums& before = sums[run.first];
+  const RunSums& after = sums[run.last + 1];
+  const auto count = static_cast<double>(run.last - run.first + 1);
+  if (count < min_points) {
     return std::nullopt;
   }
-  const Point2 mean = sum / count;
-  const double cxx = xx / count - mean.x() * mean.x();
-  const double cxy = xy / count - mean.x() * mean.y();
-  const double cyy = yy / count - mean.y() * mean.y();
+  const Point2 mean((after.x - before.x) / count, (after.y - before.y) / count);
+  const double cxx = (after.xx - before.xx) / count - mean.x() * mean.x();
+  const double cxy = (after.xy - before.xy) / count - mean.x() * mean.y();
+  const double cyy = (after.yy - before.yy) / count - mean.y() * mean.y();
   const double half_gap = std::hypot((cxx - cyy) / 2.0, cxy);
   const double large = (cxx + cyy) / 2.0 + half_gap;
   const double small = std::max(0.0, (cxx + cyy) / 2.0 - half_gap);
-  if (large <= 0.0 || small > params.max_thickness_ratio * params.max_thickness_ratio * large) {
+  if (large <= 0.0 || small > max_thickness_ratio * max_thickness_ratio * large) {
     return std::nullopt;
   }
   const double along_rad = 0.5 * std::atan2(2.0 * cxy, cxx - cyy);
@@ -70,17 +104,27 @@ std::optional<Point2> normal_at(const BeamPoints& beams, std::size_t beam, doubl
 
 }  // namespace
 
-std::vector<OrientedPoint> oriented_points(const LaserScan& scan, const NormalParams& params) {
+std::vector<OrientedPoint> oriented_points(const LaserScan& scan, const NormalParams& params,
+                                           const std::optional<lines::RangeNoise>& noise) {
+  const Returns returns = returns_of(scan);
+  const double step_rad = std::abs(scan.angle_step_rad);
+  const lines::RangeNoise known = noise ? *noise : estimated_noise(returns, step_rad);
+  const std::vector<RunSums> sums = run_sums(returns.p);
   std::vector<OrientedPoint> points;
-  const BeamPoints beams = beam_points(scan);
-  for (std::size_t i = 0; i < beams.p.size(); ++i) {
-    if (!beams.valid[i]) {
-      continue;
+  points.reserve(returns.p.size());
+  for (std::size_t i = 0; i < returns.p.size(); ++i) {
+    const double range_m = static_cast<double>(returns.ranges_m[i]);
+    const double radius_m = std::max(params.radius_m, params.spacings * range_m * step_rad);
+    const Run few = nearby(returns, i, params.neighbours, radius_m);
+    std::optional<Point2> normal = normal_of(sums, few, returns.p[i], params.min_points, params.max_thickness_ratio);
+    const double reach_m = std::min(params.max_reach_m, params.noise_sigmas * known.sigma_m(range_m));
+    if (!normal && reach_m > params.neighbours * range_m * step_rad) {
+      const auto beams = static_cast<int>(std::ceil(reach_m / (range_m * step_rad)));
+      const Run more = nearby(returns, i, beams, reach_m);
+      normal = normal_of(sums, more, returns.p[i], params.min_points, params.noisy_thickness_ratio);
     }
-    const double spacing_m = beams.p[i].norm() * std::abs(scan.angle_step_rad);
-    const double radius_m = std::max(params.radius_m, params.spacings * spacing_m);
-    if (const auto normal = normal_at(beams, i, radius_m, params)) {
-      points.push_back(transform(scan.base_T_laser, {beams.p[i], *normal}));
+    if (normal) {
+      points.push_back(transform(scan.base_T_laser, {returns.p[i], *normal}));
     }
   }
   return points;

@@ -34,21 +34,14 @@ bool ScanMapTracker::believable(const MatchResult& match, const Pose2& predicted
 
 MatchResult ScanMapTracker::best_match(const std::vector<OrientedPoint>& points_base, const Pose2& predicted) {
   const ReferenceCloud& reference = cloud_.around(predicted);
-  MatchResult match = matcher_.match(reference, points_base, predicted);
-  // After a gap even a fair match may be a wrong one: look at the whole window and let the inliers decide.
-  const bool gap = moved(matched_pose_, predicted, params_.gap_m, params_.gap_rad);
-  const bool poor = match.inlier_ratio < params_.good_ratio;
-  const bool unsure = failures_ > 0 || odometry_.estimate().quality != LocalisationQuality::kLocalised;
-  if (!gap && !(poor && unsure)) {
-    return match;
-  }
-  if (const auto start = matcher_.search(reference, points_base, predicted)) {
-    MatchResult other = matcher_.match(reference, points_base, *start);
-    if (other.inliers > match.inliers) {
-      match = std::move(other);
+  if (!moved(matched_pose_, predicted, params_.gap_m, params_.gap_rad)) {
+    MatchResult match = matcher_.match(reference, points_base, predicted);
+    if (match.inlier_ratio >= params_.good_ratio) {
+      return match;
     }
   }
-  return match;
+  // After a gap even a fair match may be a wrong one, and a poor one may only have begun in the wrong place.
+  return matcher_.match_widely(reference, points_base, predicted, odometry_.estimate().covariance);
 }
 
 bool ScanMapTracker::is_new_space(const std::vector<OrientedPoint>& points_base, const Pose2& pose) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kHoldWeight = 1.0e6;         ///< keeps the guess along a degenerate direction
 constexpr double kUnseenVariance_m2 = 100.0;  ///< what a match says about a direction it does not see
-constexpr double kMinSearchScore = 0.5;
+constexpr double kDistinctSteps = 3.5;        ///< of the search: starts farther apart lead to different matches
 
 /// Normal equations of one iteration; rotation about the robot, translation in the frame `map`.
 struct NormalEquations {
@@ -104,6 +104,29 @@ double hits_above(const ReferenceCloud& reference, const std::vector<Point2>& tu
   return hits;
 }
 
+/// The best place of one heading.
+struct SearchBest {
+  double score = 0.0;
+  Pose2 map_T_base;
+};
+
+/// Best first, without those that a better one is near to: one match would find both.
+std::vector<Pose2> distinct(std::vector<SearchBest> found, const MatchParams& params) {
+  std::sort(found.begin(), found.end(), [](const SearchBest& a, const SearchBest& b) { return a.score > b.score; });
+  std::vector<Pose2> starts;
+  for (const SearchBest& best : found) {
+    const bool fresh = std::none_of(starts.begin(), starts.end(), [&](const Pose2& start) {
+      return distance_m(start, best.map_T_base) <= kDistinctSteps * params.search_step_m &&
+             std::abs(wrap_angle(start.theta_rad - best.map_T_base.theta_rad)) <=
+                 kDistinctSteps * params.search_step_rad;
+    });
+    if (fresh && starts.size() < params.search_starts) {
+      starts.push_back(best.map_T_base);
+    }
+  }
+  return starts;
+}
+
 }  // namespace
 
 MatchResult ScanMatcher::match(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
@@ -140,29 +163,62 @@ MatchResult ScanMatcher::match(const ReferenceCloud& reference, const std::vecto
   return result;
 }
 
-std::optional<Pose2> ScanMatcher::search(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
-                                         const Pose2& guess) const {
+double ScanMatcher::handicap(const Expected& expected, const Pose2& pose) const {
+  const Eigen::Vector3d off(pose.x_m - expected.map_T_base.x_m, pose.y_m - expected.map_T_base.y_m,
+                            wrap_angle(pose.theta_rad - expected.map_T_base.theta_rad));
+  return std::min(params_.max_surprise_share, params_.surprise_share * off.dot(expected.information * off));
+}
+
+std::vector<Pose2> ScanMatcher::search(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                       const Expected& expected) const {
   const std::vector<OrientedPoint> sparse = thin_out(points_base, params_.search_points);
+  const auto count = static_cast<double>(sparse.size());
+  const Pose2& guess = expected.map_T_base;
   const int turns = static_cast<int>(std::lround(params_.search_rad / params_.search_step_rad));
   const int moves = static_cast<int>(std::lround(params_.search_m / params_.search_step_m));
   std::vector<Point2> turned(sparse.size());
-  std::optional<Pose2> best;
-  double best_score = kMinSearchScore * static_cast<double>(sparse.size());
+  std::vector<SearchBest> found;
   for (int t = -turns; t <= turns; ++t) {
     const Pose2 rotation{0.0, 0.0, wrap_angle(guess.theta_rad + t * params_.search_step_rad)};
     std::transform(sparse.begin(), sparse.end(), turned.begin(),
                    [&](const OrientedPoint& q) { return rotation * q.p; });
+    SearchBest best{params_.search_ratio * count - params_.max_surprise_share * count, {}};
+    bool any = false;
     for (int j = -moves; j <= moves; ++j) {
       for (int i = -moves; i <= moves; ++i) {
         const Point2 at = guess.translation() + params_.search_step_m * Point2(i, j);
-        // Of equals the nearest to the guess: a corridor fits anywhere along itself.
-        const double far = std::hypot(i, j) / moves + std::abs(t) / static_cast<double>(turns);
-        const double score = hits_above(reference, turned, at, best_score + far) - far;
-        if (score > best_score) {
-          best_score = score;
-          best = Pose2{at.x(), at.y(), rotation.theta_rad};
+        const Pose2 pose{at.x(), at.y(), rotation.theta_rad};
+        const double penalty = count * handicap(expected, pose);
+        const double wanted = std::max(best.score + penalty, params_.search_ratio * count);
+        const double hits = hits_above(reference, turned, at, wanted);
+        if (hits > wanted) {
+          best = {hits - penalty, pose};
+          any = true;
         }
       }
+    }
+    if (any) {
+      found.push_back(best);
+    }
+  }
+  return distinct(std::move(found), params_);
+}
+
+MatchResult ScanMatcher::match_widely(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                      const Pose2& guess, const Matrix3& covariance) const {
+  // Places between the steps of the grid are no surprise.
+  const Eigen::Vector3d steps(params_.search_step_m, params_.search_step_m, params_.search_step_rad);
+  const Matrix3 widened = covariance + steps.cwiseAbs2().asDiagonal().toDenseMatrix() / 12.0;
+  const Expected expected{guess, widened.inverse()};
+  const auto count = static_cast<double>(points_base.size());
+  const auto rank = [&](const MatchResult& match) {
+    return match.inliers - count * handicap(expected, match.map_T_base);
+  };
+  MatchResult best = match(reference, points_base, guess);
+  for (const Pose2& start : search(reference, points_base, expected)) {
+    MatchResult other = match(reference, points_base, start);
+    if (rank(other) > rank(best)) {
+      best = std::move(other);
     }
   }
   return best;

@@ -19,7 +19,7 @@ struct MatchParams {
   double inlier_m = 0.10;          ///< residual of an inlier
   double stop_m = 0.0005;          ///< converged below this step
   double stop_rad = 0.0002;
-  int min_pairs = 15;
+  int min_pairs = 10;
   double degenerate_ratio = 0.03;      ///< share of the normals' scatter below which a direction is not seen
   double sigma_floor_m = 0.01;         ///< residual deviation is never believed to be smaller
   double covariance_inflation = 10.0;  ///< neighbouring points share their errors: far fewer than n are independent
@@ -28,6 +28,10 @@ struct MatchParams {
   double search_step_m = 0.1;
   double search_step_rad = 0.035;
   std::size_t search_points = 60;
+  double search_ratio = 0.35;    ///< share of the points that a place must explain
+  double surprise_share = 0.02;  ///< ... and so much more for each unit of chi-square it lies off the expected place,
+  double max_surprise_share = 0.3;  ///< but no more than this
+  std::size_t search_starts = 3;    ///< places that match_widely() looks at closely
 };
 
 /// A match that explains itself.
@@ -51,13 +55,24 @@ class ScanMatcher {
   /// guess is kept.
   [[nodiscard]] MatchResult match(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
                                   const Pose2& guess) const;
-  /// Exhaustive search of a window about `guess` on the coarse grid: a start for match() after a gap of up to
-  /// search_m / search_rad. Nothing when no place explains at least half of the points.
-  [[nodiscard]] std::optional<Pose2> search(const ReferenceCloud& reference,
-                                            const std::vector<OrientedPoint>& points_base, const Pose2& guess) const;
+  /// After a gap of up to search_m / search_rad: the best of the matches from `guess` and from the places that a
+  /// search of the whole window finds on the coarse grid. `covariance` of the guess, of (x, y, theta) in the frame
+  /// `map`: the less a place was to be expected, the more points it must explain.
+  [[nodiscard]] MatchResult match_widely(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                         const Pose2& guess, const Matrix3& covariance) const;
   [[nodiscard]] const MatchParams& params() const { return params_; }
 
  private:
+  struct Expected {
+    Pose2 map_T_base;
+    Matrix3 information;
+  };
+  [[nodiscard]] std::vector<Pose2> search(const ReferenceCloud& reference,
+                                          const std::vector<OrientedPoint>& points_base,
+                                          const Expected& expected) const;
+  /// Share of the points that a place must explain beyond the expected one.
+  [[nodiscard]] double handicap(const Expected& expected, const Pose2& pose) const;
+
   MatchParams params_;
 };
 

@@ -25,9 +25,8 @@ inline std::vector<Wall> furnished_room() {
 }
 
 inline LaserScan scan_at(const std::vector<Wall>& walls, const Pose2& map_T_base, double time_s, Rng& rng,
-                         double fov_rad = kPi, double range_max_m = 12.0) {
+                         double fov_rad = kPi, double range_max_m = 12.0, double sigma_m = 0.01) {
   constexpr int kBeams = 361;
-  constexpr double kSigma_m = 0.01;
   LaserScan scan;
   scan.stamp = robot_time_s(time_s);
   scan.angle_min_rad = -fov_rad / 2.0;
@@ -39,7 +38,7 @@ inline LaserScan scan_at(const std::vector<Wall>& walls, const Pose2& map_T_base
     const double angle_rad = map_T_laser.theta_rad + scan.angle_rad(static_cast<std::size_t>(k));
     const Point2 direction(std::cos(angle_rad), std::sin(angle_rad));
     const double range_m = testing::ray_to_walls(walls, map_T_laser.translation(), direction, range_max_m);
-    scan.ranges_m.push_back(range_m < range_max_m ? static_cast<float>(range_m + rng.normal(kSigma_m)) : kNoReturn);
+    scan.ranges_m.push_back(range_m < range_max_m ? static_cast<float>(range_m + rng.normal(sigma_m)) : kNoReturn);
   }
   return scan;
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include "common/core/rng.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/slam/scan_map_tracker.hpp"
 #include "tests/support/data.hpp"
@@ -41,10 +42,21 @@ Errors relative_error(const std::vector<Sample>& samples, std::size_t lag, const
   return {sum.translation_m / n, sum.rotation_deg / n};
 }
 
+/// The scan of a worse scanner.
+LaserScan with_noise(LaserScan scan, double sigma_m, Rng& rng) {
+  for (float& range_m : scan.ranges_m) {
+    if (std::isfinite(range_m) && range_m <= scan.range_max_m) {
+      range_m = std::max(0.05F, range_m + static_cast<float>(rng.normal(sigma_m)));
+    }
+  }
+  return scan;
+}
+
 /// Plays a log through the tracker. `reference_at` gives the scoring pose; samples without one are left out.
 template <class Reference>
 std::vector<Sample> play(const std::filesystem::path& path, const drivers::ReplayParams& params,
-                         const Reference& reference_at) {
+                         const Reference& reference_at, double noise_m = 0.0) {
+  Rng rng(1);
   auto reader = drivers::CarmenReader::open(path);
   EXPECT_TRUE(reader);
   ScanMapTracker tracker;
@@ -59,7 +71,8 @@ std::vector<Sample> play(const std::filesystem::path& path, const drivers::Repla
     }
     first_s = first_s.value_or(scan->stamp_s);
     const RobotTime stamp = robot_time_s(scan->stamp_s - *first_s);
-    const LaserScan laser = drivers::to_laser_scan(*scan, params, stamp);
+    const LaserScan recorded = drivers::to_laser_scan(*scan, params, stamp);
+    const LaserScan laser = noise_m > 0.0 ? with_noise(recorded, noise_m, rng) : recorded;
     const auto begin = std::chrono::steady_clock::now();
     (void)tracker.predict(*scan->odom_T_base, stamp);
     (void)tracker.update(laser);
@@ -92,6 +105,14 @@ TEST(RecordedLogs, Freiburg079IsFollowedToItsEnd) {
   ASSERT_GT(samples.size(), 4700U);
   EXPECT_LT(report(samples, 50).translation_m, 0.15);
   EXPECT_LT(report(samples, 1000).translation_m, 0.8);
+}
+
+TEST(RecordedLogs, Freiburg079IsFollowedByAScannerOfThreeCentimetresNoiseToo) {
+  SEEKER_REQUIRE_DATA(path, "lidar/fr079.clf.gz");
+  const auto samples = play(
+      path, {}, [](const drivers::CarmenScan& scan) { return scan.corrected_T_laser; }, 0.03);
+  ASSERT_GT(samples.size(), 4700U);
+  EXPECT_LT(report(samples, 50).translation_m, 0.15);
 }
 
 /// `t,x,y,theta` lines of a gzip file: the localiser's map -> odom.

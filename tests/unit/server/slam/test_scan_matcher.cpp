@@ -1,6 +1,8 @@
 #include "server/slam/scan_matcher.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include <Eigen/LU>
@@ -23,6 +25,9 @@ ReferenceCloud cloud_from(const std::vector<Wall>& walls, const Pose2& pose, Rng
 
 const Pose2 kPose{2.5, 3.0, 0.3};
 
+/// Half a metre and 0.25 rad.
+const Matrix3 kUnsure = Eigen::Vector3d(0.25, 0.25, 0.0625).asDiagonal();
+
 TEST(OrientedPoints, NormalsFaceTheSensorAndStandOnTheWall) {
   Rng rng(1);
   const auto points = oriented_points(scan_at(box(0.0, 0.0, 10.0, 6.0), kPose, 0.0, rng));
@@ -31,6 +36,29 @@ TEST(OrientedPoints, NormalsFaceTheSensorAndStandOnTheWall) {
     EXPECT_LT(point.normal.dot(point.p - Point2(0.15, 0.0)), 0.0);
     EXPECT_NEAR(point.normal.norm(), 1.0, 1e-9);
   }
+}
+
+/// Share of the beams that are kept with a normal within 15 degrees of one of the walls', which stand square.
+double share_of_right_normals(const LaserScan& scan, const Pose2& pose) {
+  const auto points = oriented_points(scan);
+  const auto right = std::count_if(points.begin(), points.end(), [&](const OrientedPoint& point) {
+    const OrientedPoint p_map = transform(pose, point);
+    return p_map.normal.cwiseAbs().maxCoeff() > std::cos(deg_to_rad(15.0));
+  });
+  return static_cast<double>(right) / static_cast<double>(scan.ranges_m.size());
+}
+
+TEST(OrientedPoints, ANoisyWallHasItsDirectionToo) {
+  Rng rng(7);
+  for (const double sigma_m : {0.005, 0.01, 0.03}) {
+    const LaserScan scan = scan_at(box(0.0, 0.0, 10.0, 6.0), kPose, 0.0, rng, kPi, 12.0, sigma_m);
+    EXPECT_GT(share_of_right_normals(scan, kPose), 0.9) << sigma_m;
+  }
+}
+
+TEST(OrientedPoints, AnEmptyScanHasNone) {
+  Rng rng(8);
+  EXPECT_TRUE(oriented_points(scan_at({}, kPose, 0.0, rng)).empty());
 }
 
 TEST(ScanMatcher, FindsTheTruePoseFromANearbyGuess) {
@@ -83,10 +111,25 @@ TEST(ScanMatcher, CorrelativeSearchBridgesAGapOfAMetre) {
   Rng rng(5);
   const auto reference = cloud_from(furnished_room(), {3.0, 3.0, 0.0}, rng);
   const auto points = oriented_points(scan_at(furnished_room(), kPose, 1.0, rng));
-  const ScanMatcher matcher;
-  const auto start = matcher.search(reference, points, kPose * Pose2{0.7, -0.6, 0.45});
-  ASSERT_TRUE(start);
-  EXPECT_THAT(matcher.match(reference, points, *start).map_T_base, Pose2Near(kPose, 0.03, 0.01));
+  const Pose2 guess = kPose * Pose2{0.7, -0.6, 0.45};
+  EXPECT_THAT(ScanMatcher().match_widely(reference, points, guess, kUnsure).map_T_base, Pose2Near(kPose, 0.03, 0.01));
+}
+
+TEST(ScanMatcher, OfPlacesThatLookAlikeTheExpectedOneIsTaken) {
+  // Pillars every 0.7 m along a wall fit one pillar on nearly as well.
+  std::vector<Wall> walls = box(0.0, 0.0, 20.0, 3.0);
+  for (double x_m = 0.5; x_m < 19.0; x_m += 0.7) {
+    const auto pillar = box(x_m, 0.0, x_m + 0.2, 0.2);
+    walls.insert(walls.end(), pillar.begin(), pillar.end());
+  }
+  const Pose2 pose{10.0, 1.5, 0.0};
+  Rng rng(9);
+  const auto reference = cloud_from(walls, pose, rng);
+  const auto points = oriented_points(scan_at(walls, pose, 1.0, rng, kPi, 6.0));
+  for (const double along_m : {-0.2, 0.2}) {
+    const MatchResult match = ScanMatcher().match_widely(reference, points, pose * Pose2{along_m, 0.0, 0.0}, kUnsure);
+    EXPECT_THAT(match.map_T_base, Pose2Near(pose, 0.03, 0.01)) << along_m;
+  }
 }
 
 TEST(ScanMatcher, WithoutPartnersThereIsNoMatch) {
@@ -97,7 +140,7 @@ TEST(ScanMatcher, WithoutPartnersThereIsNoMatch) {
   EXPECT_FALSE(match.converged);
   EXPECT_EQ(match.pairs, 0);
   EXPECT_EQ(match.map_T_base, kPose);
-  EXPECT_FALSE(ScanMatcher().search(empty, points, kPose));
+  EXPECT_EQ(ScanMatcher().match_widely(empty, points, kPose, kUnsure).pairs, 0);
   EXPECT_EQ(ScanMatcher().match(empty, {}, kPose).inlier_ratio, 0.0);
 }
 
