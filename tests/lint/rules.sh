@@ -28,6 +28,7 @@ report "a lambda with a capture inside a co_await expression (use a named corout
   done
 )
 report "unfinished work" < <(grep -nE '\b(TODO|FIXME|XXX)\b' "${all[@]}" run .ci/run || true)
+report "typedef (write using)" < <(grep -nE '^[[:space:]]*typedef ' "${code[@]}" || true)
 report "a path of one machine" < <(grep -nE '(^|[^[:alnum:]_.~-])/(home|root|work|Users)/' "${all[@]}" run .ci/run || true)
 # tests/lint/long_files.txt: the exceptions, one path a line with the reason behind it.
 report "more than $MAX_LINES lines (split the file, or list it with a reason in tests/lint/long_files.txt)" < <(
