@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "client/cli/command_line.hpp"
+#include "client/cli/names.hpp"
 
 namespace seeker::cli {
 namespace {
@@ -62,21 +63,12 @@ CLI::Option* add_mission_options(CLI::App& sub, Verb& verb) {
   return sub.add_flag("--detach", verb.detach, "Print the mission's id and return; the mission goes on");
 }
 
-std::vector<std::string> solid_names() {
-  std::vector<std::string> names;
-  names.reserve(kSolidKinds.size());
-  for (const SolidKind solid : kSolidKinds) {
-    names.emplace_back(to_string(solid));
-  }
-  return names;
-}
-
 /// What is looked for. `o` must live as long as the parser.
 void add_target_options(CLI::App& sub, TargetOptions& o) {
   repeatable(sub.add_option("-t,--target", o.targets,
                             "NAME (looked up in the target folders), FILE.yaml or FILE.png; repeatable"));
   repeatable(sub.add_option("--solid", o.solids, "A solid by its shape, for a robot with a model of them; repeatable"))
-      ->check(CLI::IsMember(solid_names()));
+      ->check(CLI::IsMember(names_of(kSolidKinds)));
   repeatable(sub.add_option("--targets", o.target_folders, "Folder of target files; repeatable"));
   sub.add_option("--recogniser", o.recogniser, "How targets with a picture are recognised; else as their files say")
       ->check(CLI::IsMember({"template", "features"}));
@@ -125,15 +117,6 @@ void add_recognise(Parse& parse) {
   add_mission_options(*sub, *o);
 }
 
-std::vector<std::string> strategy_names() {
-  std::vector<std::string> names;
-  names.reserve(api::kExploreStrategies.size());
-  for (const api::ExploreStrategy strategy : api::kExploreStrategies) {
-    names.emplace_back(to_string(strategy));
-  }
-  return names;
-}
-
 void add_explore(Parse& parse) {
   auto [sub, o] = add_verb<ExploreVerb>(
       parse, parse.app, "explore", "Map the building: the robot finds its way by itself until nothing is left to map",
@@ -144,7 +127,7 @@ void add_explore(Parse& parse) {
                   "active: the published rule, a step at a time; horizon: the same aims over several drives; "
                   "topological: by the goals of a map of places, which robots of a fleet share; frontier, gain, roam: "
                   "what these are compared with")
-      ->check(CLI::IsMember(strategy_names()))
+      ->check(CLI::IsMember(names_of(api::kExploreStrategies)))
       ->capture_default_str();
   sub->add_option("--bound", o->bound, "Explore inside only: corners \"x,y x,y ...\" in m, or @FILE with a YAML list");
   repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners as in --bound; repeatable"));

@@ -1,5 +1,6 @@
 #include "client/cli/script.hpp"
 
+#include "client/cli/names.hpp"
 #include "client/cli/targets.hpp"
 #include "common/config/yaml.hpp"
 #include "common/core/angle.hpp"
@@ -17,16 +18,7 @@ const config::Choices<api::LinkPolicy> kPolicies{{"stop", api::LinkPolicy::kStop
                                                  {"continue", api::LinkPolicy::kContinue},
                                                  {"return", api::LinkPolicy::kReturn}};
 
-const config::Choices<api::ExploreStrategy>& strategies() {
-  static const config::Choices<api::ExploreStrategy> kChoices = [] {
-    config::Choices<api::ExploreStrategy> choices;
-    for (const api::ExploreStrategy strategy : api::kExploreStrategies) {
-      choices.emplace_back(to_string(strategy), strategy);
-    }
-    return choices;
-  }();
-  return kChoices;
-}
+const config::Choices<api::ExploreStrategy> kStrategies = config::choices_of(api::kExploreStrategies);
 
 /// Outcomes and error codes as they may stand in an expectation.
 const std::vector<std::string>& outcome_names() {
@@ -121,8 +113,7 @@ void describe_targets(config::Fields& f, What& step) {
   const std::size_t count = step.targets.size() + step.solids.size();
   f.check("targets", count > 0 && count <= api::kMaxTargets, "name 1 to 16 targets, solids among them");
   for (const std::string& solid : step.solids) {
-    f.check("solids", solid_named(solid).has_value(),
-            "'" + solid + "' is none of sphere, triangular-prism, quadrangular-prism, ellipsoid");
+    f.check("solids", solid_named(solid).has_value(), "'" + solid + "' is none of " + listed(kSolidKinds));
   }
   name_of(f, "recogniser", step.recogniser, {"", "template", "features"});
 }
@@ -147,7 +138,7 @@ struct ExploreSection {
   Step step;
 };
 void describe(config::Fields& f, ExploreSection& s) {
-  f.choice("strategy", s.explore.strategy, strategies());
+  f.choice("strategy", s.explore.strategy, kStrategies);
   bound(f, s.explore.bound);
   areas(f, s.explore.keep_out);
   f.field("return_to_start", s.explore.return_to_start);

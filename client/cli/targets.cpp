@@ -5,6 +5,7 @@
 #include <set>
 #include <system_error>
 
+#include "client/cli/names.hpp"
 #include "common/config/yaml.hpp"
 #include "common/image/pgm.hpp"
 
@@ -37,11 +38,7 @@ void describe(config::Fields& f, TargetFile& target) {
   }
   f.field("picture", target.picture);
   f.check("picture", !is_solid || target.picture.empty(), "a solid has no picture");
-  config::Choices<SolidKind> solids;
-  for (const SolidKind solid : kSolidKinds) {
-    solids.emplace_back(to_string(solid), solid);
-  }
-  f.choice("solid", target.solid, solids);
+  f.choice("solid", target.solid, config::choices_of(kSolidKinds));
   f.field("width_m", target.width_m);
   f.check("width_m", target.width_m > 0.0, "must be above 0");
   f.field("height_m", target.height_m);
@@ -193,7 +190,7 @@ Result<std::vector<api::TargetSpec>> load_targets(const std::vector<std::string>
   for (const std::string& name : solids) {
     const std::optional<SolidKind> solid = solid_named(name);
     if (!solid) {
-      return fail(Errc::kInvalidArgument, "there is no solid '" + name + "'");
+      return fail(Errc::kInvalidArgument, "there is no solid '" + name + "'; known are " + listed(kSolidKinds));
     }
     targets.push_back(api::solid_target(*solid));
     take_sizes(defaults, targets.back());

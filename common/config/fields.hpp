@@ -24,6 +24,16 @@ inline constexpr std::size_t kMaxListItems = 100'000;
 template <class E>
 using Choices = std::vector<std::pair<std::string_view, E>>;
 
+/// The choices that a list of all values of an enum gives, each by its to_string().
+template <class Values>
+[[nodiscard]] auto choices_of(const Values& values) {
+  Choices<typename Values::value_type> choices;
+  for (const auto value : values) {
+    choices.emplace_back(to_string(value), value);
+  }
+  return choices;
+}
+
 /// Visits the fields of a struct. A field that a file does not mention keeps its value: defaults live in code.
 class Fields {
  public:

@@ -9,7 +9,6 @@
 #include "server/app/tracker_estimator.hpp"
 #include "server/drivers/emulator/emulator_devices.hpp"
 #include "server/drivers/replay/replay.hpp"
-#include "server/options/solids_options.hpp"
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
 
@@ -282,16 +281,12 @@ Result<SearchTools> make_search_tools(const RobotOptions& options) {
   if (!table) {
     return fail_with_context("control_table", table.error());
   }
-  SearchTools tools{std::make_shared<const search::ControlTable>(std::move(*table)),
-                    std::make_shared<std::optional<search::EvidenceGrid>>(), nullptr};
-  if (!options.search.solids.model.empty()) {
-    Result<vision::SolidModel> model = options::load_solid_model(resolve(options, options.search.solids.model));
-    if (!model) {
-      return fail_with_context("search.solids.model", model.error());
-    }
-    tools.solids = std::make_shared<const vision::SolidModel>(std::move(*model));
+  Result<std::shared_ptr<const vision::SolidModel>> solids = load_solids(options);
+  if (!solids) {
+    return tl::unexpected<Error>(solids.error());
   }
-  return tools;
+  return SearchTools{std::make_shared<const search::ControlTable>(std::move(*table)),
+                     std::make_shared<std::optional<search::EvidenceGrid>>(), std::move(*solids)};
 }
 
 Status make_devices(const RobotOptions& options, Assembly& assembly) {

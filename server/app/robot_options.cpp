@@ -9,6 +9,7 @@
 #include "server/options/search_options.hpp"
 #include "server/options/sim_options.hpp"
 #include "server/options/slam_options.hpp"
+#include "server/options/solids_options.hpp"
 #include "server/options/stereo_options.hpp"
 #include "server/options/vision_options.hpp"
 
@@ -256,6 +257,17 @@ std::filesystem::path resolve(const RobotOptions& options, const std::string& pa
   }
   std::filesystem::path beside = options.folder / written;
   return std::filesystem::exists(beside) ? beside : written;
+}
+
+Result<std::shared_ptr<const vision::SolidModel>> load_solids(const RobotOptions& options) {
+  if (options.search.solids.model.empty()) {
+    return nullptr;
+  }
+  Result<vision::SolidModel> model = options::load_solid_model(resolve(options, options.search.solids.model));
+  if (!model) {
+    return fail_with_context("search.solids.model", model.error());
+  }
+  return std::make_shared<const vision::SolidModel>(std::move(*model));
 }
 
 }  // namespace seeker::app

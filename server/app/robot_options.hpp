@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -99,5 +100,8 @@ void describe(config::Fields& f, RobotOptions& options);
 
 /// A path written in a robot file: absolute, relative to the file's folder, or relative to the working directory.
 [[nodiscard]] std::filesystem::path resolve(const RobotOptions& options, const std::string& path);
+
+/// The model of solids that `search.solids.model` names; null when it names none. Errors of load_solid_model().
+[[nodiscard]] Result<std::shared_ptr<const vision::SolidModel>> load_solids(const RobotOptions& options);
 
 }  // namespace seeker::app

@@ -9,7 +9,6 @@
 #include "server/app/target_values.hpp"
 #include "server/lab/table.hpp"
 #include "server/options/search_options.hpp"
-#include "server/options/solids_options.hpp"
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
 #include "server/vision/solids/target_recogniser.hpp"
@@ -72,16 +71,11 @@ Result<Subject> place_subject(const sim::World& world, const app::RobotOptions& 
 
 Result<std::unique_ptr<vision::Recogniser>> make_recogniser(const app::RobotOptions& options,
                                                             const api::TargetSpec& target) {
-  std::optional<vision::SolidModel> solids;
-  if (!options.search.solids.model.empty()) {
-    Result<vision::SolidModel> model = options::load_solid_model(app::resolve(options, options.search.solids.model));
-    if (!model) {
-      return tl::unexpected<Error>(model.error());
-    }
-    solids = std::move(*model);
+  const Result<std::shared_ptr<const vision::SolidModel>> solids = app::load_solids(options);
+  if (!solids) {
+    return tl::unexpected<Error>(solids.error());
   }
-  return vision::make_target_recogniser(app::target_models({target}), options.search.recogniser,
-                                        solids ? &*solids : nullptr);
+  return vision::make_target_recogniser(app::target_models({target}), options.search.recogniser, solids->get());
 }
 
 /// One picture counted into its bin, when it can be taken.

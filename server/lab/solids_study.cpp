@@ -19,7 +19,7 @@ namespace seeker::lab {
 namespace {
 
 /// Table 2 of the paper, in the order of the classes, less 3 points (spec S6).
-constexpr std::array<double, vision::kSolidClasses> kPaperAccuracy{0.95, 0.97, 0.94, 0.98};
+constexpr std::array<double, kSolidKinds.size()> kPaperAccuracy{0.95, 0.97, 0.94, 0.98};
 constexpr double kSlack = 0.03;
 constexpr double kTimeLimit_s = 0.5;
 
@@ -31,7 +31,7 @@ std::size_t band_of(const sim::SolidView& view) {
 }
 
 void add_rows(Table& table, const std::string& view, const Confusion& confusion) {
-  for (const vision::SolidClass solid : kSolidKinds) {
+  for (const SolidKind solid : kSolidKinds) {
     std::vector<std::string> row{view, std::string(to_string(solid))};
     for (const int count : confusion[static_cast<std::size_t>(solid)]) {
       row.push_back(std::to_string(count));
@@ -45,7 +45,7 @@ Image examples(const vision::SolidModel& model, const SolidPictures& pictures) {
   constexpr int kEach = 3;
   std::vector<CaptionedImage> sheet;
   for (int i = 0; i < kEach; ++i) {
-    for (const vision::SolidClass solid : kSolidKinds) {
+    for (const SolidKind solid : kSolidKinds) {
       const SolidPicture picture = draw_picture(pictures, solid, i);
       const auto found = vision::classify_solid(picture.image, model);
       sheet.push_back({found ? std::string(to_string(found->solid)) : "none", picture.image});
@@ -56,7 +56,7 @@ Image examples(const vision::SolidModel& model, const SolidPictures& pictures) {
 
 }  // namespace
 
-SolidPicture draw_picture(const SolidPictures& pictures, vision::SolidClass solid, int index) {
+SolidPicture draw_picture(const SolidPictures& pictures, SolidKind solid, int index) {
   Rng rng = Rng(pictures.seed).fork(std::string(to_string(solid)) + " " + std::to_string(index));
   const sim::SolidView view = sim::draw_view(solid, rng);
   const sim::TurbidWater water = sim::draw_water(rng);
@@ -67,7 +67,7 @@ Result<TrainedSolids> train_solids(const SolidPictures& pictures, const vision::
   TrainedSolids trained;
   std::vector<vision::TrainingSample> samples;
   samples.reserve(kSolidKinds.size() * static_cast<std::size_t>(std::max(0, pictures.per_class)));
-  for (const vision::SolidClass solid : kSolidKinds) {
+  for (const SolidKind solid : kSolidKinds) {
     for (int i = 0; i < pictures.per_class; ++i) {
       const auto sight = vision::look_at_solid(draw_picture(pictures, solid, i).image, trained.model.segment);
       if (!sight) {
@@ -79,7 +79,7 @@ Result<TrainedSolids> train_solids(const SolidPictures& pictures, const vision::
   }
   Rng rng = Rng(pictures.seed).fork("training");
   Result<vision::TrainedNetwork> network =
-      vision::train_network(samples, static_cast<int>(vision::kSolidClasses), params, rng);
+      vision::train_network(samples, static_cast<int>(kSolidKinds.size()), params, rng);
   if (!network) {
     return tl::unexpected<Error>(network.error());
   }
@@ -88,7 +88,7 @@ Result<TrainedSolids> train_solids(const SolidPictures& pictures, const vision::
   return trained;
 }
 
-double accuracy(const Confusion& confusion, vision::SolidClass solid) {
+double accuracy(const Confusion& confusion, SolidKind solid) {
   const auto& row = confusion[static_cast<std::size_t>(solid)];
   const int all = std::accumulate(row.begin(), row.end(), 0);
   return all == 0 ? 0.0 : static_cast<double>(row[static_cast<std::size_t>(solid)]) / all;
@@ -97,14 +97,14 @@ double accuracy(const Confusion& confusion, vision::SolidClass solid) {
 SolidsStudy test_solids(const vision::SolidModel& model, const SolidPictures& pictures) {
   SolidsStudy study;
   std::chrono::steady_clock::duration spent{};
-  for (const vision::SolidClass solid : kSolidKinds) {
+  for (const SolidKind solid : kSolidKinds) {
     for (int i = 0; i < pictures.per_class; ++i) {
       const SolidPicture picture = draw_picture(pictures, solid, i);
       const auto begin = std::chrono::steady_clock::now();
       const auto found = vision::classify_solid(picture.image, model);
       spent += std::chrono::steady_clock::now() - begin;
       const auto row = static_cast<std::size_t>(solid);
-      const std::size_t column = found ? static_cast<std::size_t>(found->solid) : vision::kSolidClasses;
+      const std::size_t column = found ? static_cast<std::size_t>(found->solid) : kSolidKinds.size();
       ++study.confusion[row][column];
       ++study.by_elevation[band_of(picture.view)][row][column];
     }
@@ -116,7 +116,7 @@ SolidsStudy test_solids(const vision::SolidModel& model, const SolidPictures& pi
 
 std::string confusion_csv(const SolidsStudy& study) {
   std::vector<std::string> header{"view", "class"};
-  for (const vision::SolidClass solid : kSolidKinds) {
+  for (const SolidKind solid : kSolidKinds) {
     header.emplace_back(to_string(solid));
   }
   header.emplace_back("none");
@@ -139,7 +139,7 @@ Check check_solids(const std::vector<SolidsStudy>& studies, const std::vector<st
     }
   }
   Check check{.id = "R11", .passed = time_s <= kTimeLimit_s, .figures = {{"seeds", print_seeds(seeds)}}};
-  for (const vision::SolidClass solid : kSolidKinds) {
+  for (const SolidKind solid : kSolidKinds) {
     const double share = accuracy(all, solid);
     const double limit = kPaperAccuracy[static_cast<std::size_t>(solid)] - kSlack;
     double worst = 1.0;

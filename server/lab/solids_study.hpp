@@ -29,7 +29,7 @@ struct SolidPicture {
   Image image;
 };
 /// Picture number `index` of a solid.
-[[nodiscard]] SolidPicture draw_picture(const SolidPictures& pictures, vision::SolidClass solid, int index);
+[[nodiscard]] SolidPicture draw_picture(const SolidPictures& pictures, SolidKind solid, int index);
 
 struct TrainedSolids {
   vision::SolidModel model;
@@ -41,8 +41,8 @@ struct TrainedSolids {
                                                  const vision::TrainingParams& params = {});
 
 /// Classes in the rows are true; the last column counts pictures in which no solid was found.
-using Confusion = std::array<std::array<int, vision::kSolidClasses + 1>, vision::kSolidClasses>;
-[[nodiscard]] double accuracy(const Confusion& confusion, vision::SolidClass solid);
+using Confusion = std::array<std::array<int, kSolidKinds.size() + 1>, kSolidKinds.size()>;
+[[nodiscard]] double accuracy(const Confusion& confusion, SolidKind solid);
 
 inline constexpr std::size_t kElevationBands = 4;  ///< of 10 degrees, from 20
 

@@ -146,11 +146,7 @@ void describe(config::Fields& f, PlacedTargetFile& target) {
 
 void describe(config::Fields& f, SolidFile& solid) {
   f.require("shape");
-  config::Choices<SolidKind> shapes;
-  for (const SolidKind kind : kSolidKinds) {
-    shapes.emplace_back(to_string(kind), kind);
-  }
-  f.choice("shape", solid.shape, shapes);
+  f.choice("shape", solid.shape, config::choices_of(kSolidKinds));
   f.require("pose");
   f.field("pose", solid.pose);
   f.field("size_m", solid.size_m);

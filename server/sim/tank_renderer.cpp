@@ -23,7 +23,7 @@ struct Surface3 {
   Vector3d normal = Vector3d::UnitZ();
 };
 
-int sides_of(const TankSolid& solid) { return solid.shape == SolidShape::kTriangularPrism ? 3 : 4; }
+int sides_of(const TankSolid& solid) { return solid.shape == SolidKind::kTriangularPrism ? 3 : 4; }
 
 /// Distance of a prism's axis from a side, of a regular polygon with sides of `size_m`.
 double inner_m(const TankSolid& solid) { return 0.5 * solid.size_m / std::tan(kPi / sides_of(solid)); }
@@ -49,7 +49,7 @@ class Body {
       return;
     }
     axes_ = Vector3d::Constant(solid.size_m);
-    if (solid.shape == SolidShape::kEllipsoid) {
+    if (solid.shape == SolidKind::kEllipsoid) {
       axes_.x() *= solid.elongation;
     }
     reach_m_ = axes_.maxCoeff();
@@ -288,7 +288,7 @@ std::vector<Point2> outline(const TankSolid& solid) {
     return corners;
   }
   constexpr int kCorners = 24;
-  const double long_m = solid.size_m * (solid.shape == SolidShape::kEllipsoid ? solid.elongation : 1.0);
+  const double long_m = solid.size_m * (solid.shape == SolidKind::kEllipsoid ? solid.elongation : 1.0);
   corners.reserve(kCorners);
   for (int i = 0; i < kCorners; ++i) {
     const double angle = kTwoPi * i / kCorners;

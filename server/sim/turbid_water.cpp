@@ -20,12 +20,12 @@ Image render_solid(const SolidView& view, const TurbidWater& water, Rng& rng) {
   return render_tank({solid}, eye, {}, water, rng);
 }
 
-SolidView draw_view(SolidShape shape, Rng& rng) {
+SolidView draw_view(SolidKind shape, Rng& rng) {
   SolidView view;
   view.shape = shape;
   const bool prism = is_prism(shape);
   view.size_m = prism ? rng.uniform(0.14, 0.24) : rng.uniform(0.07, 0.13);
-  view.elongation = prism ? rng.uniform(0.8, 1.6) : (shape == SolidShape::kEllipsoid ? rng.uniform(1.5, 2.2) : 1.0);
+  view.elongation = prism ? rng.uniform(0.8, 1.6) : (shape == SolidKind::kEllipsoid ? rng.uniform(1.5, 2.2) : 1.0);
   view.yaw_rad = rng.uniform(-kPi, kPi);
   view.elevation_rad = rng.uniform(deg_to_rad(20.0), deg_to_rad(60.0));
   view.distance_m = rng.uniform(0.9, 1.3);

@@ -10,11 +10,9 @@
 
 namespace seeker::sim {
 
-using SolidShape = SolidKind;
-
 /// A solid on the floor of a tank, as a world has it.
 struct TankSolid {
-  SolidShape shape = SolidShape::kSphere;
+  SolidKind shape = SolidKind::kSphere;
   Pose2 world_T_solid;      ///< x axis: an ellipsoid's long axis, across a side of a prism
   double size_m = 0.1;      ///< as in SolidView
   double elongation = 1.0;  ///< as in SolidView
@@ -23,7 +21,7 @@ struct TankSolid {
 
 /// A solid as it lies, and from where it is seen.
 struct SolidView {
-  SolidShape shape = SolidShape::kSphere;
+  SolidKind shape = SolidKind::kSphere;
   double size_m = 0.15;        ///< radius of sphere and ellipsoid (the short axis); side of a prism's base
   double elongation = 1.0;     ///< ellipsoid: long over short axis, lying; prism: height over side, standing
   double yaw_rad = 0.0;        ///< about the vertical
@@ -59,7 +57,7 @@ inline constexpr double kTankFocal_px = 700.0;
 
 /// Draws a view of this shape (elevation 20 to 60 degrees, any heading, ellipsoids at least 1.5 times as long as thick)
 /// and water of any quality that a camera still sees something in.
-[[nodiscard]] SolidView draw_view(SolidShape shape, Rng& rng);
+[[nodiscard]] SolidView draw_view(SolidKind shape, Rng& rng);
 [[nodiscard]] TurbidWater draw_water(Rng& rng);
 
 }  // namespace seeker::sim

@@ -18,17 +18,17 @@ tl::unexpected<Error> no_picture() {
 
 /// How far behind the lower edge of what is seen its middle stands, as a share of the width that is seen: the mean over
 /// the views of spec S6.
-double share_behind(SolidClass solid) {
+double share_behind(SolidKind solid) {
   switch (solid) {
-    case SolidClass::kSphere: return 0.18;
-    case SolidClass::kTriangularPrism: return 0.40;
-    case SolidClass::kQuadrangularPrism: return 0.50;
-    case SolidClass::kEllipsoid: return 0.14;
+    case SolidKind::kSphere: return 0.18;
+    case SolidKind::kTriangularPrism: return 0.40;
+    case SolidKind::kQuadrangularPrism: return 0.50;
+    case SolidKind::kEllipsoid: return 0.14;
   }
   return 0.0;
 }
 
-void place_on_floor(const PhotoView& view, SolidClass solid, Sighting& sighting) {
+void place_on_floor(const PhotoView& view, SolidKind solid, Sighting& sighting) {
   const double low_px = sighting.box.top_px + sighting.box.height_px - 1.0;
   sighting.bearing_base_rad = view.bearing_rad(sighting.u_px, sighting.v_px);
   const std::optional<double> near_m = view.floor_range_m(sighting.u_px, low_px);
@@ -65,7 +65,7 @@ Status validate(const SolidModel& model) {
     return network;
   }
   if (model.network.inputs != static_cast<int>(kSolidFeatures) ||
-      model.network.outputs != static_cast<int>(kSolidClasses)) {
+      model.network.outputs != static_cast<int>(kSolidKinds.size())) {
     return refuse("the network is not for 14 moments and 4 classes; train it with seeker-lab train-solids");
   }
   if (!(model.min_probability >= 0.0 && model.min_probability <= 1.0)) {
@@ -92,10 +92,10 @@ std::optional<ClassifiedSolid> classify_solid(const Image& picture, const SolidM
     return std::nullopt;
   }
   const std::vector<double> output = run_network(model.network, {sight->features.begin(), sight->features.end()});
-  SEEKER_ASSERT(output.size() == kSolidClasses);
+  SEEKER_ASSERT(output.size() == kSolidKinds.size());
   ClassifiedSolid solid;
   std::copy(output.begin(), output.end(), solid.probabilities.begin());
-  solid.solid = static_cast<SolidClass>(std::max_element(output.begin(), output.end()) - output.begin());
+  solid.solid = static_cast<SolidKind>(std::max_element(output.begin(), output.end()) - output.begin());
   solid.box = sight->box;
   return solid;
 }

@@ -18,9 +18,6 @@
 
 namespace seeker::vision {
 
-using SolidClass = SolidKind;
-inline constexpr std::size_t kSolidClasses = kSolidKinds.size();
-
 /// What training gives.
 struct SolidModel {
   SegmentParams segment;
@@ -42,15 +39,15 @@ struct SolidSight {
 [[nodiscard]] std::optional<SolidSight> look_at_solid(const Image& picture, const SegmentParams& params);
 
 struct ClassifiedSolid {
-  SolidClass solid = SolidClass::kSphere;
-  std::array<double, kSolidClasses> probabilities{};
+  SolidKind solid = SolidKind::kSphere;
+  std::array<double, kSolidKinds.size()> probabilities{};
   PixelBox box;
 };
 /// The most probable class, however improbable. Nothing where no solid is seen. `model` must be valid.
 [[nodiscard]] std::optional<ClassifiedSolid> classify_solid(const Image& picture, const SolidModel& model);
 
 /// Which solid each target is; nothing where a target is none.
-using WantedSolids = std::vector<std::optional<SolidClass>>;
+using WantedSolids = std::vector<std::optional<SolidKind>>;
 
 /// Sighting::target counts in `wanted`; score is the probability. There is one sighting at most.
 class SolidRecogniser final : public Recogniser {

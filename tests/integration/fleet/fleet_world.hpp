@@ -46,6 +46,14 @@ inline LineMap east(std::uint64_t building = 1) {
 /// Where the map `east` lies in the map `west`.
 inline Pose2 west_T_east() { return inverse(fleet::drive(kWest).front()) * fleet::drive(kEast).front(); }
 
+/// A main robot with a folder of its own.
+inline app::FleetLeaderParams leader_params(const std::string& folder) {
+  app::FleetLeaderParams params;
+  params.folder = fresh_folder(folder);
+  params.robot_id = "main";
+  return params;
+}
+
 /// A robot with a toy map, which remembers what its fleet tells it.
 class ToyHost {
  public:

@@ -15,13 +15,6 @@ using app::FleetLeader;
 using app::FleetLeaderParams;
 using app::PackedMap;
 
-FleetLeaderParams params(const std::string& folder) {
-  FleetLeaderParams params;
-  params.folder = fresh_folder(folder);
-  params.robot_id = "main";
-  return params;
-}
-
 TEST(FleetPieces, AMapComesOutAsItWentIn) {
   const LineMap map = east();
   const PackedMap robot = packed(map);
@@ -44,7 +37,7 @@ TEST(FleetPieces, APieceStaysTheSameWhenTheMapAroundItMoves) {
 }
 
 TEST(FleetLeader, MergesARobotOfTheSameBuilding) {
-  FleetLeader leader(params("fleet_merge"), holds(west()));
+  FleetLeader leader(leader_params("fleet_merge"), holds(west()));
   join(leader, packed(east()));
   const api::FleetMember member = until(leader, "r1", [](const auto& m) { return m.main_T_map.has_value(); });
   EXPECT_THAT(*member.main_T_map, Pose2Near(west_T_east(), 0.15, 0.03));
@@ -59,7 +52,7 @@ TEST(FleetLeader, MergesARobotOfTheSameBuilding) {
 }
 
 TEST(FleetLeader, KeepsARobotOfAnotherBuildingApart) {
-  FleetLeader leader(params("fleet_other"), holds(west()));
+  FleetLeader leader(leader_params("fleet_other"), holds(west()));
   join(leader, packed(east()));
   static_cast<void>(until(leader, "r1", api::FleetState::kMerged));
   join(leader, packed(east(12), "stranger", 2));
@@ -71,7 +64,7 @@ TEST(FleetLeader, KeepsARobotOfAnotherBuildingApart) {
 }
 
 TEST(FleetLeader, SplitTakesARobotOutAndMergeTakesItInAgain) {
-  FleetLeader leader(params("fleet_split"), holds(west()));
+  FleetLeader leader(leader_params("fleet_split"), holds(west()));
   join(leader, packed(east()));
   static_cast<void>(until(leader, "r1", api::FleetState::kMerged));
   const auto split = leader.decide({"r1", api::FleetVerb::kSplit, 0});
@@ -84,7 +77,7 @@ TEST(FleetLeader, SplitTakesARobotOutAndMergeTakesItInAgain) {
 }
 
 TEST(FleetLeader, RefusesANamesakeAndLeavesTheFirstAsItWas) {
-  FleetLeaderParams patient = params("fleet_namesake");
+  FleetLeaderParams patient = leader_params("fleet_namesake");
   patient.silence_limit = std::chrono::hours(1);
   FleetLeader leader(patient, holds(west()));
   const PackedMap first = packed(east(), "r1", 1);
@@ -95,7 +88,7 @@ TEST(FleetLeader, RefusesANamesakeAndLeavesTheFirstAsItWas) {
 }
 
 TEST(FleetLeader, TakesOverAnIdWhoseRobotIsSilent) {
-  FleetLeaderParams quick = params("fleet_silent");
+  FleetLeaderParams quick = leader_params("fleet_silent");
   quick.silence_limit = Duration::zero();
   FleetLeader leader(quick, holds(west()));
   join(leader, packed(east(), "r1", 1));
@@ -103,7 +96,7 @@ TEST(FleetLeader, TakesOverAnIdWhoseRobotIsSilent) {
 }
 
 TEST(FleetLeader, GoesOnWithAPieceWhereItWasCut) {
-  FleetLeader leader(params("fleet_resume"), holds(west()));
+  FleetLeader leader(leader_params("fleet_resume"), holds(west()));
   const PackedMap robot = packed(east());
   const api::PieceHash hash = leader.announce(robot.manifest)->missing.front().hash;
   const std::vector<std::uint8_t>& bytes = *robot.pieces.at(hash);
@@ -115,7 +108,7 @@ TEST(FleetLeader, GoesOnWithAPieceWhereItWasCut) {
 }
 
 TEST(FleetLeader, ThrowsAwayAPieceThatIsNotWhatItsHashSays) {
-  FleetLeader leader(params("fleet_corrupt"), holds(west()));
+  FleetLeader leader(leader_params("fleet_corrupt"), holds(west()));
   const PackedMap robot = packed(east());
   const api::PieceHash hash = leader.announce(robot.manifest)->missing.front().hash;
   std::vector<std::uint8_t> altered = *robot.pieces.at(hash);
@@ -128,7 +121,7 @@ TEST(FleetLeader, ThrowsAwayAPieceThatIsNotWhatItsHashSays) {
 }
 
 TEST(FleetLeader, ARobotThatLiesAboutItsPiecesIsNotMerged) {
-  FleetLeader leader(params("fleet_liar"), holds(west()));
+  FleetLeader leader(leader_params("fleet_liar"), holds(west()));
   PackedMap liar = packed(east());
   const std::vector<std::uint8_t> noise(100, 7);
   liar.manifest.nodes.front().hash = wire::sha256_of(noise);
@@ -141,7 +134,7 @@ TEST(FleetLeader, ARobotThatLiesAboutItsPiecesIsNotMerged) {
 }
 
 TEST(FleetLeader, ARestartLosesNothing) {
-  const FleetLeaderParams same = params("fleet_restart");
+  const FleetLeaderParams same = leader_params("fleet_restart");
   {
     FleetLeader leader(same, holds(west()));
     join(leader, packed(east()));

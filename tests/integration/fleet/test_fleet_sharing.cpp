@@ -10,10 +10,9 @@ namespace {
 using app::FleetLeader;
 using app::FleetLeaderParams;
 
-FleetLeaderParams params(const std::string& folder) {
-  FleetLeaderParams params;
-  params.folder = fresh_folder(folder);
-  params.robot_id = "main";
+/// A main robot that does not give up on the silent.
+FleetLeaderParams patient_params(const std::string& folder) {
+  FleetLeaderParams params = leader_params(folder);
   params.silence_limit = std::chrono::hours(1);
   return params;
 }
@@ -41,7 +40,7 @@ const Point2 kPlace(2.0, 1.0);
 
 TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
   const ToyHost main(west(), at_place("main", kPlace));
-  FleetLeader leader(params("share_frames"), main.host());
+  FleetLeader leader(patient_params("share_frames"), main.host());
   join(leader, packed(east(), "r1"));
   join(leader, packed(fleet::toy_map(fleet::office(1), fleet::drive(kEast), 21), "r2"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
@@ -68,7 +67,7 @@ TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
 }
 
 TEST(FleetSharing, ASilentRobotsGoalsAreAnybodys) {
-  FleetLeaderParams impatient = params("share_silent");
+  FleetLeaderParams impatient = patient_params("share_silent");
   impatient.silence_limit = Duration::zero();
   const ToyHost main(west(), at_place("main", kPlace));
   FleetLeader leader(impatient, main.host());
@@ -83,7 +82,7 @@ TEST(FleetSharing, ASilentRobotsGoalsAreAnybodys) {
 
 TEST(FleetSharing, ARobotThatWasTakenOutHearsNothingAndNobodyHearsOfIt) {
   const ToyHost main(west(), at_place("main", kPlace));
-  FleetLeader leader(params("share_split"), main.host());
+  FleetLeader leader(patient_params("share_split"), main.host());
   join(leader, packed(east(), "r1"));
   static_cast<void>(until(leader, "r1", placed));
   static_cast<void>(told(leader, "r1", at_place("r1", kPlace)));
@@ -98,7 +97,7 @@ TEST(FleetSharing, ARobotThatWasTakenOutHearsNothingAndNobodyHearsOfIt) {
 }
 
 TEST(FleetSharing, WhoHasNotAnnouncedItselfIsToldToDoSo) {
-  FleetLeader leader(params("share_stranger"), holds(west()));
+  FleetLeader leader(patient_params("share_stranger"), holds(west()));
   EXPECT_EQ(leader.share({"r1", 1, {}}).error().code, Errc::kNotFound);
   join(leader, packed(east(), "r1", 1));
   EXPECT_TRUE(leader.share({"r1", 1, {}}));
@@ -106,7 +105,7 @@ TEST(FleetSharing, WhoHasNotAnnouncedItselfIsToldToDoSo) {
 }
 
 TEST(FleetSharing, PlacesAreKeptOverRestartsOfBothButNotInANewMap) {
-  const FleetLeaderParams same = params("share_restart");
+  const FleetLeaderParams same = patient_params("share_restart");
   const app::PackedMap robot = packed(east(), "r1", 1);
   {
     FleetLeader leader(same, holds(west()));
@@ -133,7 +132,7 @@ TEST(FleetSharing, PlacesAreKeptOverRestartsOfBothButNotInANewMap) {
 }
 
 TEST(FleetChain, ARobotIsMergedOverAnotherThatItMeets) {
-  FleetLeader leader(params("chain"), holds(in_two_offices(kWest, 11)));
+  FleetLeader leader(patient_params("chain"), holds(in_two_offices(kWest, 11)));
   join(leader, packed(in_two_offices(kFarEast, 13), "r2"));
   const auto apart = until(leader, "r2", [](const auto& m) { return m.state != api::FleetState::kWaiting; });
   EXPECT_NE(apart.state, api::FleetState::kMerged) << apart.reason;
@@ -146,7 +145,7 @@ TEST(FleetChain, ARobotIsMergedOverAnotherThatItMeets) {
 }
 
 TEST(FleetOperator, IsToldOfWhatIsNotCertainAndHasTheLastWord) {
-  FleetLeaderParams strict = params("operator");
+  FleetLeaderParams strict = patient_params("operator");
   strict.merge.sure_shared_wall_m = 10'000.0;
   const ToyHost main(west(), at_place("main", kPlace));
   FleetLeader leader(strict, main.host());

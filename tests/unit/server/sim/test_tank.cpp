@@ -49,7 +49,7 @@ Blob bright(const Image& image) {
   return blob;
 }
 
-constexpr TankSolid sphere_at(double x_m, double y_m) { return {SolidShape::kSphere, {x_m, y_m, 0.0}, 0.1, 1.0, 0.9}; }
+constexpr TankSolid sphere_at(double x_m, double y_m) { return {SolidKind::kSphere, {x_m, y_m, 0.0}, 0.1, 1.0, 0.9}; }
 
 TEST(TankCamera, ShowsASolidWhereItsGeometrySays) {
   Simulation simulation = make(tank({sphere_at(1.0, 0.2)}), with_tank_camera());
@@ -105,7 +105,7 @@ TEST(TankSolids, AreBodiesForLidarSonarAndBase) {
 }
 
 TEST(TankSolids, OutlinesAreTheSolidsOwn) {
-  for (const SolidShape shape : kSolidKinds) {
+  for (const SolidKind shape : kSolidKinds) {
     const TankSolid solid{shape, {2.0, 1.0, 0.5}, 0.2, 1.5, 0.7};
     double signed_area = 0.0;
     const std::vector<Point2> corners = outline(solid);

@@ -100,10 +100,10 @@ TEST(SmallNetwork, RefusesWhatDoesNotFit) {
   EXPECT_FALSE(validate(network));
 }
 
-sim::SolidView seen_from(sim::SolidShape shape, double elevation_deg) {
+sim::SolidView seen_from(SolidKind shape, double elevation_deg) {
   sim::SolidView view;
   view.shape = shape;
-  view.size_m = shape == sim::SolidShape::kSphere ? 0.1 : 0.18;
+  view.size_m = shape == SolidKind::kSphere ? 0.1 : 0.18;
   view.elongation = 1.2;
   view.yaw_rad = 0.4;
   view.elevation_rad = deg_to_rad(elevation_deg);
@@ -116,7 +116,7 @@ TEST(SegmentSolid, FindsTheDiscOfASphereInTurbidWater) {
     water.attenuation_per_m = attenuation;
     water.lamp_turn_u = 0.4;
     Rng rng(3);
-    const Image picture = sim::render_solid(seen_from(sim::SolidShape::kSphere, 40.0), water, rng);
+    const Image picture = sim::render_solid(seen_from(SolidKind::kSphere, 40.0), water, rng);
     const auto sight = look_at_solid(picture, {});
     ASSERT_TRUE(sight);
     const double diameter_px = 2.0 * 700.0 * 0.1 / std::sqrt(1.1 * 1.1 - 0.1 * 0.1);
@@ -144,7 +144,7 @@ TEST(TurbidWater, TakesContrastWithTheWay) {
     water.attenuation_per_m = attenuation;
     water.noise = 0.0;
     Rng rng(1);
-    const Image picture = sim::render_solid(seen_from(sim::SolidShape::kQuadrangularPrism, 40.0), water, rng);
+    const Image picture = sim::render_solid(seen_from(SolidKind::kQuadrangularPrism, 40.0), water, rng);
     return *picture.at(320, 250) - *picture.at(60, 250);
   };
   EXPECT_GT(contrast(0.2), contrast(0.8) + 10);
@@ -165,17 +165,17 @@ SolidModel quick_model() {
   }
   Rng rng(1);
   SolidModel model;
-  model.network = train_network(samples, static_cast<int>(kSolidClasses), {.epochs = 400}, rng)->network;
+  model.network = train_network(samples, static_cast<int>(kSolidKinds.size()), {.epochs = 400}, rng)->network;
   return model;
 }
 
 TEST(SolidRecogniser, FindsWhatIsWantedAndKeepsSilentAboutTheRest) {
   const SolidModel model = quick_model();
   Rng rng(77);
-  sim::SolidView view = seen_from(sim::SolidShape::kSphere, 40.0);
+  sim::SolidView view = seen_from(SolidKind::kSphere, 40.0);
   view.off_u_px = 100.0;
   const Image picture = sim::render_solid(view, {}, rng);
-  const auto spheres = SolidRecogniser::make({SolidClass::kEllipsoid, SolidClass::kSphere}, model, {});
+  const auto spheres = SolidRecogniser::make({SolidKind::kEllipsoid, SolidKind::kSphere}, model, {});
   ASSERT_TRUE(spheres) << spheres.error().message;
   const auto report = (*spheres)->recognise(picture);
   ASSERT_TRUE(report);
@@ -185,12 +185,12 @@ TEST(SolidRecogniser, FindsWhatIsWantedAndKeepsSilentAboutTheRest) {
   EXPECT_GT(sighting.score, 0.5);
   EXPECT_NEAR(sighting.u_px, 420.0, 6.0);
   EXPECT_LT(sighting.bearing_base_rad, 0.0);  // right of the middle
-  const auto prisms = SolidRecogniser::make({SolidClass::kTriangularPrism}, model, {});
+  const auto prisms = SolidRecogniser::make({SolidKind::kTriangularPrism}, model, {});
   EXPECT_TRUE((*prisms)->recognise(picture)->sightings.empty());
   EXPECT_FALSE((*prisms)->recognise(Image()));
   EXPECT_EQ((*prisms)->explain(picture)->size(), 3U);
   EXPECT_FALSE(SolidRecogniser::make({}, model, {}));
-  EXPECT_FALSE(SolidRecogniser::make({SolidClass::kSphere}, SolidModel{}, {}));
+  EXPECT_FALSE(SolidRecogniser::make({SolidKind::kSphere}, SolidModel{}, {}));
 }
 
 /// What the camera of config/robots/tank.yaml is told about itself.
