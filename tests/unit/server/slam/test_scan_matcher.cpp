@@ -128,7 +128,8 @@ TEST(ScanMatcher, OfPlacesThatLookAlikeTheExpectedOneIsTaken) {
   const auto points = oriented_points(scan_at(walls, pose, 1.0, rng, kPi, 6.0));
   for (const double along_m : {-0.2, 0.2}) {
     const MatchResult match = ScanMatcher().match_widely(reference, points, pose * Pose2{along_m, 0.0, 0.0}, kUnsure);
-    EXPECT_THAT(match.map_T_base, Pose2Near(pose, 0.03, 0.01)) << along_m;
+    // Not a pillar on; exact it need not be, for the wall between the pillars says nothing along itself.
+    EXPECT_THAT(match.map_T_base, Pose2Near(pose, 0.15, 0.01)) << along_m;
   }
 }
 
