@@ -14,6 +14,7 @@
 #include "server/fleet/map_merger.hpp"
 #include "server/fleet/topology_map.hpp"
 #include "server/lab/experiment.hpp"
+#include "server/lab/fleet_watch.hpp"
 #include "server/lab/json_printer.hpp"
 #include "server/lab/resumable.hpp"
 #include "server/lab/table.hpp"
@@ -206,6 +207,9 @@ void describe(config::Fields& f, FleetResult& result) {
   f.field("wall_time_s", result.wall_time_s);
   f.field("path_length_m", result.path_length_m);
   f.field("contacts", result.contacts);
+  f.field("robot_contacts", result.robot_contacts);
+  f.field("waited_s", result.waited_s);
+  f.field("first_end_s", result.first_end_s);
   f.field("pairs", result.pairs);
   f.field("merged", result.merged);
   f.field("wrong", result.wrong);
@@ -241,7 +245,14 @@ Result<FleetResult> run_fleet(const FleetSpec& spec) {
     members.push_back(*std::move(member));
   }
   Exchange exchange(members, spec.merge_period_s);
-  devices->barrier->between = [&exchange](RobotTime now) { exchange.between(now); };
+  FleetWatch watch;
+  for (const auto& member : members) {
+    watch.add(member->id, *member->loop, *member->simulation);
+  }
+  devices->barrier->between = [&exchange, &watch](RobotTime now) {
+    exchange.between(now);
+    watch.look(now);
+  };
   const auto started = std::chrono::steady_clock::now();
   run_all(spec, members);
 
@@ -261,6 +272,10 @@ Result<FleetResult> run_fleet(const FleetSpec& spec) {
     result.contacts += member->simulation->truth().contacts;
   }
   exchange.fill(result);
+  result.robot_contacts = watch.touches().of_robots;
+  result.waited_s = watch.waited_s();
+  result.first_end_s = watch.first_end_s();
+  result.log = watch.log();
   return result;
 }
 
@@ -282,6 +297,10 @@ Result<std::vector<FleetResult>> fleet_missing(const std::vector<FleetSpec>& spe
     std::error_code error;
     std::filesystem::create_directories(kind.file(spec).parent_path(), error);
     if (const Status kept = image::write_file(kind.file(spec), to_json(*result)); !kept) {
+      return tl::unexpected<Error>(kept.error());
+    }
+    const std::filesystem::path log = std::filesystem::path(kind.file(spec)).replace_extension(".log");
+    if (const Status kept = image::write_file(log, result->log); !kept) {
       return tl::unexpected<Error>(kept.error());
     }
     return result;

@@ -18,7 +18,7 @@ struct FleetSpec : SimSpec {
 };
 
 struct FleetResult {
-  int schema = 1;
+  int schema = 2;
   std::string world;
   std::uint64_t seed = 0;
   std::string settings;
@@ -28,6 +28,10 @@ struct FleetResult {
   double wall_time_s = 0.0;
   double path_length_m = 0.0;  ///< of all
   int contacts = 0;
+  int robot_contacts = 0;    ///< of them, with another robot
+  double waited_s = 0.0;     ///< robot time that all together stood waiting for others
+  double first_end_s = 0.0;  ///< when the first robot had ended
+  std::string log;           ///< see FleetWatch::log(); in a file of its own beside this
   int pairs = 0;             ///< of robots
   int merged = 0;            ///< of them, merged at the end
   int wrong = 0;             ///< merges that were off by more than kWrongMerge_m or kWrongMerge_rad, at any time
@@ -44,7 +48,7 @@ inline constexpr double kWrongMerge_rad = 0.17;
 [[nodiscard]] Result<std::string> settings_of(const FleetSpec& spec);
 /// Runs until every robot has ended. Errors: those of the files, too few starts, a refused mission.
 [[nodiscard]] Result<FleetResult> run_fleet(const FleetSpec& spec);
-/// See resume_runs(); out/runs/WORLD/fleet-N/seed-S.json.
+/// See resume_runs(); out/runs/WORLD/fleet-N/seed-S.json, and seed-S.log.
 [[nodiscard]] Result<std::vector<FleetResult>> fleet_missing(const std::vector<FleetSpec>& specs,
                                                              const std::filesystem::path& out, bool show_progress);
 

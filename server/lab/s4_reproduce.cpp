@@ -44,12 +44,13 @@ std::vector<FleetSpec> fleet_specs(const ReproduceParams& params) {
 
 Table fleet_table(const std::vector<FleetResult>& runs) {
   Table table({"seed", "robots", "merged", "pairs", "wrong", "merged_at_s", "error_m", "error_deg", "complete",
-               "world_time_s", "path_m", "contacts"});
+               "world_time_s", "path_m", "contacts", "robot_contacts", "waited_s", "first_end_s"});
   for (const FleetResult& run : runs) {
     table.add({std::to_string(run.seed), std::to_string(run.robots), std::to_string(run.merged),
                std::to_string(run.pairs), std::to_string(run.wrong), fixed(run.merged_at_s, 1), fixed(run.error_m, 3),
                fixed(run.error_deg, 2), std::to_string(run.complete), fixed(run.world_time_s, 1),
-               fixed(run.path_length_m, 1), std::to_string(run.contacts)});
+               fixed(run.path_length_m, 1), std::to_string(run.contacts), std::to_string(run.robot_contacts),
+               fixed(run.waited_s, 1), fixed(run.first_end_s, 1)});
   }
   return table;
 }
