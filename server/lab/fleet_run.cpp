@@ -272,7 +272,7 @@ Result<FleetResult> run_fleet(const FleetSpec& spec) {
     result.contacts += member->simulation->truth().contacts;
   }
   exchange.fill(result);
-  result.robot_contacts = watch.touches().of_robots;
+  result.robot_contacts = watch.robot_touches();
   result.waited_s = watch.waited_s();
   result.first_end_s = watch.first_end_s();
   result.log = watch.log();

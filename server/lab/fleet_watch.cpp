@@ -61,7 +61,7 @@ void FleetWatch::look_at_touches(std::size_t index, RobotTime now) {
              speed_of(other.velocity);
     }
   }
-  (is_robot ? touches_.of_robots : touches_.of_things) += 1;
+  robot_touches_ += is_robot ? 1 : 0;
   note(now, robot,
        "touched at " + text(truth.world_T_base.translation()) + " with " + speed_of(robot.velocity) + ": " + what);
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,12 +11,6 @@
 
 namespace seeker::lab {
 
-/// A touch of two robots counts for each of them that drove when it happened.
-struct FleetTouches {
-  int of_robots = 0;  ///< another robot
-  int of_things = 0;  ///< walls, furniture
-};
-
 class FleetWatch {
  public:
   /// Both must outlive the watch.
@@ -25,7 +18,8 @@ class FleetWatch {
   /// Between two ticks, while no robot's loop runs.
   void look(RobotTime now);
 
-  [[nodiscard]] const FleetTouches& touches() const { return touches_; }
+  /// Touches of another robot; one of two robots counts for each of them that drove when it happened.
+  [[nodiscard]] int robot_touches() const { return robot_touches_; }
   /// Robot time that all robots together stood and waited for others, seconds.
   [[nodiscard]] double waited_s() const { return waited_s_; }
   /// When the first robot had ended; 0 when none has.
@@ -49,7 +43,7 @@ class FleetWatch {
   void note(RobotTime now, const Watched& robot, const std::string& what);
 
   std::vector<Watched> robots_;
-  FleetTouches touches_;
+  int robot_touches_ = 0;
   double waited_s_ = 0.0;
   double first_end_s_ = 0.0;
   RobotTime last_;
