@@ -236,15 +236,14 @@ void LineSlam::follow(Scan& scan) {
 
 MatchResult LineSlam::match_points(Scan& scan) {
   const ReferenceCloud& reference = cloud_.around(scan.predicted);
-  if (!scan.gap) {
-    MatchResult match = matcher_.match(reference, scan.points, scan.predicted);
-    if (match.inlier_ratio >= params_.points.good_ratio) {
-      return match;
-    }
+  MatchResult match = matcher_.match(reference, scan.points, scan.predicted);
+  if (!scan.gap && match.inlier_ratio >= params_.points.good_ratio) {
+    return match;
   }
   // After a gap even a fair match may be a wrong one, and a poor one may only have begun in the wrong place.
   ++counts_.searched;
-  return matcher_.match_widely(reference, scan.points, scan.predicted, lines_->robot_covariance_map());
+  return matcher_.match_widely(reference, scan.points, scan.predicted, lines_->robot_covariance_map(),
+                               std::move(match));
 }
 
 bool LineSlam::believable(const MatchResult& match, const Pose2& predicted) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "server/lines/line_fit.hpp"
+
 namespace seeker::slam {
 namespace {
 
@@ -37,21 +39,12 @@ lines::RangeNoise estimated_noise(const Returns& returns, double step_rad) {
   return estimator.estimate(returns.ranges_m, squares_m2, {});
 }
 
-/// Sums over the first points, so that those of any run are a difference.
-struct RunSums {
-  double x = 0.0;
-  double y = 0.0;
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-};
-
-std::vector<RunSums> run_sums(const std::vector<Point2>& points) {
-  std::vector<RunSums> sums(points.size() + 1);
+/// Over the first points, so that those of any run are a difference.
+std::vector<lines::Moments> running_sums(const std::vector<Point2>& points) {
+  std::vector<lines::Moments> sums(points.size() + 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point2& p = points[i];
-    const RunSums& s = sums[i];
-    sums[i + 1] = {s.x + p.x(), s.y + p.y(), s.xx + p.x() * p.x(), s.xy + p.x() * p.y(), s.yy + p.y() * p.y()};
+    sums[i + 1] = sums[i];
+    sums[i + 1].add(points[i].x(), points[i].y(), 1.0);
   }
   return sums;
 }
@@ -79,27 +72,17 @@ Run nearby(const Returns& returns, std::size_t centre, int neighbours, double ra
 }
 
 /// Of the line through the run of points, turned towards the sensor; nothing when they form none.
-std::optional<Point2> normal_of(const std::vector<RunSums>& sums, const Run& run, const Point2& centre, int min_points,
-                                double max_thickness_ratio) {
-  const RunSums& before = sums[run.first];
-  const RunSums& after = sums[run.last + 1];
-  const auto count = static_cast<double>(run.last - run.first + 1);
-  if (count < min_points) {
+std::optional<Point2> normal_of(const std::vector<lines::Moments>& sums, const Run& run, const Point2& centre,
+                                int min_points, double max_thickness_ratio) {
+  const lines::Moments moments = sums[run.last + 1] - sums[run.first];
+  if (moments.w < min_points) {
     return std::nullopt;
   }
-  const Point2 mean((after.x - before.x) / count, (after.y - before.y) / count);
-  const double cxx = (after.xx - before.xx) / count - mean.x() * mean.x();
-  const double cxy = (after.xy - before.xy) / count - mean.x() * mean.y();
-  const double cyy = (after.yy - before.yy) / count - mean.y() * mean.y();
-  const double half_gap = std::hypot((cxx - cyy) / 2.0, cxy);
-  const double large = (cxx + cyy) / 2.0 + half_gap;
-  const double small = std::max(0.0, (cxx + cyy) / 2.0 - half_gap);
-  if (large <= 0.0 || small > max_thickness_ratio * max_thickness_ratio * large) {
+  const lines::LineFit fit = lines::fit_line(moments);
+  if (fit.along_m2 <= 0.0 || fit.across_m2 > max_thickness_ratio * max_thickness_ratio * fit.along_m2) {
     return std::nullopt;
   }
-  const double along_rad = 0.5 * std::atan2(2.0 * cxy, cxx - cyy);
-  const Point2 normal(-std::sin(along_rad), std::cos(along_rad));
-  return normal.dot(centre) > 0.0 ? Point2(-normal) : normal;
+  return fit.normal.dot(centre) > 0.0 ? Point2(-fit.normal) : fit.normal;
 }
 
 }  // namespace
@@ -109,7 +92,7 @@ std::vector<OrientedPoint> oriented_points(const LaserScan& scan, const NormalPa
   const Returns returns = returns_of(scan);
   const double step_rad = std::abs(scan.angle_step_rad);
   const lines::RangeNoise known = noise ? *noise : estimated_noise(returns, step_rad);
-  const std::vector<RunSums> sums = run_sums(returns.p);
+  const std::vector<lines::Moments> sums = running_sums(returns.p);
   std::vector<OrientedPoint> points;
   points.reserve(returns.p.size());
   for (std::size_t i = 0; i < returns.p.size(); ++i) {

@@ -32,7 +32,7 @@ struct NormalParams {
 
 /// Points of the scan in the frame `base` that lie on something like a line; the rest (edges, leaves) is left out.
 /// Total least squares over the neighbouring beams, which end where the surface jumps. Without `noise` the scan itself
-/// tells how noisy it is. O(n).
+/// tells how noisy it is.
 [[nodiscard]] std::vector<OrientedPoint> oriented_points(const LaserScan& scan, const NormalParams& params = {},
                                                          const std::optional<lines::RangeNoise>& noise = std::nullopt);
 

@@ -34,14 +34,13 @@ bool ScanMapTracker::believable(const MatchResult& match, const Pose2& predicted
 
 MatchResult ScanMapTracker::best_match(const std::vector<OrientedPoint>& points_base, const Pose2& predicted) {
   const ReferenceCloud& reference = cloud_.around(predicted);
-  if (!moved(matched_pose_, predicted, params_.gap_m, params_.gap_rad)) {
-    MatchResult match = matcher_.match(reference, points_base, predicted);
-    if (match.inlier_ratio >= params_.good_ratio) {
-      return match;
-    }
+  MatchResult match = matcher_.match(reference, points_base, predicted);
+  const bool gap = moved(matched_pose_, predicted, params_.gap_m, params_.gap_rad);
+  if (!gap && match.inlier_ratio >= params_.good_ratio) {
+    return match;
   }
   // After a gap even a fair match may be a wrong one, and a poor one may only have begun in the wrong place.
-  return matcher_.match_widely(reference, points_base, predicted, odometry_.estimate().covariance);
+  return matcher_.match_widely(reference, points_base, predicted, odometry_.estimate().covariance, std::move(match));
 }
 
 bool ScanMapTracker::is_new_space(const std::vector<OrientedPoint>& points_base, const Pose2& pose) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -205,7 +206,7 @@ std::vector<Pose2> ScanMatcher::search(const ReferenceCloud& reference, const st
 }
 
 MatchResult ScanMatcher::match_widely(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
-                                      const Pose2& guess, const Matrix3& covariance) const {
+                                      const Pose2& guess, const Matrix3& covariance, MatchResult from_guess) const {
   // Places between the steps of the grid are no surprise.
   const Eigen::Vector3d steps(params_.search_step_m, params_.search_step_m, params_.search_step_rad);
   const Matrix3 widened = covariance + steps.cwiseAbs2().asDiagonal().toDenseMatrix() / 12.0;
@@ -214,7 +215,7 @@ MatchResult ScanMatcher::match_widely(const ReferenceCloud& reference, const std
   const auto rank = [&](const MatchResult& match) {
     return match.inliers - count * handicap(expected, match.map_T_base);
   };
-  MatchResult best = match(reference, points_base, guess);
+  MatchResult best = std::move(from_guess);
   for (const Pose2& start : search(reference, points_base, expected)) {
     MatchResult other = match(reference, points_base, start);
     if (rank(other) > rank(best)) {

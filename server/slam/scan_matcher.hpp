@@ -55,11 +55,11 @@ class ScanMatcher {
   /// guess is kept.
   [[nodiscard]] MatchResult match(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
                                   const Pose2& guess) const;
-  /// After a gap of up to search_m / search_rad: the best of the matches from `guess` and from the places that a
+  /// After a gap of up to search_m / search_rad: the best of the match `from_guess` and of those from the places that a
   /// search of the whole window finds on the coarse grid. `covariance` of the guess, of (x, y, theta) in the frame
   /// `map`: the less a place was to be expected, the more points it must explain.
   [[nodiscard]] MatchResult match_widely(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
-                                         const Pose2& guess, const Matrix3& covariance) const;
+                                         const Pose2& guess, const Matrix3& covariance, MatchResult from_guess) const;
   [[nodiscard]] const MatchParams& params() const { return params_; }
 
  private:
