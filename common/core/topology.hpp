@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/core/grid.hpp"
 #include "common/core/pose2.hpp"
 
 namespace seeker {
@@ -61,6 +63,7 @@ struct Topology {
 struct RobotTopology {
   std::string robot_id;
   Pose2 map_T_base;
+  std::optional<Twist2> velocity;  ///< of its base; nothing: the place is where it was last heard of
   Topology topology;
   std::optional<Point2> target_map;  ///< the goal it drives to
   bool active = true;                ///< false: it is gone or does not explore; its goals are anybody's
@@ -72,6 +75,8 @@ struct RobotTopology {
 struct FleetView {
   std::string robot_id;  ///< its own
   std::vector<RobotTopology> others;
+  /// What they have seen of the floor, cells as in OccupancyTile on multiples of its resolution; null: nothing is told.
+  std::shared_ptr<const Grid<std::uint8_t>> floor = nullptr;
 
   friend bool operator==(const FleetView&, const FleetView&) = default;
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "common/core/angle.hpp"
@@ -13,6 +14,9 @@ constexpr int kSectorNumbers = 5;
 constexpr int kWayNumbers = 2;
 /// A full turn in single precision may be a little more than in double.
 constexpr double kMaxSpan_rad = kTwoPi + 1e-5;
+/// Of a robot of a fleet.
+constexpr double kMaxSpeed_m_s = 10.0;
+constexpr double kMaxTurn_rad_s = 20.0;
 
 void write_place(const TopologyNode& from, pb::FleetPlace* to) {
   to->set_id(from.id);
@@ -151,6 +155,9 @@ void write(const RobotTopology& from, pb::FleetTopology* to) {
     write(*from.target_map, to->mutable_target_map());
   }
   to->set_active(from.active);
+  if (from.velocity) {
+    write(*from.velocity, to->mutable_velocity());
+  }
 }
 
 void read(const pb::FleetTopology& from, RobotTopology& to, Check& check) {
@@ -168,6 +175,14 @@ void read(const pb::FleetTopology& from, RobotTopology& to, Check& check) {
     to.target_map = read_point(true, from.target_map(), "target_map", check);
   }
   to.active = from.active();
+  if (from.has_velocity()) {
+    const auto scope = check.in("velocity");
+    read(from.velocity(), to.velocity.emplace(), check);
+    if (check.ok() &&
+        (std::abs(to.velocity->v_m_s) > kMaxSpeed_m_s || std::abs(to.velocity->omega_rad_s) > kMaxTurn_rad_s)) {
+      check.refuse("", Errc::kInvalidArgument, "is faster than any robot of ours");
+    }
+  }
 }
 
 void write(const api::FleetShare& from, pb::FleetShare* to) {

@@ -14,6 +14,7 @@
 #include "common/core/scan.hpp"
 #include "common/core/topology.hpp"
 #include "server/app/stereo_look.hpp"
+#include "server/nav/movers.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/slam/map_tracker.hpp"
 #include "server/vision/sighting.hpp"
@@ -35,6 +36,7 @@ struct Situation {
   std::string map_name;              ///< under which the map of segments was saved or loaded; empty: neither
   bool has_stereo = false;           ///< there is a stereo camera to look with
   const FleetView* fleet = nullptr;  ///< other robots, frame `map`; null: the robot is alone
+  std::vector<nav::Mover> movers;    ///< other robots where they are now, frame `map`
 };
 
 /// A line for the mission's log, without stamps: the executor adds them.

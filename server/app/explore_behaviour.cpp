@@ -107,7 +107,8 @@ Decision ExploreBehaviour::step(const Situation& situation) {
                                                  .segments_revision = segments_.revision(),
                                                  .belief = tracker.local_belief(),
                                                  .battery_v = situation.battery_v,
-                                                 .fleet = situation.fleet});
+                                                 .fleet = situation.fleet,
+                                                 .movers = situation.movers});
   Decision decision;
   decision.command = step.command;
   decision.step_done = step.step_done;

@@ -135,11 +135,12 @@ void FleetFollower::hear(const Result<api::FleetShared>& shared) {
   std::optional<FleetView> view = view_;
   const api::FleetState state = shared ? shared->state : api::FleetState::kWaiting;
   switch (state) {
-    case api::FleetState::kMerged: view = FleetView{params_.robot_id, shared->others}; break;
+    case api::FleetState::kMerged: view = FleetView{params_.robot_id, shared->others, nullptr}; break;
     case api::FleetState::kWaiting:
     case api::FleetState::kInsufficientOverlap:
       for (std::size_t k = 0; view && k < view->others.size(); ++k) {
         view->others[k].active = false;
+        view->others[k].velocity.reset();
       }
       break;
     case api::FleetState::kAmbiguous:

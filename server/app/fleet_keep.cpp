@@ -61,6 +61,7 @@ void FleetLeader::load_member(const fs::path& folder) {
   if (record.has_topology()) {
     if (Result<RobotTopology> topology = wire::from_message<RobotTopology>(record.topology())) {
       member.topology = std::move(*topology);
+      member.topology->velocity.reset();
     }
   }
   const std::lock_guard lock(mutex_);

@@ -17,6 +17,7 @@ void hear(const std::optional<RobotTopology>& told, std::optional<RobotTopology>
   }
   if (kept) {
     kept->map_T_base = told ? told->map_T_base : kept->map_T_base;
+    kept->velocity = told ? told->velocity : std::nullopt;
     kept->active = false;
     kept->target_map.reset();
   }
@@ -59,7 +60,10 @@ std::vector<RobotTopology> FleetLeader::others_of(const std::string& robot_id, c
     const bool merged = member.state == api::FleetState::kMerged && member.main_T_map;
     if (merged && member.topology && id != robot_id) {
       RobotTopology other = fleet::moved(*member.topology, map_T_main * *member.main_T_map);
-      other.active = other.active && !silent(member.shared, now);
+      if (silent(member.shared, now)) {
+        other.active = false;
+        other.velocity.reset();
+      }
       others.push_back(api::within_limits(std::move(other)));
     }
   }
@@ -87,7 +91,8 @@ void FleetLeader::refresh() {
     }
     others = others_of(params_.robot_id, Pose2{}, std::chrono::steady_clock::now());
   }
-  host_.take_view(others.empty() ? std::nullopt : std::optional(FleetView{params_.robot_id, std::move(others)}));
+  host_.take_view(others.empty() ? std::nullopt
+                                 : std::optional(FleetView{params_.robot_id, std::move(others), nullptr}));
 }
 
 }  // namespace seeker::app

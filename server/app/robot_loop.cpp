@@ -197,11 +197,13 @@ void RobotLoop::estimate() {
       clear(id);
     }
   };
+  const LaserScan* building = nullptr;
   if (fresh_odometry_) {
     note(parts_.estimator->on_odometry(*odometry_), "odometry-refused");
   }
   if (fresh_scan_) {
-    note(parts_.estimator->on_scan(*scan_), "scan-refused");
+    building = &scan_of_building();
+    note(parts_.estimator->on_scan(*building), "scan-refused");
   }
   if (fresh_odometry_ || fresh_scan_) {
     std::optional<Pose2> by_odometry;
@@ -217,8 +219,8 @@ void RobotLoop::estimate() {
   if (!trusted) {
     return;
   }
-  if (fresh_scan_) {
-    note(map_.integrate(*scan_, pose_.map_T_base), "map-full");
+  if (building != nullptr) {
+    note(map_.integrate(*building, pose_.map_T_base), "map-full");
   } else if (fresh_sonar_ && parts_.devices.lidar == nullptr) {
     note(map_.integrate(*sonar_, pose_.map_T_base), "map-full");
   }
@@ -239,18 +241,8 @@ Situation RobotLoop::situation() const {
   s.map_name = map_.identity().name;
   s.has_stereo = parts_.devices.stereo != nullptr && parts_.stereo != nullptr;
   s.fleet = fleet_ ? &*fleet_ : nullptr;
+  s.movers = movers();
   return s;
-}
-
-void RobotLoop::note_topology() {
-  const Behaviour* behaviour = missions_.behaviour();
-  const Topology* topology = behaviour != nullptr ? behaviour->topology() : nullptr;
-  own_topology_.map_T_base = pose_.map_T_base;
-  own_topology_.active = topology != nullptr;
-  own_topology_.target_map = topology != nullptr ? behaviour->target_map() : std::nullopt;
-  if (topology != nullptr) {
-    own_topology_.topology = *topology;
-  }
 }
 
 Twist2 RobotLoop::decide(WallTime wall_now) {
@@ -328,7 +320,9 @@ void RobotLoop::act(const Twist2& wanted) {
                                            .estop = authority_.estop(),
                                            .blocking = faults_.blocking(),
                                            .scan = scan_ ? &*scan_ : nullptr,
-                                           .sonar = sonar_ ? &*sonar_ : nullptr},
+                                           .sonar = sonar_ ? &*sonar_ : nullptr,
+                                           .velocity = odometry_ ? odometry_->velocity : Twist2{},
+                                           .movers_base = nav::moved(movers(), inverse(pose_.map_T_base))},
                                           params_.safety);
   safety_reason_ = verdict.reason;
   command_ = verdict.allowed;

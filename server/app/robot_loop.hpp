@@ -25,6 +25,14 @@
 
 namespace seeker::app {
 
+/// What is assumed of other robots of the fleet that drive about.
+struct FleetMotionParams {
+  double robot_radius_m = 0.26;
+  double slack_m = 0.15;                       ///< how far off a told place may be: of both poses and of both maps
+  double slack_m_s = 0.5;                      ///< more for each second since it was told
+  Duration max_age = std::chrono::seconds(2);  ///< what is older says nothing any more
+};
+
 struct LoopParams {
   Duration period = std::chrono::milliseconds(100);
   Duration base_timeout = std::chrono::milliseconds(500);  ///< silence that is a fault, robot time
@@ -37,6 +45,7 @@ struct LoopParams {
   SafetyParams safety;
   MissionParams mission;
   RobotMapParams map;
+  FleetMotionParams fleet;
 };
 
 /// How the loop is put together.
@@ -120,7 +129,7 @@ class RobotLoop {
   /// The mission that a crash cut off: `resume` starts it again while no other has been started.
   void offer_unfinished(std::optional<api::MissionRequest> request) { unfinished_ = std::move(request); }
   /// What the robot knows of its fleet from now on, frame `map`; nothing: it is alone.
-  void set_fleet(std::optional<FleetView> fleet) { fleet_ = std::move(fleet); }
+  void set_fleet(std::optional<FleetView> fleet);
   /// What it tells its fleet of its newest exploration by topology, frame `map`; inactive after that has ended. Its id
   /// is the teller's.
   [[nodiscard]] const RobotTopology& own_topology() const { return own_topology_; }
@@ -150,7 +159,13 @@ class RobotLoop {
   void estimate();
   void end_source(const Error& error);
   [[nodiscard]] Twist2 decide(WallTime wall_now);
+  // The fleet (robot_fleet.cpp).
   void note_topology();
+  void move_fleet(const Pose2& new_T_old);
+  /// Other robots of the fleet, frame `map`; none that has not been heard of lately.
+  [[nodiscard]] std::vector<nav::Mover> movers() const;
+  /// The newest scan without beams that end at other robots: for pose and maps. What stops the robot sees all of it.
+  [[nodiscard]] const LaserScan& scan_of_building();
   /// Takes a picture and has the mission's recogniser look at it.
   void look();
   // Looking with both eyes (robot_stereo.cpp).
@@ -205,6 +220,8 @@ class RobotLoop {
   PoseEstimate pose_;
   std::optional<Pose2> odom_T_base_at_pose_;
   std::optional<FleetView> fleet_;
+  RobotTime fleet_at_;          ///< when it was told
+  LaserScan building_;          ///< see scan_of_building()
   RobotTopology own_topology_;  ///< set in every tick
   Twist2 command_;
   std::string safety_reason_;

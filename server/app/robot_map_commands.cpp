@@ -2,8 +2,6 @@
 
 #include "server/app/robot_loop.hpp"
 
-#include "server/fleet/topology_map.hpp"
-
 namespace seeker::app {
 
 Status RobotLoop::may_change_map() const {
@@ -90,12 +88,7 @@ void RobotLoop::follow_map(const std::optional<Pose2>& old_map_T_base) {
   const int moved_mm = static_cast<int>(1e3 * distance_m(*old_map_T_base, pose_.map_T_base));
   log("map-moved", "the map was corrected; the robot's place in it moved by " + std::to_string(moved_mm) + " mm");
   missions_.map_moved(new_T_old, now());
-  own_topology_.topology = fleet::moved(std::move(own_topology_.topology), new_T_old);
-  if (fleet_) {
-    for (RobotTopology& other : fleet_->others) {
-      other = fleet::moved(std::move(other), new_T_old);
-    }
-  }
+  move_fleet(new_T_old);
 }
 
 }  // namespace seeker::app

@@ -91,6 +91,15 @@ void describe(config::Fields& f, RobotMapParams& params) {
   f.check("checkpoint_period_s", params.checkpoint_period > Duration::zero(), "must be above 0");
 }
 
+void describe(config::Fields& f, FleetMotionParams& params) {
+  f.field("robot_radius_m", params.robot_radius_m);
+  f.field("slack_m", params.slack_m);
+  f.field("slack_m_s", params.slack_m_s);
+  f.check("slack_m", params.robot_radius_m > 0.0 && params.slack_m >= 0.0 && params.slack_m_s >= 0.0,
+          "must be 0 or more, and the radius above 0");
+  f.seconds("max_age_s", params.max_age);
+}
+
 void describe(config::Fields& f, LoopParams& params) {
   f.seconds("period_s", params.period);
   f.check("period_s", params.period > Duration::zero(), "must be above 0");
@@ -103,6 +112,7 @@ void describe(config::Fields& f, LoopParams& params) {
   f.section("safety", params.safety);
   f.section("mission", params.mission);
   f.section("map", params.map);
+  f.section("fleet", params.fleet);
 }
 
 void describe(config::Fields& f, GotoParams& params) {

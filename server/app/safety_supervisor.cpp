@@ -61,6 +61,10 @@ SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params) {
                        std::clamp(input.wanted.omega_rad_s, -params.max_omega_rad_s, params.max_omega_rad_s)};
   const Twist2 allowed =
       nav::limit_for_clearance(clamped, obstacle_points(input.scan, input.sonar, params), params.clearance);
+  const Twist2 apart = nav::limit_for_movers(allowed, input.velocity, input.movers_base, params.clearance);
+  if (apart != allowed) {
+    return {apart, "slowed for another robot"};
+  }
   if (allowed != clamped) {
     return {allowed, "slowed for an obstacle"};
   }

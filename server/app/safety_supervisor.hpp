@@ -8,6 +8,7 @@
 #include "common/api/robot_state.hpp"
 #include "common/core/scan.hpp"
 #include "server/nav/clearance.hpp"
+#include "server/nav/movers.hpp"
 
 namespace seeker::app {
 
@@ -26,6 +27,8 @@ struct SafetyInput {
   const api::Fault* blocking = nullptr;  ///< a fault that forbids motion
   const LaserScan* scan = nullptr;
   const SonarScan* sonar = nullptr;
+  Twist2 velocity = {};                      ///< of the robot now
+  std::vector<nav::Mover> movers_base = {};  ///< other robots, frame `base`
 };
 
 struct SafetyVerdict {

@@ -35,7 +35,8 @@ struct ExploreInput {
   std::uint64_t segments_revision = 0;
   std::optional<slam::LocalBelief> belief;
   std::optional<double> battery_v;
-  const FleetView* fleet = nullptr;  ///< other robots, frame `map`; null: the robot is alone
+  const FleetView* fleet = nullptr;     ///< other robots, frame `map`; null: the robot is alone
+  std::vector<nav::Mover> movers = {};  ///< other robots where they are now, frame `map`
 };
 
 enum class EndKind : std::uint8_t {

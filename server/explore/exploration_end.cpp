@@ -76,8 +76,10 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
   }
   if (const auto costs = nav::DistanceField::build((*floor)->cost, here)) {
     left.cut_off = cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2);
+    // What only other robots have seen is theirs to look after.
+    std::erase_if(left.cut_off, [&](const Point2& p_map) { return !seen_by_itself(**floor, p_map); });
   }
-  left.blocked = known_floor_.occupied_now((*floor)->cost);
+  left.blocked = known_floor_.occupied_now(**floor);
   left.blocked.insert(left.blocked.end(), left.cut_off.begin(), left.cut_off.end());
   left.beyond_limits = more_beyond_limits(**floor, request_.areas, here, params_);
   return left;
@@ -193,7 +195,7 @@ void Exploration::Impl::measure_progress(RobotTime now) {
   const auto unknown = [&](CellIndex c) {
     return cost.state(cost.frame().cell_of(floor.frame().centre_of(c))) == nav::CellState::kUnknown;
   };
-  known_floor_.add(floor);
+  known_floor_.add(**view);
   const double known_m2 = known_floor_.present_area_m2();
   double border_m = 0.0;
   for (CellIndex c{0, 0}; c.j < floor.height(); ++c.j) {

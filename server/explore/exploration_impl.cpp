@@ -102,7 +102,8 @@ void Exploration::Impl::begin(const ExploreInput& input) {
 
 void Exploration::Impl::act(const ExploreInput& input, ExploreStep& out) {
   begin(input);
-  floors_.attend(input.map, input.pose.map_T_base, input.now - paused_);
+  floors_.attend(input.map, input.pose.map_T_base, input.now - paused_, input.movers,
+                 input.fleet != nullptr ? input.fleet->floor : nullptr);
   const StrategyInput now = strategy_input(input);
   sonar_obstacles_.note(now);
   measure_progress(now.now);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/occupancy_tile.hpp"
+
 namespace seeker::explore {
 namespace {
 
@@ -23,20 +25,32 @@ Grid<std::uint8_t> covering(const Grid<std::uint8_t>& a, const Grid<std::uint8_t
   return {GridFrame{low, cell_m}, static_cast<int>(std::lround(size.x())), static_cast<int>(std::lround(size.y())), 0};
 }
 
-void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from) {
+/// Only cells that `takes` agrees to.
+template <class Takes>
+void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from, Takes takes) {
   for (std::size_t k = 0; k < from.cells().size(); ++k) {
-    if (from.cells()[k] != 0) {
-      to[to.frame().cell_of(from.frame().centre_of(from.cell(k)))] = 1;
+    const Point2 p_map = from.frame().centre_of(from.cell(k));
+    if (from.cells()[k] != 0 && takes(p_map)) {
+      to[to.frame().cell_of(p_map)] = 1;
     }
   }
 }
 
 }  // namespace
 
-void KnownFloor::add(const Grid<std::uint8_t>& reachable) {
+bool seen_by_itself(const nav::FloorView& view, const Point2& p_map) {
+  if (!view.own) {
+    return true;
+  }
+  const CellIndex cell = view.own->frame().cell_of(p_map);
+  return view.own->contains(cell) && (*view.own)[cell] != kUnknownCell;
+}
+
+void KnownFloor::add(const nav::FloorView& view) {
+  const Grid<std::uint8_t>& reachable = view.reachable;
   Grid<std::uint8_t> both = covering(floor_, reachable);
-  copy_into(both, floor_);
-  copy_into(both, reachable);
+  copy_into(both, floor_, [](const Point2&) { return true; });
+  copy_into(both, reachable, [&](const Point2& p_map) { return seen_by_itself(view, p_map); });
   floor_ = std::move(both);
   const double cell_m = reachable.frame().resolution_m;
   present_m2_ = cell_m * cell_m *
@@ -49,19 +63,19 @@ bool KnownFloor::contains(const Point2& p_map) const {
   return floor_.contains(cell) && floor_[cell] != 0;
 }
 
-std::vector<Point2> KnownFloor::occupied_now(const nav::CostMap& map) const {
+std::vector<Point2> KnownFloor::occupied_now(const nav::FloorView& view) const {
   struct Thing {
     Point2 p_map;
     int cells = 0;
   };
   std::vector<Thing> things;
-  const Grid<nav::CellState>& states = map.states();
+  const Grid<nav::CellState>& states = view.cost.states();
   for (std::size_t k = 0; k < states.cells().size(); ++k) {
     if (states.cells()[k] != nav::CellState::kOccupied) {
       continue;
     }
     const Point2 p = states.frame().centre_of(states.cell(k));
-    if (!contains(p)) {
+    if (!contains(p) || !seen_by_itself(view, p)) {
       continue;
     }
     const auto same = std::find_if(things.begin(), things.end(),

@@ -18,6 +18,7 @@
 #include "server/lab/json_printer.hpp"
 #include "server/lab/resumable.hpp"
 #include "server/lab/table.hpp"
+#include "server/nav/shared_floor.hpp"
 #include "server/options/world_options.hpp"
 
 namespace seeker::lab {
@@ -43,10 +44,13 @@ struct Relation {
   std::optional<RobotTime> since;
 };
 
+constexpr Duration kFloorPeriod = std::chrono::seconds(5);
+
 /// What the robots tell each other between two ticks.
 class Exchange {
  public:
-  Exchange(Members& members, double merge_period_s) : members_(members), period_(seconds(merge_period_s)) {
+  Exchange(Members& members, double merge_period_s)
+      : members_(members), period_(seconds(merge_period_s)), floors_(members.size()) {
     for (std::size_t a = 0; a < members_.size(); ++a) {
       for (std::size_t b = a + 1; b < members_.size(); ++b) {
         relations_.push_back({a, b, {}, {}});
@@ -58,6 +62,10 @@ class Exchange {
     if (now >= next_merge_) {
       next_merge_ = now + period_;
       merge(now);
+    }
+    if (now >= next_floors_) {
+      next_floors_ = now + kFloorPeriod;
+      carry_floors();
     }
     for (std::size_t k = 0; k < members_.size(); ++k) {
       tell(k);
@@ -104,7 +112,7 @@ class Exchange {
   }
 
   void tell(std::size_t to) {
-    FleetView view{members_[to]->id, {}};
+    FleetView view{members_[to]->id, {}, floors_[to]};
     for (const Relation& relation : relations_) {
       if (relation.a_T_b && (relation.a == to || relation.b == to)) {
         const Pose2 to_T_from = relation.a == to ? *relation.a_T_b : inverse(*relation.a_T_b);
@@ -112,6 +120,24 @@ class Exchange {
       }
     }
     members_[to]->loop->set_fleet(std::move(view));
+  }
+
+  /// To each robot what the others that are merged with it have seen.
+  void carry_floors() {
+    for (std::size_t to = 0; to < members_.size(); ++to) {
+      std::optional<Grid<std::uint8_t>> floor;
+      for (const Relation& relation : relations_) {
+        if (relation.a_T_b && (relation.a == to || relation.b == to)) {
+          const Pose2 to_T_from = relation.a == to ? *relation.a_T_b : inverse(*relation.a_T_b);
+          const Member& from = *members_[relation.a == to ? relation.b : relation.a];
+          if (const auto seen = from.loop->map().snapshot()) {
+            const Grid<std::uint8_t> here = nav::carried(*seen, to_T_from);
+            floor = floor ? nav::with_known(*floor, here) : here;
+          }
+        }
+      }
+      floors_[to] = floor ? std::make_shared<const Grid<std::uint8_t>>(*std::move(floor)) : nullptr;
+    }
   }
 
   static RobotTopology seen_from(const Pose2& to_T_from, const Member& from) {
@@ -123,6 +149,8 @@ class Exchange {
   Members& members_;
   Duration period_;
   RobotTime next_merge_;
+  RobotTime next_floors_;
+  std::vector<std::shared_ptr<const Grid<std::uint8_t>>> floors_;  ///< by member, in its frame `map`
   fleet::MapMerger merger_;
   std::vector<Relation> relations_;
   int wrong_ = 0;

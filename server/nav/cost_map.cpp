@@ -124,14 +124,24 @@ void CostMap::forbid(const CostMapLimits& limits) {
       }
     }
   }
-  const Point2 reach = Point2::Constant(params_.robot_radius_m);
   for (const Point2& p : limits.forbidden_discs) {
-    for_cells_in_box(costs_, p - reach, p + reach, [&](CellIndex cell) {
-      if ((frame().centre_of(cell) - p).norm() <= params_.robot_radius_m) {
-        costs_[cell] = 0.0F;
-      }
-    });
+    forbid_disc(p, params_.robot_radius_m);
   }
+}
+
+void CostMap::forbid_disc(const Point2& centre_map, double radius_m) {
+  const Point2 reach = Point2::Constant(radius_m);
+  for_cells_in_box(costs_, centre_map - reach, centre_map + reach, [&](CellIndex cell) {
+    if ((frame().centre_of(cell) - centre_map).norm() <= radius_m) {
+      costs_[cell] = 0.0F;
+    }
+  });
+}
+
+CostMap CostMap::without_disc(const Point2& centre_map, double radius_m) const {
+  CostMap map = *this;
+  map.forbid_disc(centre_map, radius_m);
+  return map;
 }
 
 bool CostMap::way_is_clear(const Point2& a_map, const Point2& b_map) const {

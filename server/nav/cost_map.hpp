@@ -58,6 +58,9 @@ class CostMap {
   [[nodiscard]] float clearance_m(CellIndex cell) const { return clearance_.contains(cell) ? clearance_[cell] : 0.0F; }
   [[nodiscard]] const Grid<CellState>& states() const { return states_; }
 
+  /// The same map with a disc that the robot's centre may not enter.
+  [[nodiscard]] CostMap without_disc(const Point2& centre_map, double radius_m) const;
+
   /// True when the straight way from a to b stays on traversable cells.
   [[nodiscard]] bool way_is_clear(const Point2& a_map, const Point2& b_map) const;
   /// The nearest traversable cell within `radius_m`, one that can be reached without crossing an occupied cell first;
@@ -68,6 +71,7 @@ class CostMap {
   CostMap() = default;
   void compute_costs();
   void forbid(const CostMapLimits& limits);
+  void forbid_disc(const Point2& centre_map, double radius_m);
 
   CostMapParams params_;
   Grid<CellState> states_;

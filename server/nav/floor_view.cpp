@@ -1,25 +1,35 @@
 #include "server/nav/floor_view.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/core/assert.hpp"
 #include "server/nav/planner.hpp"
+#include "server/nav/shared_floor.hpp"
 
 namespace seeker::nav {
 namespace {
 
 constexpr std::size_t kMaxObstacles = 256;
 constexpr double kSameObstacle_m = 0.1;
+/// Other robots nearer than this are planned around.
+constexpr double kNearMover_m = 3.0;
 
 }  // namespace
 
 FloorSource::FloorSource(const CostMapParams& cost, ForbiddenAreas areas, double floor_cell_m, double period_s)
     : cost_(cost), areas_(std::move(areas)), floor_cell_m_(floor_cell_m), period_s_(period_s) {}
 
-void FloorSource::attend(const OccupancyMap& map, const Pose2& map_T_base, RobotTime now) {
+void FloorSource::attend(const OccupancyMap& map, const Pose2& map_T_base, RobotTime now, std::vector<Mover> movers,
+                         std::shared_ptr<const Grid<std::uint8_t>> others_floor) {
   map_ = &map;
   map_T_base_ = map_T_base;
   now_ = now;
+  movers_ = std::move(movers);
+  if (others_floor_ != others_floor) {
+    others_floor_ = std::move(others_floor);
+    stale_ = true;
+  }
 }
 
 Result<std::shared_ptr<const FloorView>> FloorSource::view(bool fresh) {
@@ -43,6 +53,10 @@ Result<FloorView> FloorSource::build() const {
   if (!occupancy) {
     return fail(Errc::kNotReady, "the map is still empty; wait for the range sensors");
   }
+  std::optional<Grid<std::uint8_t>> own;
+  if (others_floor_ != nullptr) {
+    own = std::exchange(occupancy, with_known(*occupancy, *others_floor_));
+  }
   CostMapLimits limits;
   limits.bound = areas_.bound;
   limits.keep_out = areas_.keep_out;
@@ -55,10 +69,25 @@ Result<FloorView> FloorSource::build() const {
   if (!reachable) {
     return tl::unexpected(reachable.error());
   }
-  return FloorView{std::move(*occupancy), std::move(*cost), std::move(*reachable), map_->revision(), now_};
+  return FloorView{std::move(*occupancy), std::move(*cost), std::move(*reachable), map_->revision(), now_,
+                   std::move(own)};
+}
+
+std::optional<CostMap> FloorSource::around_movers(const FloorView& view) const {
+  std::optional<CostMap> costs;
+  for (const Mover& mover : movers_) {
+    if (distance_m(mover.frame_T_base, map_T_base_) < kNearMover_m) {
+      const double apart_m = mover.radius_m + mover.slack_m + cost_.robot_radius_m;
+      costs = (costs ? *costs : view.cost).without_disc(mover.frame_T_base.translation(), apart_m);
+    }
+  }
+  return costs;
 }
 
 void FloorSource::add_obstacle(const Point2& p_map) {
+  if (std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) { return mover.may_cover(p_map); })) {
+    return;
+  }
   for (const Point2& known : obstacles_) {
     if ((known - p_map).norm() < kSameObstacle_m) {
       return;

@@ -13,17 +13,20 @@
 #include "common/core/time.hpp"
 #include "server/nav/cost_map.hpp"
 #include "server/nav/forbidden_areas.hpp"
+#include "server/nav/movers.hpp"
 #include "server/nav/occupancy_map.hpp"
 
 namespace seeker::nav {
 
 /// One snapshot, immutable.
 struct FloorView {
-  Grid<std::uint8_t> occupancy;  ///< cells as in OccupancyTile
+  Grid<std::uint8_t> occupancy;  ///< cells as in OccupancyTile; what others have seen where the robot has not
   CostMap cost;
   Grid<std::uint8_t> reachable;  ///< floor in coarse cells: 1 = allowed and connected to the robot
   std::uint64_t revision = 0;    ///< of the map it was made from
   RobotTime built;
+  /// The robot's own part of the occupancy, where that of others was added.
+  std::optional<Grid<std::uint8_t>> own = std::nullopt;
 };
 
 /// Makes snapshots only when the map has changed and the last one is old enough.
@@ -31,14 +34,19 @@ class FloorSource {
  public:
   FloorSource(const CostMapParams& cost, ForbiddenAreas areas, double floor_cell_m, double period_s);
 
-  /// Called once per step with the present map; cheap.
-  void attend(const OccupancyMap& map, const Pose2& map_T_base, RobotTime now);
+  /// Called once per step with the present map, where other robots are now, and what floor they have seen (cells as
+  /// carried() makes them; null: nothing), both in the frame `map`; cheap.
+  void attend(const OccupancyMap& map, const Pose2& map_T_base, RobotTime now, std::vector<Mover> movers = {},
+              std::shared_ptr<const Grid<std::uint8_t>> others_floor = nullptr);
   /// The newest view, at most `period_s` old; `fresh` asks for one of the present map. kNotReady: no map yet;
   /// kUnreachable: the robot stands walled in.
   [[nodiscard]] Result<std::shared_ptr<const FloorView>> view(bool fresh = false);
   /// The last view that could be made, if any.
   [[nodiscard]] const std::shared_ptr<const FloorView>& last() const { return last_; }
-  /// Obstacles that the map does not show (sonar echoes below the lidar's plane), frame `map`.
+  /// The costs of a view for a way to be planned now: around the other robots that are near. Nothing where none is, for
+  /// those farther off will have moved on before the robot gets there.
+  [[nodiscard]] std::optional<CostMap> around_movers(const FloorView& view) const;
+  /// Obstacles that the map does not show (sonar echoes below the lidar's plane), frame `map`. Other robots are none.
   void add_obstacle(const Point2& p_map);
   /// Floor connected to the last view's position when nothing is forbidden: what the forbidden areas cost.
   [[nodiscard]] std::optional<Grid<std::uint8_t>> unrestricted_floor() const;
@@ -53,6 +61,8 @@ class FloorSource {
   double floor_cell_m_;
   double period_s_;
   std::vector<Point2> obstacles_;
+  std::vector<Mover> movers_;
+  std::shared_ptr<const Grid<std::uint8_t>> others_floor_;
   const OccupancyMap* map_ = nullptr;  ///< of the present step only
   Pose2 map_T_base_;
   RobotTime now_;

@@ -65,7 +65,8 @@ bool PlannedDriver::plan(const DriveInput& input) {
     reason_ = floor.error().message;
     return false;
   }
-  auto path = nav::plan((*floor)->cost, input.map_T_base.translation(), goal_);
+  const std::optional<CostMap> crowded = input.floors.around_movers(**floor);
+  auto path = nav::plan(crowded ? *crowded : (*floor)->cost, input.map_T_base.translation(), goal_);
   if (!path) {
     reason_ = path.error().message;
     return false;

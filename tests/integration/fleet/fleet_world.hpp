@@ -125,6 +125,7 @@ inline RobotTopology at_place(const std::string& robot_id, const Point2& p_map) 
   robot.topology.nodes = {node};
   robot.topology.current = 1;
   robot.target_map = node.goals.front().p_map;
+  robot.velocity = Twist2{0.3, 0.0};
   return robot;
 }
 

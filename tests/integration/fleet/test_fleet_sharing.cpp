@@ -54,6 +54,7 @@ TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
       << "both maps begin at the same place";
   EXPECT_THAT(*of(r2_hears, "main").target_map, Point2Near(inverse(west_T_r2) * (kPlace + Point2(3.0, 0.0)), 1e-9));
   EXPECT_TRUE(of(r2_hears, "main").active);
+  EXPECT_EQ(of(r2_hears, "main").velocity, (Twist2{0.3, 0.0}));
   EXPECT_EQ(of(r2_hears, "r1").topology.nodes.front().goals.size(), 1U);
 
   leader.refresh();
@@ -77,6 +78,7 @@ TEST(FleetSharing, ASilentRobotsGoalsAreAnybodys) {
   leader.refresh();
   ASSERT_TRUE(main.view());
   EXPECT_FALSE(of(main.view()->others, "r1").active);
+  EXPECT_FALSE(of(main.view()->others, "r1").velocity) << "nobody knows where it is now";
   EXPECT_EQ(of(main.view()->others, "r1").topology.nodes.size(), 1U);
 }
 
@@ -120,6 +122,7 @@ TEST(FleetSharing, PlacesAreKeptOverRestartsOfBothButNotInANewMap) {
   again.refresh();
   ASSERT_TRUE(main.view());
   EXPECT_FALSE(of(main.view()->others, "r1").active) << "it has not been heard since";
+  EXPECT_FALSE(of(main.view()->others, "r1").velocity);
   // The robot comes back, with its map but without a mission.
   join(again, packed(east(), "r1", 2));
   static_cast<void>(told(again, "r1", {}, 2));

@@ -25,6 +25,7 @@ api::FleetShare share() {
   robot.topology.edges = {{1, 4}};
   robot.topology.current = 4;
   robot.target_map = Point2(8.0, 0.0);
+  robot.velocity = Twist2{0.4, -0.2};
   return {"r1", 77, robot};
 }
 
@@ -86,6 +87,8 @@ TEST(ConvertFleet, ATopologyThatMakesNoSenseIsRefused) {
   EXPECT_EQ(refusal_of([](T& t) { t.set_ways(0, 9); }), Errc::kInvalidArgument);
   EXPECT_EQ(refusal_of([](T& t) { t.add_ways(1); }), Errc::kInvalidArgument);
   EXPECT_EQ(refusal_of([](T& t) { t.set_current(9); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_velocity()->set_v_m_s(1e9); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.mutable_velocity()->set_omega_rad_s(-1e9); }), Errc::kInvalidArgument);
 }
 
 TEST(ConvertFleet, MoreThanAFleetTakesIsRefusedAndWithinTheLimitsItIsNot) {

@@ -71,6 +71,20 @@ TEST(SafetySupervisor, EstopFaultAndDisarmedMeanZeroWithTheReason) {
   EXPECT_EQ(supervise({.wanted = kForward}, {}).allowed, Twist2{});
 }
 
+TEST(SafetySupervisor, AnotherRobotThatComesTowardsItStopsTheRobotEarlierThanAWall) {
+  // 0.64 m of room: a robot at 0.4 m/s stops in 0.35 m, the other one comes on by 0.52 m until it stands.
+  const LaserScan scan = wall_ahead(0.9);
+  SafetyInput input{.wanted = kForward, .armed = true, .scan = &scan, .velocity = kForward};
+  EXPECT_EQ(supervise(input, {}).allowed, kForward);
+  nav::Mover other;
+  other.frame_T_base = {1.16, 0.0, 3.14159};
+  other.velocity = {0.5, 0.0};
+  input.movers_base = {other};
+  const SafetyVerdict verdict = supervise(input, {});
+  EXPECT_LT(verdict.allowed.v_m_s, kForward.v_m_s);
+  EXPECT_EQ(verdict.reason, "slowed for another robot");
+}
+
 TEST(SafetySupervisor, NanNeverReachesTheBase) {
   const SafetyVerdict verdict = supervise({.wanted = {std::nan(""), 0.0}, .armed = true}, {});
   EXPECT_EQ(verdict.allowed, Twist2{});

@@ -21,7 +21,7 @@ double leaves_its_goal_after_s(const std::string& other_id) {
     return std::make_unique<TopologicalStrategy>(params, TopologicalParams{});
   };
   Exploration exploration = std::move(*Exploration::create(request, {}));
-  FleetView fleet{"m", {}};
+  FleetView fleet{"m", {}, nullptr};
   fleet.others.emplace_back();
   RobotTopology& other = fleet.others.front();
   other.robot_id = other_id;

@@ -109,7 +109,7 @@ TEST(TopologicalStrategy, DoesTheSameAgain) {
 }
 
 TEST(TopologicalStrategy, StaysOutOfTheOtherRoomWhenAnotherRobotIsThere) {
-  FleetView fleet{"b", {}};
+  FleetView fleet{"b", {}, nullptr};
   RobotTopology other;
   other.robot_id = "a";
   other.map_T_base = {7.5, 2.5, 0.0};

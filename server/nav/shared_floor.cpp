@@ -1,0 +1,84 @@
+#include "server/nav/shared_floor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/assert.hpp"
+#include "common/core/occupancy_tile.hpp"
+
+namespace seeker::nav {
+namespace {
+
+/// Corners in cells of the grid that begins at the frame's origin.
+struct CellBox {
+  CellIndex low;
+  CellIndex high;  ///< one beyond the last
+
+  [[nodiscard]] Grid<std::uint8_t> unknown() const {
+    const Point2 origin = kTileResolution_m * Point2(low.i, low.j);
+    return {{origin, kTileResolution_m}, high.i - low.i, high.j - low.j, kUnknownCell};
+  }
+};
+
+CellIndex first_cell(const Grid<std::uint8_t>& grid) {
+  const Point2 cells = grid.frame().origin / kTileResolution_m;
+  return {static_cast<int>(std::lround(cells.x())), static_cast<int>(std::lround(cells.y()))};
+}
+
+CellBox box_of(const Grid<std::uint8_t>& grid) {
+  const CellIndex low = first_cell(grid);
+  return {low, {low.i + grid.width(), low.j + grid.height()}};
+}
+
+CellBox box_around(const Grid<std::uint8_t>& grid, const Pose2& new_T_old) {
+  const GridFrame& frame = grid.frame();
+  Point2 low = new_T_old * frame.origin;
+  Point2 high = low;
+  for (const CellIndex corner : {CellIndex{grid.width(), 0}, {0, grid.height()}, {grid.width(), grid.height()}}) {
+    const Point2 p = new_T_old * Point2(frame.origin + frame.resolution_m * Point2(corner.i, corner.j));
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const auto cell = [](double at_m) { return static_cast<int>(std::floor(at_m / kTileResolution_m)); };
+  return {{cell(low.x()), cell(low.y())}, {cell(high.x()) + 1, cell(high.y()) + 1}};
+}
+
+void paste(const Grid<std::uint8_t>& from, CellIndex low, Grid<std::uint8_t>& to) {
+  const CellIndex first = first_cell(from);
+  for (CellIndex c{0, 0}; c.j < from.height(); ++c.j) {
+    for (c.i = 0; c.i < from.width(); ++c.i) {
+      std::uint8_t& cell = to[{first.i + c.i - low.i, first.j + c.j - low.j}];
+      cell = cell == kUnknownCell ? from[c] : cell;
+    }
+  }
+}
+
+}  // namespace
+
+Grid<std::uint8_t> carried(const Grid<std::uint8_t>& floor, const Pose2& new_T_old) {
+  Grid<std::uint8_t> out = box_around(floor, new_T_old).unknown();
+  const Pose2 old_T_new = inverse(new_T_old);
+  for (CellIndex c{0, 0}; c.j < out.height(); ++c.j) {
+    for (c.i = 0; c.i < out.width(); ++c.i) {
+      const CellIndex old = floor.frame().cell_of(old_T_new * out.frame().centre_of(c));
+      if (floor.contains(old)) {
+        out[c] = floor[old];
+      }
+    }
+  }
+  return out;
+}
+
+Grid<std::uint8_t> with_known(const Grid<std::uint8_t>& own, const Grid<std::uint8_t>& other) {
+  SEEKER_ASSERT(own.frame().resolution_m == kTileResolution_m && other.frame().resolution_m == kTileResolution_m);
+  const CellBox a = box_of(own);
+  const CellBox b = box_of(other);
+  const CellBox both{{std::min(a.low.i, b.low.i), std::min(a.low.j, b.low.j)},
+                     {std::max(a.high.i, b.high.i), std::max(a.high.j, b.high.j)}};
+  Grid<std::uint8_t> out = both.unknown();
+  paste(own, both.low, out);
+  paste(other, both.low, out);
+  return out;
+}
+
+}  // namespace seeker::nav

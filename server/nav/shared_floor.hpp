@@ -1,0 +1,20 @@
+/// \file
+/// Occupancy of several robots in one frame: what one has not seen, another may have. Cells as in OccupancyTile.
+#pragma once
+
+#include <cstdint>
+
+#include "common/core/grid.hpp"
+#include "common/core/pose2.hpp"
+
+namespace seeker::nav {
+
+/// The same floor in another frame: every new cell is the old one that its centre lies in. Cells of different results
+/// line up.
+[[nodiscard]] Grid<std::uint8_t> carried(const Grid<std::uint8_t>& floor, const Pose2& new_T_old);
+
+/// `own`, with what `other` knows where `own` knows nothing; as large as both together. Both must have the resolution
+/// of tiles and cells that line up, as snapshots and carried() have.
+[[nodiscard]] Grid<std::uint8_t> with_known(const Grid<std::uint8_t>& own, const Grid<std::uint8_t>& other);
+
+}  // namespace seeker::nav

@@ -1,0 +1,83 @@
+#include "server/nav/shared_floor.hpp"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "common/core/angle.hpp"
+#include "common/core/occupancy_tile.hpp"
+#include "server/nav/floor_view.hpp"
+#include "server/nav/planner.hpp"
+
+namespace seeker::nav {
+namespace {
+
+constexpr std::uint8_t kFreeCell = 0;
+
+/// A grid of one value whose first cell is the given one of the frame `map`.
+Grid<std::uint8_t> patch(CellIndex first, int width, int height, std::uint8_t value) {
+  return {{kTileResolution_m * Point2(first.i, first.j), kTileResolution_m}, width, height, value};
+}
+
+std::uint8_t at(const Grid<std::uint8_t>& grid, const Point2& p) {
+  const CellIndex cell = grid.frame().cell_of(p);
+  return grid.contains(cell) ? grid[cell] : kUnknownCell;
+}
+
+TEST(SharedFloor, OwnCellsWinAndOthersFillWhatIsUnknown) {
+  Grid<std::uint8_t> own = patch({0, 0}, 4, 1, kFreeCell);
+  own[{1, 0}] = kUnknownCell;
+  const Grid<std::uint8_t> both = with_known(own, patch({-2, 0}, 5, 2, kOccupiedCell));
+  EXPECT_EQ(at(both, {-0.09, 0.01}), kOccupiedCell);
+  EXPECT_EQ(at(both, {0.01, 0.01}), kFreeCell);
+  EXPECT_EQ(at(both, {0.06, 0.01}), kOccupiedCell);
+  EXPECT_EQ(at(both, {0.11, 0.01}), kFreeCell);
+  EXPECT_EQ(at(both, {0.19, 0.06}), kUnknownCell);
+  EXPECT_EQ(at(both, {0.01, 0.06}), kOccupiedCell);
+}
+
+TEST(SharedFloor, IsCarriedToWhereItLiesInTheOtherFrame) {
+  Grid<std::uint8_t> floor = patch({0, 0}, 40, 20, kFreeCell);
+  floor[{30, 10}] = kOccupiedCell;
+  const Pose2 new_T_old{3.0, -1.0, kPi / 2};
+  const Grid<std::uint8_t> there = carried(floor, new_T_old);
+  EXPECT_EQ(at(there, new_T_old * floor.frame().centre_of({30, 10})), kOccupiedCell);
+  EXPECT_EQ(at(there, new_T_old * floor.frame().centre_of({5, 5})), kFreeCell);
+  EXPECT_EQ(at(there, {3.5, -0.5}), kUnknownCell);
+}
+
+TEST(SharedFloor, AWayLeadsOverFloorThatOnlyAnotherRobotHasSeen) {
+  OccupancyMap map;
+  LaserScan scan;
+  scan.angle_min_rad = -kPi;
+  scan.angle_step_rad = deg_to_rad(0.5);
+  scan.range_max_m = 10.0;
+  scan.ranges_m.assign(720, 2.0F);
+  scan.ranges_m.at(360) = kNoReturn;
+  for (int k = 0; k < 3; ++k) {
+    ASSERT_TRUE(map.integrate(scan, {}));
+  }
+  FloorSource floors({}, {}, 0.25, 1.0);
+  floors.attend(map, {}, RobotTime{});
+  const Point2 beyond(0.0, 5.0);
+  EXPECT_FALSE(plan((*floors.view())->cost, {0, 0}, beyond));
+  // The other one looked through a gap of the ring of walls that this one believes in: ring cells stay walls.
+  const auto other = std::make_shared<const Grid<std::uint8_t>>(patch({-60, -60}, 120, 180, kFreeCell));
+  floors.attend(map, {}, RobotTime{}, {}, other);
+  const auto walled = floors.view();
+  ASSERT_TRUE(walled);
+  EXPECT_EQ((*walled)->cost.state((*walled)->cost.frame().cell_of(beyond)), CellState::kFree);
+  EXPECT_FALSE(plan((*walled)->cost, {0, 0}, beyond));
+
+  OccupancyMap open;
+  scan.ranges_m.assign(720, kNoReturn);
+  ASSERT_TRUE(open.integrate(scan, {}));
+  FloorSource free_floors({}, {}, 0.25, 1.0);
+  free_floors.attend(open, {}, RobotTime{});
+  EXPECT_FALSE(plan((*free_floors.view())->cost, {0, 0}, beyond));
+  free_floors.attend(open, {}, RobotTime{}, {}, other);
+  EXPECT_TRUE(plan((*free_floors.view())->cost, {0, 0}, beyond));
+}
+
+}  // namespace
+}  // namespace seeker::nav
