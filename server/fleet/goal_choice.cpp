@@ -64,16 +64,18 @@ std::vector<PendingGoal> pending_of(const ChoiceInput& input, const UnionGraph& 
   return goals;
 }
 
-/// Of the goals of the closest node the outermost, then the one with the smallest turn (spec S4.1, S4.4).
-std::optional<std::size_t> main_of_closest(const std::vector<PendingGoal>& goals, const Pose2& map_T_base) {
+/// Of the goals that are open to the robot and belong to the closest node the outermost, then the one with the smallest
+/// turn (spec S4.1, S4.4).
+std::optional<std::size_t> main_of_closest(const std::vector<PendingGoal>& goals, const std::vector<bool>& open,
+                                           const Pose2& map_T_base) {
   double closest_m = std::numeric_limits<double>::infinity();
-  for (const PendingGoal& goal : goals) {
-    closest_m = std::min(closest_m, goal.node_way_m);
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    closest_m = open[k] ? std::min(closest_m, goals[k].node_way_m) : closest_m;
   }
   std::vector<std::size_t> of_closest;
   std::vector<GoalDirection> directions;
   for (std::size_t k = 0; k < goals.size(); ++k) {
-    if (goals[k].node_way_m <= closest_m) {
+    if (open[k] && goals[k].node_way_m <= closest_m) {
       of_closest.push_back(k);
       directions.push_back({goals[k].layer, bearing_to(map_T_base, goals[k].p_map)});
     }
@@ -100,6 +102,25 @@ std::vector<double> ways_of(const RobotTopology& robot, std::size_t index, const
     lengths.push_back(way_m);
   }
   return lengths;
+}
+
+/// Which goals no other active robot has a shorter way to. Of equally long ones the first robot by name has it.
+std::vector<bool> nearest_to_self(const ChoiceInput& input, const UnionGraph& all,
+                                  const std::vector<PendingGoal>& goals) {
+  std::vector<bool> own(goals.size(), true);
+  for (std::size_t k = 0; k < input.fleet.others.size(); ++k) {
+    const RobotTopology& other = input.fleet.others[k];
+    if (!other.active) {
+      continue;
+    }
+    const std::vector<double> ways_m = ways_of(other, k, all, goals);
+    for (std::size_t goal = 0; goal < goals.size(); ++goal) {
+      const bool nearer = ways_m[goal] < goals[goal].way_m ||
+                          (ways_m[goal] <= goals[goal].way_m && other.robot_id < input.fleet.robot_id);
+      own[goal] = own[goal] && !nearer;
+    }
+  }
+  return own;
 }
 
 /// Robots that have a target do not bid: it is theirs already.
@@ -155,14 +176,18 @@ GoalChoice choose_goal(const ChoiceInput& input) {
   std::optional<std::size_t> chosen;
   std::string why = "no goal is left";
   if (shared) {
-    chosen = won(input, all, goals);
-    why = chosen ? "its share of the goals of all robots" : "other robots are nearer to what is left";
+    chosen = main_of_closest(goals, nearest_to_self(input, all, goals), input.map_T_base);
+    why = "the closest of the goals that no other robot is nearer to";
+    if (!chosen) {
+      chosen = won(input, all, goals);
+      why = chosen ? "its share of the goals that others are nearer to" : "other robots are nearer to what is left";
+    }
     choice.others_busy =
         !chosen &&
         (!goals.empty() || std::any_of(input.fleet.others.begin(), input.fleet.others.end(),
                                        [](const RobotTopology& other) { return other.active && other.target_map; }));
   } else if (!goals.empty()) {
-    chosen = main_of_closest(goals, input.map_T_base);
+    chosen = main_of_closest(goals, std::vector<bool>(goals.size(), true), input.map_T_base);
     const bool at_hand = !goals[*chosen].robot && goals[*chosen].node == input.own.current;
     why = at_hand ? "the main goal of this node" : "back to the closest node with a goal";
   }

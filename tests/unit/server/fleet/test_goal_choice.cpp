@@ -33,8 +33,9 @@ Topology row(const std::vector<std::vector<TopologyGoal>>& goals) {
 
 struct Scene {
   Topology own;
-  FleetView fleet{"b", {}};
+  FleetView fleet{"b", {}, nullptr};
   std::vector<Point2> left_out = {};
+  std::function<double(const Point2&)> gain_m2 = [](const Point2&) { return 5.0; };
 
   [[nodiscard]] GoalChoice choose() const {
     return choose_goal(
@@ -45,7 +46,7 @@ struct Scene {
          8.0,
          2.0,
          [this](const Point2& p) { return std::find(left_out.begin(), left_out.end(), p) != left_out.end(); },
-         [](const Point2&) { return 5.0; },
+         gain_m2,
          {}});
   }
 };
@@ -125,6 +126,26 @@ TEST(GoalChoice, TakesUpTheGoalsOfARobotThatIsGone) {
   ASSERT_TRUE(choice.goal.has_value());
   EXPECT_EQ(choice.goal->robot, 0U);
   EXPECT_EQ(choice.goal->id, 7U);
+}
+
+TEST(GoalChoice, OfGoalsThatNobodyIsNearerToTheClosestComesFirstWhateverTheyPromise) {
+  Scene scene{row({{}, {{1, {4.0, 3.0}, 2}}, {{2, {8.0, 3.0}, 8}}})};
+  scene.fleet.others = {other_at({20.0, 0.0}, {{7, {21.0, 0.0}, 8}})};
+  scene.gain_m2 = [](const Point2& p) { return p.x() > 5.0 ? 500.0 : 0.0; };
+  ASSERT_TRUE(scene.choose().goal.has_value());
+  EXPECT_EQ(scene.choose().goal->id, 1U);
+  scene.own.nodes[1].goals.clear();
+  EXPECT_EQ(scene.choose().goal->id, 2U);
+}
+
+TEST(GoalChoice, OfTwoRobotsAtOnePlaceTheFirstByNameHasTheGoal) {
+  Scene scene{row({{{1, {3.0, 0.0}, 8}}})};
+  scene.fleet.others = {other_at({0.0, 0.0})};
+  EXPECT_FALSE(scene.choose().goal.has_value());
+  scene.fleet.robot_id = "a";
+  scene.fleet.others.front().robot_id = "b";
+  ASSERT_TRUE(scene.choose().goal.has_value());
+  EXPECT_EQ(scene.choose().goal->id, 1U);
 }
 
 TEST(GoalChoice, SharesGoalsWithARobotThatIsNearerToThem) {
