@@ -25,13 +25,10 @@ Grid<std::uint8_t> covering(const Grid<std::uint8_t>& a, const Grid<std::uint8_t
   return {GridFrame{low, cell_m}, static_cast<int>(std::lround(size.x())), static_cast<int>(std::lround(size.y())), 0};
 }
 
-/// Only cells that `takes` agrees to.
-template <class Takes>
-void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from, Takes takes) {
+void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from) {
   for (std::size_t k = 0; k < from.cells().size(); ++k) {
-    const Point2 p_map = from.frame().centre_of(from.cell(k));
-    if (from.cells()[k] != 0 && takes(p_map)) {
-      to[to.frame().cell_of(p_map)] = 1;
+    if (from.cells()[k] != 0) {
+      to[to.frame().cell_of(from.frame().centre_of(from.cell(k)))] = 1;
     }
   }
 }
@@ -42,15 +39,19 @@ bool seen_by_itself(const nav::FloorView& view, const Point2& p_map) {
   if (!view.own) {
     return true;
   }
-  const CellIndex cell = view.own->frame().cell_of(p_map);
-  return view.own->contains(cell) && (*view.own)[cell] != kUnknownCell;
+  const Grid<std::uint8_t>& own = view.own->occupancy;
+  const CellIndex cell = own.frame().cell_of(p_map);
+  return own.contains(cell) && own[cell] != kUnknownCell;
 }
 
 void KnownFloor::add(const nav::FloorView& view) {
-  const Grid<std::uint8_t>& reachable = view.reachable;
+  const Grid<std::uint8_t>& reachable = view.own ? view.own->reachable : view.reachable;
+  if (reachable.cells().empty()) {
+    return;
+  }
   Grid<std::uint8_t> both = covering(floor_, reachable);
-  copy_into(both, floor_, [](const Point2&) { return true; });
-  copy_into(both, reachable, [&](const Point2& p_map) { return seen_by_itself(view, p_map); });
+  copy_into(both, floor_);
+  copy_into(both, reachable);
   floor_ = std::move(both);
   const double cell_m = reachable.frame().resolution_m;
   present_m2_ = cell_m * cell_m *

@@ -53,15 +53,25 @@ Result<FloorView> FloorSource::build() const {
   if (!occupancy) {
     return fail(Errc::kNotReady, "the map is still empty; wait for the range sensors");
   }
-  std::optional<Grid<std::uint8_t>> own;
-  if (others_floor_ != nullptr) {
-    own = std::exchange(occupancy, with_known(*occupancy, *others_floor_));
+  if (others_floor_ == nullptr) {
+    return view_of(std::move(*occupancy));
   }
+  Result<FloorView> own = view_of(*occupancy);
+  Result<FloorView> all = view_of(with_known(*occupancy, *others_floor_));
+  if (all) {
+    // On floor that only others have seen, nothing is reachable by its own.
+    Grid<std::uint8_t> reachable = own ? std::move(own->reachable) : Grid<std::uint8_t>();
+    all->own = FloorView::Own{std::move(*occupancy), std::move(reachable)};
+  }
+  return all;
+}
+
+Result<FloorView> FloorSource::view_of(Grid<std::uint8_t> occupancy) const {
   CostMapLimits limits;
   limits.bound = areas_.bound;
   limits.keep_out = areas_.keep_out;
   limits.obstacles = obstacles_;
-  auto cost = CostMap::build(*occupancy, cost_, limits);
+  auto cost = CostMap::build(occupancy, cost_, limits);
   if (!cost) {
     return tl::unexpected(cost.error());
   }
@@ -69,8 +79,7 @@ Result<FloorView> FloorSource::build() const {
   if (!reachable) {
     return tl::unexpected(reachable.error());
   }
-  return FloorView{std::move(*occupancy), std::move(*cost), std::move(*reachable), map_->revision(), now_,
-                   std::move(own)};
+  return FloorView{std::move(occupancy), std::move(*cost), std::move(*reachable), map_->revision(), now_};
 }
 
 std::optional<CostMap> FloorSource::around_movers(const FloorView& view) const {

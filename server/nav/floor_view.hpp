@@ -25,8 +25,12 @@ struct FloorView {
   Grid<std::uint8_t> reachable;  ///< floor in coarse cells: 1 = allowed and connected to the robot
   std::uint64_t revision = 0;    ///< of the map it was made from
   RobotTime built;
-  /// The robot's own part of the occupancy, where that of others was added.
-  std::optional<Grid<std::uint8_t>> own = std::nullopt;
+  /// What the robot has seen itself, where the floor of others was added to it.
+  struct Own {
+    Grid<std::uint8_t> occupancy;
+    Grid<std::uint8_t> reachable;
+  };
+  std::optional<Own> own = std::nullopt;
 };
 
 /// Makes snapshots only when the map has changed and the last one is old enough.
@@ -55,6 +59,7 @@ class FloorSource {
 
  private:
   [[nodiscard]] Result<FloorView> build() const;
+  [[nodiscard]] Result<FloorView> view_of(Grid<std::uint8_t> occupancy) const;
 
   CostMapParams cost_;
   ForbiddenAreas areas_;
