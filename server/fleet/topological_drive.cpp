@@ -41,7 +41,7 @@ void TopologicalStrategy::go(const Input& input, const Scene& scene, PendingGoal
 void TopologicalStrategy::go_to_goal(const Input& input, const Scene& scene) {
   state_ = State::kGoal;
   why_ = "driving to the goal at " + text(goal_->p_map);
-  const auto aim_map = nearest_on_line(input, scene);
+  const auto aim_map = nearest_now(input, scene);
   if (!aim_map) {
     failed(input, "the map leads nowhere near it");
     return;
@@ -54,14 +54,14 @@ void TopologicalStrategy::go_to_goal(const Input& input, const Scene& scene) {
 
 /// Of the straight line from its node to the goal the last place that a way leads to: the goal itself, or where the
 /// known floor ends.
-std::optional<Point2> TopologicalStrategy::nearest_on_line(const Input& input, const Scene& scene) const {
-  const auto costs = nav::DistanceField::build(scene.floor->cost, input.map_T_base.translation());
+std::optional<Point2> TopologicalStrategy::nearest_on_line(const Input& input, const nav::CostMap& cost) const {
+  const auto costs = nav::DistanceField::build(cost, input.map_T_base.translation());
   if (!costs) {
     return std::nullopt;
   }
   const Point2 from_map = goal_->way_map.empty() ? map_.current()->map_T_base.translation() : goal_->way_map.back();
   const Point2 line = from_map - goal_->p_map;
-  const int steps = static_cast<int>(std::ceil(line.norm() / scene.floor->cost.frame().resolution_m));
+  const int steps = static_cast<int>(std::ceil(line.norm() / cost.frame().resolution_m));
   for (int k = 0; k <= steps; ++k) {
     const Point2 p_map = goal_->p_map + (steps > 0 ? static_cast<double>(k) / steps : 0.0) * line;
     if (costs->cost_to(p_map)) {
@@ -69,6 +69,19 @@ std::optional<Point2> TopologicalStrategy::nearest_on_line(const Input& input, c
     }
   }
   return std::nullopt;
+}
+
+/// The same with other robots in the way, as long as a way is left.
+std::optional<Point2> TopologicalStrategy::nearest_now(const Input& input, const Scene& scene) const {
+  const auto crowded = input.floors.around_movers(*scene.floor);
+  const auto aim_map = crowded ? nearest_on_line(input, *crowded) : std::nullopt;
+  return aim_map ? aim_map : nearest_on_line(input, scene.floor->cost);
+}
+
+double TopologicalStrategy::short_of_goal_m() const { return (aim_map_ - goal_->p_map).norm(); }
+
+bool TopologicalStrategy::is_nearer(const std::optional<Point2>& aim_map) const {
+  return aim_map && (*aim_map - goal_->p_map).norm() < short_of_goal_m() - kNearer_m;
 }
 
 void TopologicalStrategy::drive(const Input& input, Step& out) {
@@ -139,9 +152,7 @@ void TopologicalStrategy::reconsider(const Input& input, const Scene& scene, Ste
       change("a new goal on the way", out);
     }
   } else {
-    const double from_goal_m = (aim_map_ - goal_->p_map).norm();
-    const auto aim_map = from_goal_m > kAtGoal_m ? nearest_on_line(input, scene) : std::nullopt;
-    if (aim_map && (*aim_map - goal_->p_map).norm() < from_goal_m - kNearer_m) {
+    if (short_of_goal_m() > kAtGoal_m && is_nearer(nearest_now(input, scene))) {
       go_to_goal(input, scene);
     }
   }
@@ -153,13 +164,10 @@ void TopologicalStrategy::arrived(const Input& input, const Scene& scene, Step& 
     change("at a node on the way", out);
     return;
   }
-  const double from_goal_m = (aim_map_ - goal_->p_map).norm();
-  if (from_goal_m > kAtGoal_m) {
-    const auto aim_map = nearest_on_line(input, scene);
-    if (aim_map && (*aim_map - goal_->p_map).norm() < from_goal_m - kNearer_m) {
-      go_to_goal(input, scene);
-      return;
-    }
+  const bool short_of_goal = short_of_goal_m() > kAtGoal_m;
+  if (short_of_goal && is_nearer(nearest_now(input, scene))) {
+    go_to_goal(input, scene);
+    return;
   }
   const auto known = map_.node_at(input.map_T_base.translation(), scene.corridors);
   if (known && distance_m(map_.find(*known)->map_T_base, input.map_T_base) < 0.5 * topological_.map.node_distance_m) {
@@ -170,6 +178,10 @@ void TopologicalStrategy::arrived(const Input& input, const Scene& scene, Step& 
     create_node(input, scene);
   }
   if (!goal_settled(scene)) {  // as near as the map leads
+    if (short_of_goal && is_nearer(nearest_on_line(input, scene.floor->cost))) {
+      failed(input, "another robot stands in the way");
+      return;
+    }
     if (goal_->robot) {
       done_map_.push_back(goal_->p_map);
     } else {

@@ -67,7 +67,10 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
 
   void go(const Input& input, const Scene& scene, PendingGoal goal);
   void go_to_goal(const Input& input, const Scene& scene);
-  [[nodiscard]] std::optional<Point2> nearest_on_line(const Input& input, const Scene& scene) const;
+  [[nodiscard]] std::optional<Point2> nearest_on_line(const Input& input, const nav::CostMap& cost) const;
+  [[nodiscard]] std::optional<Point2> nearest_now(const Input& input, const Scene& scene) const;
+  [[nodiscard]] double short_of_goal_m() const;
+  [[nodiscard]] bool is_nearer(const std::optional<Point2>& aim_map) const;
   void drive(const Input& input, Step& out);
   void pass(const Input& input, const Scene& scene, Step& out);
   void reconsider(const Input& input, const Scene& scene, Step& out);

@@ -14,6 +14,8 @@ constexpr std::size_t kMaxObstacles = 256;
 constexpr double kSameObstacle_m = 0.1;
 /// Other robots nearer than this are planned around.
 constexpr double kNearMover_m = 3.0;
+/// So far from the robot ends what it may not enter: a cell's diagonal.
+constexpr double kBeside_m = 0.1;
 
 }  // namespace
 
@@ -85,8 +87,10 @@ Result<FloorView> FloorSource::view_of(Grid<std::uint8_t> occupancy) const {
 std::optional<CostMap> FloorSource::around_movers(const FloorView& view) const {
   std::optional<CostMap> costs;
   for (const Mover& mover : movers_) {
-    if (distance_m(mover.frame_T_base, map_T_base_) < kNearMover_m) {
-      const double apart_m = mover.radius_m + mover.slack_m + cost_.robot_radius_m;
+    const double distance = distance_m(mover.frame_T_base, map_T_base_);
+    if (distance < kNearMover_m) {
+      // One that is nearer than it should be is no wall around the robot: the way leads off.
+      const double apart_m = std::min(mover.radius_m + mover.slack_m + cost_.robot_radius_m, distance - kBeside_m);
       costs = (costs ? *costs : view.cost).without_disc(mover.frame_T_base.translation(), apart_m);
     }
   }

@@ -67,6 +67,9 @@ bool PlannedDriver::plan(const DriveInput& input) {
   }
   const std::optional<CostMap> crowded = input.floors.around_movers(**floor);
   auto path = nav::plan(crowded ? *crowded : (*floor)->cost, input.map_T_base.translation(), goal_);
+  if (!path && crowded) {  // up to the one that is in the way: it may have gone on by then
+    path = nav::plan((*floor)->cost, input.map_T_base.translation(), goal_);
+  }
   if (!path) {
     reason_ = path.error().message;
     return false;

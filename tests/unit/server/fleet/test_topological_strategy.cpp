@@ -144,6 +144,23 @@ TEST(TopologicalStrategy, StaysOutOfTheOtherRoomWhenAnotherRobotIsThere) {
   EXPECT_LT(farthest_x_m[1], 5.5);
 }
 
+TEST(TopologicalStrategy, DrivesUpToOneInTheDoorThatMakesWay) {
+  Exploration exploration = exploration_of();
+  ToyExplorer robot(explore::two_rooms(), {3.3, 2.5, 0.0}, 7, 6.0);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [](double, ExploreInput& input) {
+    nav::Mover other;
+    other.frame_T_base = {5.1, 2.5, 0.0};
+    if (distance_m(input.pose.map_T_base, other.frame_T_base) > 1.0) {
+      input.movers = {other};
+    }
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
+  EXPECT_GT(run.wall_share, kWallShare);
+}
+
 TEST(TopologicalStrategy, ComesThroughAMapThatMoves) {
   Exploration exploration = exploration_of();
   ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);

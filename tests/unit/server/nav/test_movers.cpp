@@ -7,6 +7,7 @@
 
 #include "common/core/angle.hpp"
 #include "server/nav/floor_view.hpp"
+#include "server/nav/planned_driver.hpp"
 
 namespace seeker::nav {
 namespace {
@@ -125,6 +126,22 @@ TEST(Movers, WaysArePlannedAroundThoseThatAreNear) {
   EXPECT_TRUE(costs->traversable(Point2(0, 0.7)));
   floors.attend(map, {-1.5, 0, 0}, RobotTime{}, {mover_at(2.0, 0, 0, 0.3)});
   EXPECT_FALSE(floors.around_movers(**view));
+}
+
+TEST(Movers, WaysLeadUpToOneThatCoversTheGoalAndAwayFromOneThatIsTooNear) {
+  const OccupancyMap map = open_floor();
+  FloorSource floors({}, {}, 0.25, 1.0);
+  PlannedDriver driver{{}};
+  const Pose2 map_T_base{-1.5, 0, 0};
+  floors.attend(map, map_T_base, RobotTime{}, {mover_at(0.5, 0, 0, 0.0)});
+  ASSERT_TRUE(driver.start({RobotTime{}, map_T_base, nullptr, nullptr, floors}, {0.5, 0})) << driver.reason();
+  EXPECT_EQ(driver.path().back(), Point2(0.5, 0));
+  // 0.4 m beside it, where the two discs touch nearly: a wall of that size would hold the robot fast.
+  floors.attend(map, map_T_base, RobotTime{}, {mover_at(-1.5, 0.4, 0, 0.0)});
+  ASSERT_TRUE(driver.start({RobotTime{}, map_T_base, nullptr, nullptr, floors}, {1.0, 0})) << driver.reason();
+  for (const Point2& p : driver.path()) {
+    EXPECT_GE((p - Point2(-1.5, 0.4)).norm(), 0.3);
+  }
 }
 
 TEST(Movers, AreNeverKeptAsObstacles) {
