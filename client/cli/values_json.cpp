@@ -167,6 +167,16 @@ void write_json(Json& json, const api::RobotStatus& status) {
   } else {
     json.null();
   }
+  json.key("timing");
+  if (status.timing) {
+    json.begin_object()
+        .field("ticks", status.timing->ticks)
+        .field("late", status.timing->late)
+        .field("worst_s", to_seconds(status.timing->worst))
+        .end_object();
+  } else {
+    json.null();
+  }
   json.key("mission");
   if (status.mission) {
     write_json(json, *status.mission);

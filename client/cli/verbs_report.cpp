@@ -20,6 +20,13 @@ std::string alarm(const Context& context, const std::string& text) {
   return context.colour ? "\x1b[31m" + text + "\x1b[0m" : text;
 }
 
+/// "21227 ticks, 3 late by more than 20 ms, worst 0.031 s"
+std::string lateness(const TickTiming& timing) {
+  return std::to_string(timing.ticks) + " ticks, " + std::to_string(timing.late) +
+         fixed(" late by more than %.0f ms, ", 1e3 * to_seconds(TickTiming::kLate)) +
+         fixed("worst %.3f s", to_seconds(timing.worst));
+}
+
 void print_status(const Context& context, const api::RobotInfo& info, const api::RobotStatus& s) {
   row(context, "robot", info.robot_id + " (version " + info.software_version + ")");
   row(context, "time", fixed("%.1f s", to_seconds(s.stamp)));
@@ -33,6 +40,9 @@ void print_status(const Context& context, const api::RobotInfo& info, const api:
             (map.name.empty() ? std::string("not saved yet") : "'" + map.name + "'") +
             (map.use == api::MapUse::kLocalise ? ", only localised in" : "") +
             (map.relocalising ? ", the robot looks for its place in it" : ""));
+  }
+  if (s.timing) {
+    row(context, "loop", lateness(*s.timing));
   }
   row(context, "velocity", fixed("%.2f m/s, ", s.velocity.v_m_s) + fixed("%.2f rad/s", s.velocity.omega_rad_s));
   if (s.battery_v) {

@@ -14,6 +14,7 @@
 #include "common/core/occupancy_tile.hpp"
 #include "common/core/pose_estimate.hpp"
 #include "common/core/scan.hpp"
+#include "common/core/tick_timing.hpp"
 
 namespace seeker::api {
 
@@ -87,6 +88,7 @@ struct RobotStatus {
   std::vector<Fault> faults;
   std::string safety;                     ///< why the last command was clamped or refused; empty when it was not
   double clock_speed = 1.0;               ///< robot seconds per wall second asked for; 0: as fast as possible
+  std::optional<TickTiming> timing;       ///< of the loop; absent where no wall clock paces it
   std::uint64_t map_revision = 0;         ///< of the occupancy
   std::optional<LineMapStatus> line_map;  ///< absent where the estimator keeps no map of segments
 

@@ -141,6 +141,12 @@ void write(const api::RobotStatus& from, pb::RobotStatus* to) {
   if (from.line_map) {
     write(*from.line_map, to->mutable_line_map());
   }
+  if (from.timing) {
+    pb::TickTiming* timing = to->mutable_timing();
+    timing->set_ticks(from.timing->ticks);
+    timing->set_late(from.timing->late);
+    timing->set_worst_ns(from.timing->worst.count());
+  }
 }
 
 void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check) {
@@ -171,6 +177,9 @@ void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check) {
   if (from.has_line_map()) {
     const auto scope = check.in("line_map");
     read(from.line_map(), to.line_map.emplace(), check);
+  }
+  if (from.has_timing()) {
+    to.timing = TickTiming{from.timing().ticks(), from.timing().late(), Duration(from.timing().worst_ns())};
   }
 }
 

@@ -101,6 +101,7 @@ api::RobotStatus RobotLoop::status() const {
   status.faults = faults_.all();
   status.safety = safety_reason_;
   status.clock_speed = parts_.devices.clock->speed();
+  status.timing = parts_.devices.clock->timing();
   status.map_revision = map_.revision();
   status.line_map = map_.status();
   return status;

@@ -13,6 +13,7 @@
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
 #include "common/core/stereo.hpp"
+#include "common/core/tick_timing.hpp"
 #include "common/core/time.hpp"
 
 namespace seeker::drivers {
@@ -103,6 +104,8 @@ class Clock {
   virtual void let_go() {}
   /// Robot seconds per wall second; 0: as fast as possible.
   [[nodiscard]] virtual double speed() const = 0;
+  /// How well the ticks keep to the wall clock; nothing at speed 0, or where another process paces them.
+  [[nodiscard]] virtual std::optional<TickTiming> timing() const { return std::nullopt; }
 };
 
 }  // namespace seeker::drivers

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <utility>
 
 namespace seeker::drivers {
@@ -155,9 +154,7 @@ std::optional<OdometrySample> ReplaySource::take_odometry() { return std::exchan
 std::optional<LaserScan> ReplaySource::take_scan() { return std::exchange(scan_, std::nullopt); }
 
 ReplayClock::ReplayClock(std::shared_ptr<ReplaySource> source, double speed)
-    : source_(std::move(source)), speed_(speed) {
-  SEEKER_ASSERT(speed >= 0.0);
-}
+    : source_(std::move(source)), pacer_(speed) {}
 
 Status ReplayClock::advance(Duration period) {
   if (source_->finished()) {
@@ -165,14 +162,7 @@ Status ReplayClock::advance(Duration period) {
   }
   const RobotTime before = source_->now();
   source_->advance_to(before + period);
-  if (speed_ > 0.0) {
-    const auto tick = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-        std::chrono::duration<double>(to_seconds(source_->now() - before) / speed_));
-    const auto wall = std::chrono::steady_clock::now();
-    // A loop that is late starts anew from now instead of racing to catch up.
-    next_tick_ = std::max(next_tick_.value_or(wall) + tick, wall);
-    std::this_thread::sleep_until(*next_tick_);
-  }
+  pacer_.wait(source_->now() - before);
   return {};
 }
 

@@ -2,13 +2,13 @@
 /// A recorded log in place of hardware: clock, base and lidar over one source.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <optional>
 
 #include "common/core/angle.hpp"
 #include "common/core/assert.hpp"
 #include "server/drivers/interfaces/drivers.hpp"
+#include "server/drivers/interfaces/pacer.hpp"
 #include "server/drivers/replay/carmen_reader.hpp"
 
 namespace seeker::drivers {
@@ -76,12 +76,13 @@ class ReplayClock final : public Clock {
   /// kCancelled once the last record has been taken before this call.
   [[nodiscard]] Status advance(Duration period) override;
   [[nodiscard]] bool lockstep() const override { return true; }
-  [[nodiscard]] double speed() const override { return speed_; }
+  void let_go() override { pacer_.rest(); }
+  [[nodiscard]] double speed() const override { return pacer_.speed(); }
+  [[nodiscard]] std::optional<TickTiming> timing() const override { return pacer_.timing(); }
 
  private:
   std::shared_ptr<ReplaySource> source_;
-  double speed_;
-  std::optional<std::chrono::steady_clock::time_point> next_tick_;
+  Pacer pacer_;
 };
 
 /// The recorded odometry. It cannot be driven: kRefused for any motion; standing still is fine.

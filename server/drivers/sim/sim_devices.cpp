@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -260,7 +259,7 @@ Result<StereoFrame> SimStereo::grab() {
 const StereoGeometry& SimStereo::geometry() const { return simulation_->model().stereo.geometry; }
 
 LockstepClock::LockstepClock(std::shared_ptr<sim::Simulation> simulation, SimBase* base, WorldSeat seat, double speed)
-    : simulation_(std::move(simulation)), base_(base), seat_(std::move(seat)), speed_(speed) {}
+    : simulation_(std::move(simulation)), base_(base), seat_(std::move(seat)), pacer_(speed) {}
 
 LockstepClock::~LockstepClock() { seat_.barrier->let_go(seat_.robot); }
 
@@ -271,6 +270,7 @@ void LockstepClock::hold() { seat_.barrier->hold(seat_.robot); }
 void LockstepClock::let_go() {
   simulation_->command({});  // nobody watches its time-out meanwhile
   seat_.barrier->let_go(seat_.robot);
+  pacer_.rest();
 }
 
 Status LockstepClock::advance(Duration period) {
@@ -279,17 +279,7 @@ Status LockstepClock::advance(Duration period) {
   }
   base_->before_advance(period);
   seat_.barrier->advance(seat_.robot, period);
-  if (speed_ > 0.0) {
-    const auto wall = std::chrono::steady_clock::now();
-    const auto pace = seconds(to_seconds(period) / speed_);
-    // After a pause the clock starts afresh and does not hurry to catch up.
-    constexpr Duration kMaxLag = std::chrono::milliseconds(250);
-    if (!next_wake_ || wall - *next_wake_ > kMaxLag) {
-      next_wake_ = wall;
-    }
-    *next_wake_ += pace;
-    std::this_thread::sleep_until(*next_wake_);
-  }
+  pacer_.wait(period);
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/drivers/interfaces/drivers.hpp"
+#include "server/drivers/interfaces/pacer.hpp"
 #include "server/drivers/sim/tick_barrier.hpp"
 #include "server/sim/simulation.hpp"
 
@@ -148,14 +149,14 @@ class LockstepClock final : public Clock {
   void hold() override;
   void let_go() override;
   [[nodiscard]] bool lockstep() const override { return true; }
-  [[nodiscard]] double speed() const override { return speed_; }
+  [[nodiscard]] double speed() const override { return pacer_.speed(); }
+  [[nodiscard]] std::optional<TickTiming> timing() const override { return pacer_.timing(); }
 
  private:
   std::shared_ptr<sim::Simulation> simulation_;
   SimBase* base_;
   WorldSeat seat_;
-  double speed_;
-  std::optional<std::chrono::steady_clock::time_point> next_wake_;
+  Pacer pacer_;
 };
 
 /// A whole simulated robot. The clock refers to the base: destroy or keep them together.

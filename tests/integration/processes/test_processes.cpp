@@ -1,9 +1,13 @@
 // Server and client as two processes over real sockets.
 
+#include <array>
 #include <csignal>
+#include <cstdio>
+#include <fstream>
 #include <future>
 #include <mutex>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/rpc/wait.hpp"
@@ -116,43 +120,86 @@ TEST(Processes, TerminationIsOrderlyAndWrongConfigurationHasItsOwnCode) {
   EXPECT_NE(wrong.output().find("sim.sped"), std::string::npos) << wrong.output();
 }
 
-TEST(Processes, ReplayOfARecordedLogReachesItsEndWithAClientAttached) {
+/// The laser of the robot whose logs these are.
+const std::vector<std::string> kLaserOfTrace0 = {
+    "--set", "replay.laser.angle_min_deg=-135", "--set", "replay.laser.angle_step_deg=0.351562",
+    "--set", "replay.laser.range_max_m=5.6",    "--set", "replay.laser.base_T_laser=[0.135, 0, 0]"};
+
+/// Plays the log to its end with this client attached and gives what the robot says of it then.
+std::string play_to_the_end(rpc::RobotClient& client) {
+  std::promise<std::string> ended;
+  auto subscription = client.subscribe({{.topic = api::Topic::kEvent, .resume_after = 0}, {.topic = api::Topic::kScan}},
+                                       [&](const api::UpdatePtr& update) {
+                                         if (const auto* event = std::get_if<api::Event>(&update->payload);
+                                             event != nullptr && event->kind == "source-ended") {
+                                           ended.set_value(event->text);
+                                         }
+                                       });
+  auto future = ended.get_future();
+  return subscription && future.wait_for(seconds(120)) == std::future_status::ready ? future.get() : std::string();
+}
+
+using Wall = std::array<double, 4>;
+
+/// As `seeker-lab slam` writes them: x1,y1,x2,y2 in metres, four decimals, remarks with '#'.
+std::vector<Wall> walls_in(const std::filesystem::path& csv) {
+  std::vector<Wall> walls;
+  std::ifstream file(csv);
+  for (std::string line; std::getline(file, line);) {
+    if (Wall w; std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &w[0], &w[1], &w[2], &w[3]) == 4) {
+      walls.push_back(w);
+    }
+  }
+  return walls;
+}
+
+std::vector<Wall> walls_of(rpc::RobotClient& client) {
+  const Result<api::SegmentUpdate> update =
+      rpc::wait<api::SegmentUpdate>([&](auto reply) { client.get_segments(0, std::move(reply)); }, kCall);
+  std::vector<Wall> walls;
+  for (const MapSegment& segment : update ? update->changed : std::vector<MapSegment>()) {
+    walls.push_back({segment.left().x(), segment.left().y(), segment.right().x(), segment.right().y()});
+  }
+  return walls;
+}
+
+TEST(Processes, ReplayOfARecordedLogGivesAClientTheMapThatTheLogGivesOffline) {
   SEEKER_REQUIRE_DATA(log, "lidar/p3dx/trace0.clf.gz");
   const std::filesystem::path folder = fresh_folder("replay");
-  ChildProcess server(program("seekerd"), {"--config",    source_file("config/robots/replay.yaml"),
-                                           "--port",      "0",
-                                           "--port-file", folder / "port",
-                                           "--state",     folder / "state",
-                                           "--set",       "replay.log=" + log.string(),
-                                           "--set",       "replay.speed=0",
-                                           "--set",       "replay.laser.angle_min_deg=-135",
-                                           "--set",       "replay.laser.angle_step_deg=0.351562",
-                                           "--set",       "replay.laser.range_max_m=5.6",
-                                           "--set",       "replay.laser.base_T_laser=[0.135, 0, 0]"},
-                      folder / "log");
+  std::vector<std::string> online = {"--config",    source_file("config/robots/replay.yaml"),
+                                     "--port",      "0",
+                                     "--port-file", folder / "port",
+                                     "--state",     folder / "state",
+                                     "--set",       "replay.log=" + log.string(),
+                                     "--set",       "replay.speed=0"};
+  online.insert(online.end(), kLaserOfTrace0.begin(), kLaserOfTrace0.end());
+  ChildProcess server(program("seekerd"), online, folder / "log");
   const std::optional<std::string> port = wait_for_file(folder / "port", kStart);
   ASSERT_TRUE(port) << server.output();
   rpc::ClientParams params;
   params.client_name = "viewer";
   auto client = rpc::RobotClient::connect({"127.0.0.1", static_cast<std::uint16_t>(std::stoi(*port))}, params);
   ASSERT_TRUE(client) << client.error().message;
-  std::promise<std::string> ended;
-  auto subscription =
-      (*client)->subscribe({{.topic = api::Topic::kEvent, .resume_after = 0}, {.topic = api::Topic::kScan}},
-                           [&](const api::UpdatePtr& update) {
-                             if (const auto* event = std::get_if<api::Event>(&update->payload);
-                                 event != nullptr && event->kind == "source-ended") {
-                               ended.set_value(event->text);
-                             }
-                           });
-  ASSERT_TRUE(subscription);
-  auto future = ended.get_future();
-  ASSERT_EQ(future.wait_for(seconds(120)), std::future_status::ready) << server.output();
-  EXPECT_NE(future.get().find("958"), std::string::npos) << "the summary tells how many scans were read";
+  const std::string summary = play_to_the_end(**client);
+  EXPECT_NE(summary.find("958"), std::string::npos) << "the summary tells how many scans were read: " << summary;
   const Result<api::TileUpdate> tiles =
       rpc::wait<api::TileUpdate>([&](auto reply) { (*client)->get_tiles(0, std::move(reply)); }, kCall);
   ASSERT_TRUE(tiles);
   EXPECT_GT(tiles->tiles.size(), 10U);
+
+  std::vector<std::string> offline = {"slam",         log,       "--out",
+                                      folder / "lab", "--robot", source_file("config/robots/replay.yaml")};
+  offline.insert(offline.end(), kLaserOfTrace0.begin(), kLaserOfTrace0.end());
+  ChildProcess lab(program("seeker-lab"), offline, folder / "lab.log");
+  ASSERT_EQ(lab.wait(seconds(120)), 0) << lab.output();
+  std::vector<Wall> expected = walls_in(folder / "lab" / "walls.csv");
+  std::vector<Wall> seen = walls_of(**client);
+  ASSERT_GT(expected.size(), 50U);
+  ASSERT_EQ(seen.size(), expected.size());
+  constexpr double kDecimals_m = 0.00011;  // the file's four
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    EXPECT_THAT(seen[k], ::testing::Pointwise(::testing::DoubleNear(kDecimals_m), expected[k])) << k;
+  }
 }
 
 }  // namespace

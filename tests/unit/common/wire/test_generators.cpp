@@ -220,6 +220,9 @@ api::RobotStatus ValueMaker::status() {
   if (flag()) {
     s.line_map = line_map();
   }
+  if (flag()) {
+    s.timing = TickTiming{rng_.bits(), rng_.bits(), Duration(rng_.below(1'000'000'000))};
+  }
   return s;
 }
 
