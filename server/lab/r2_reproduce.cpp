@@ -46,7 +46,7 @@ MakeTracker local_maps_tracker() {
     params.odometry.across_sigma_m_per_sqrt_m = 0.0;
     params.odometry.theta_sigma_rad_per_sqrt_m = model.odometry.sigma_turn_per_distance;
     params.odometry.theta_sigma_rad_per_sqrt_rad = model.odometry.sigma_turn;
-    params.max_odometry_scale = 1.0;
+    params.odometry_scale.max = 1.0;
     // Walls of the simulator are straight and its scanner is level: what real ones add would hide the filter's own.
     params.observation = {};
     params.local.joint_sigma_m = 0.0;

@@ -20,6 +20,10 @@ void describe(config::Fields& f, PointNetParams& params) {
   f.field("new_space_ratio", params.new_space_ratio);
   f.field("max_correction_m", params.max_correction_m);
   f.angle_deg("max_correction_deg", params.max_correction_rad);
+  f.field("sure_ratio", params.sure_ratio);
+  f.field("far_m", params.far_m);
+  f.angle_deg("far_deg", params.far_rad);
+  f.field("far_ratio", params.far_ratio);
   f.field("carried_keyframes", params.carried_keyframes);
   f.field("map_sigma_m", params.map_sigma_m);
   f.angle_deg("map_sigma_deg", params.map_sigma_rad);
@@ -87,9 +91,9 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.angle_deg("min_turn_deg", params.min_turn_rad);
   f.field("still_range_m", params.still_range_m);
   f.field("still_share", params.still_share);
-  f.field("max_odometry_scale", params.max_odometry_scale);
-  f.field("odometry_scale_up", params.odometry_scale_up);
-  f.field("odometry_scale_down", params.odometry_scale_down);
+  f.field("max_odometry_scale", params.odometry_scale.max);
+  f.field("odometry_scale_up", params.odometry_scale.up);
+  f.field("odometry_scale_down", params.odometry_scale.down);
   f.field("lost_after", params.lost_after);
   f.field("repeats_fault", params.repeats_fault);
 }

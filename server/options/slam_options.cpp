@@ -41,6 +41,7 @@ void describe(config::Fields& f, MatchParams& params) {
   f.field("sigma_floor_m", params.sigma_floor_m);
   f.field("covariance_inflation", params.covariance_inflation);
   f.field("search_m", params.search_m);
+  f.field("kept_share", params.kept_share);
   f.angle_deg("search_deg", params.search_rad);
   f.field("search_step_m", params.search_step_m);
   f.angle_deg("search_step_deg", params.search_step_rad);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/angle.hpp"
 #include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
@@ -31,6 +32,14 @@ LaserScan without_paired_lines(LaserScan scan, const lines::ScanLines& found,
   return scan;
 }
 
+MatchParams far_search(const PointNetParams& params) {
+  MatchParams far = params.match;
+  far.search_m = params.far_m;
+  far.search_rad = params.far_rad;
+  far.search_ratio = params.far_ratio;
+  return far;
+}
+
 }  // namespace
 
 struct LineSlam::Scan {
@@ -47,6 +56,8 @@ LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
     : params_(params),
       extractor_(params.extractor),
       matcher_(params.points.match),
+      far_matcher_(far_search(params.points)),
+      odometry_scale_(params.odometry_scale),
       travelled_(params.odometry),
       cloud_(params.points.cloud),
       backend_(params.loops),
@@ -174,7 +185,7 @@ Status LineSlam::update(const LaserScan& scan) {
     return {};
   }
   used_ranges_ = scan.ranges_m;
-  lines_->predict(increment, odometry_scale_ * to_base_frame(travelled.covariance, increment));
+  lines_->predict(increment, odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment)));
   travelled_.correct({}, Matrix3::Zero());
   const double way_m = std::hypot(increment.x_m, increment.y_m);
   way_m_ += way_m;
@@ -230,7 +241,7 @@ void LineSlam::follow(Scan& scan) {
     ++revision_;
   }
   if (map_is_full()) {
-    begin_next_map(scan.scan.stamp);
+    begin_next_map(scan.scan.stamp, params_.points.carried_keyframes);
   }
 }
 
@@ -242,8 +253,12 @@ MatchResult LineSlam::match_points(Scan& scan) {
   }
   // After a gap even a fair match may be a wrong one, and a poor one may only have begun in the wrong place.
   ++counts_.searched;
-  return matcher_.match_widely(reference, scan.points, scan.predicted, lines_->robot_covariance_map(),
-                               std::move(match));
+  const Matrix3 covariance = lines_->robot_covariance_map();
+  match = matcher_.match_widely(reference, scan.points, scan.predicted, covariance, std::move(match));
+  if (scan.gap && match.inlier_ratio < params_.points.good_ratio) {
+    match = far_matcher_.match_widely(reference, scan.points, scan.predicted, covariance, std::move(match));
+  }
+  return match;
 }
 
 bool LineSlam::believable(const MatchResult& match, const Pose2& predicted) const {
@@ -253,8 +268,12 @@ bool LineSlam::believable(const MatchResult& match, const Pose2& predicted) cons
   // What the odometry did not expect asks for more than a corner that happens to fit.
   const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
   const bool surprising = lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction;
-  return (!surprising || match.inlier_ratio >= params_.points.good_ratio) &&
-         !moved(predicted, match.map_T_base, params_.points.max_correction_m, params_.points.max_correction_rad);
+  // So does a robot that did not know its place before: one more wrong scan in the map keeps it there.
+  const bool careful = surprising || failures_ > 0;
+  const bool far =
+      moved(predicted, match.map_T_base, params_.points.max_correction_m, params_.points.max_correction_rad);
+  return (!careful || match.inlier_ratio >= params_.points.good_ratio) &&
+         (!far || match.inlier_ratio >= params_.points.sure_ratio);
 }
 
 void LineSlam::use_points(const Scan& scan, const MatchResult& match) {
@@ -273,11 +292,10 @@ void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covarianc
   if (match.degenerate_direction) {
     return;
   }
-  // With the right noise the mean of d2 / 3 is 1; the scale follows what was seen, fast upwards.
-  const double ratio = lines_->pose_d2(match.map_T_base, covariance) / 3.0;
-  const double wanted = std::clamp(odometry_scale_ * ratio, 1.0, params_.max_odometry_scale);
-  const double rate = wanted > odometry_scale_ ? params_.odometry_scale_up : params_.odometry_scale_down;
-  odometry_scale_ += rate * (wanted - odometry_scale_);
+  const Pose2& predicted = lines_->robot();
+  const Eigen::Vector3d off(match.map_T_base.x_m - predicted.x_m, match.map_T_base.y_m - predicted.y_m,
+                            wrap_angle(match.map_T_base.theta_rad - predicted.theta_rad));
+  odometry_scale_.learn(off, lines_->robot_covariance_map() + covariance);
 }
 
 void LineSlam::use_leftover(const Scan& scan, const Association& association) {
@@ -324,6 +342,10 @@ void LineSlam::note_failure(const Scan& scan) {
     return reference.nearest(pose * point.p, params_.points.match.first_gate_m) != nullptr;
   });
   if (static_cast<double>(known) < params_.points.new_space_ratio * static_cast<double>(scan.points.size())) {
+    if (failures_ > 0) {
+      // Where the robot went meanwhile is known badly: a map of its own, which a loop can move, takes what it sees now.
+      begin_next_map(scan.scan.stamp, 0);
+    }
     failures_ = 0;
     quality_ = LocalisationQuality::kDegraded;
     cause_ = "unseen space: the pose goes on by odometry";
@@ -355,14 +377,14 @@ bool LineSlam::map_is_full() const {
   return way_m_ >= params_.local.max_way_m || lines_->segments().size() >= params_.local.max_segments;
 }
 
-void LineSlam::begin_next_map(RobotTime stamp) {
+void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
   store_local_map();
   const Pose2 last_T_new = lines_->robot();
   const Matrix3 covariance =
       with_floor(lines_->robot_covariance_map(), params_.local.joint_sigma_m, params_.local.joint_sigma_rad);
   backend_.begin_next(last_T_new, covariance, stamp);
   start_local_map();
-  cloud_.move_to(inverse(last_T_new), {}, params_.points.carried_keyframes);
+  cloud_.move_to(inverse(last_T_new), {}, carried);
   last_try_ = inverse(last_T_new) * last_try_;
   last_witness_ = inverse(last_T_new) * last_witness_;
   claim_ = claim_ ? std::optional(*claim_ * last_T_new) : std::nullopt;

@@ -67,7 +67,8 @@ class LineSlam final : public MapTracker {
   void note_failure(const Scan& scan);
   void note_quality(const MatchResult& match);
   void keep(const Scan& scan);
-  void begin_next_map(RobotTime stamp);
+  /// With `carried` keyframes of the present one, by which the next scans are matched.
+  void begin_next_map(RobotTime stamp, std::size_t carried);
   void store_local_map();
   [[nodiscard]] bool map_is_full() const;
   void start_local_map();
@@ -81,6 +82,8 @@ class LineSlam final : public MapTracker {
   LineSlamParams params_;
   lines::FastExtractor extractor_;
   ScanMatcher matcher_;
+  ScanMatcher far_matcher_;
+  OdometryScale odometry_scale_;
   OdometryTracker travelled_;     ///< since the last scan: its pose is the increment
   std::unique_ptr<SpMap> lines_;  ///< of the newest local map, in its frame
   LocalCloud cloud_;              ///< in the same frame
@@ -90,7 +93,6 @@ class LineSlam final : public MapTracker {
   std::optional<RobotTime> last_scan_;
   std::vector<float> newest_ranges_;  ///< of the last scan,
   std::vector<float> used_ranges_;    ///< and of the last that was not taken for one more of the same
-  double odometry_scale_ = 1.0;       ///< of its covariance: learnt from how far matches lie from predictions
   int repeats_ = 0;
   int failures_ = 0;
   double way_m_ = 0.0;  ///< driven in the newest local map

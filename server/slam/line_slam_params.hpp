@@ -6,6 +6,7 @@
 #include "server/lines/observation.hpp"
 #include "server/slam/local_cloud.hpp"
 #include "server/slam/loop_detector.hpp"
+#include "server/slam/odometry_scale.hpp"
 #include "server/slam/odometry_tracker.hpp"
 #include "server/slam/place_recogniser.hpp"
 #include "server/slam/scan_matcher.hpp"
@@ -34,6 +35,10 @@ struct PointNetParams {
   double new_space_ratio = 0.5;   ///< fewer points than this near known ones: unseen space, not a contradiction
   double max_correction_m = 1.2;  ///< a match farther from the prediction is not believed
   double max_correction_rad = 0.6;
+  double sure_ratio = 0.6;  ///< ... unless it explains so many points
+  double far_m = 2.5;       ///< half width of the second search, after a gap that the first one did not bridge
+  double far_rad = 0.8;
+  double far_ratio = 0.5;             ///< share of the points that a place found by it must explain
   std::size_t carried_keyframes = 6;  ///< of one local map into the next
   double map_sigma_m = 0.005;         ///< error of the keyframes themselves, added to every match
   double map_sigma_rad = 0.002;
@@ -96,6 +101,7 @@ inline constexpr lines::ObservationParams kRealWalls{.wall_sigma_m = 0.02, .wall
 
 struct LineSlamParams {
   OdometryParams odometry;
+  OdometryScaleParams odometry_scale;
   lines::FastParams extractor;
   lines::ObservationParams observation = kRealWalls;
   SpMapParams lines;
@@ -108,9 +114,6 @@ struct LineSlamParams {
   double min_turn_rad = 0.01;
   double still_range_m = 0.04;  ///< ... unless more than this share of its ranges changed by more than this
   double still_share = 0.15;
-  double max_odometry_scale = 100.0;  ///< of the odometry's variances, when it turns out worse than said
-  double odometry_scale_up = 0.3;     ///< how fast the scale follows, per scan
-  double odometry_scale_down = 0.02;
   int lost_after = 10;    ///< consecutive scans without a believed match
   int repeats_fault = 3;  ///< so many equal scans while the robot moves: the laser repeats itself
 };

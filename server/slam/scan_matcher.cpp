@@ -205,6 +205,15 @@ std::vector<Pose2> ScanMatcher::search(const ReferenceCloud& reference, const st
   return distinct(std::move(found), params_);
 }
 
+MatchResult ScanMatcher::kept_along(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                    const Pose2& guess, MatchResult found) const {
+  const Point2& at = found.map_T_base.translation();
+  const Point2& direction = *found.degenerate_direction;
+  const Point2 kept = at - direction.dot(at - guess.translation()) * direction;
+  MatchResult back = match(reference, points_base, {kept.x(), kept.y(), found.map_T_base.theta_rad});
+  return back.inliers >= params_.kept_share * found.inliers ? back : found;
+}
+
 MatchResult ScanMatcher::match_widely(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
                                       const Pose2& guess, const Matrix3& covariance, MatchResult from_guess) const {
   // Places between the steps of the grid are no surprise.
@@ -222,7 +231,7 @@ MatchResult ScanMatcher::match_widely(const ReferenceCloud& reference, const std
       best = std::move(other);
     }
   }
-  return best;
+  return best.degenerate_direction ? kept_along(reference, points_base, guess, std::move(best)) : best;
 }
 
 }  // namespace seeker::slam

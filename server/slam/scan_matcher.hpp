@@ -32,6 +32,7 @@ struct MatchParams {
   double surprise_share = 0.02;  ///< ... and so much more for each unit of chi-square it lies off the expected place,
   double max_surprise_share = 0.3;  ///< but no more than this
   std::size_t search_starts = 3;    ///< places that match_widely() looks at closely
+  double kept_share = 0.9;          ///< of the inliers: see match_widely()
 };
 
 /// A match that explains itself.
@@ -57,7 +58,9 @@ class ScanMatcher {
                                   const Pose2& guess) const;
   /// After a gap of up to search_m / search_rad: the best of the match `from_guess` and of those from the places that a
   /// search of the whole window finds on the coarse grid. `covariance` of the guess, of (x, y, theta) in the frame
-  /// `map`: the less a place was to be expected, the more points it must explain.
+  /// `map`: the less a place was to be expected, the more points it must explain. Along a degenerate direction the
+  /// guess is kept here too, as long as it keeps most of the inliers: a search would pull the robot back along a
+  /// corridor to where more of it is known.
   [[nodiscard]] MatchResult match_widely(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
                                          const Pose2& guess, const Matrix3& covariance, MatchResult from_guess) const;
   [[nodiscard]] const MatchParams& params() const { return params_; }
@@ -70,6 +73,9 @@ class ScanMatcher {
   [[nodiscard]] std::vector<Pose2> search(const ReferenceCloud& reference,
                                           const std::vector<OrientedPoint>& points_base,
                                           const Expected& expected) const;
+  /// `found`, or the match with the guess's place along its degenerate direction.
+  [[nodiscard]] MatchResult kept_along(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                       const Pose2& guess, MatchResult found) const;
   /// Share of the points that a place must explain beyond the expected one.
   [[nodiscard]] double handicap(const Expected& expected, const Pose2& pose) const;
 

@@ -169,6 +169,41 @@ TEST(LineSlam, AJumpOfTheOdometryIsPutRight) {
   EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.15);
 }
 
+TEST(LineSlam, GapsOfAlmostAMetreBetweenScansAreBridged) {
+  for (const std::uint64_t seed : {11U, 12U, 13U}) {
+    Trip trip(seed);
+    LineSlam slam({}, trip.truth());
+    Pose2 last = trip.truth();
+    ASSERT_TRUE(trip.feed(slam));
+    while (trip.way_m() < 48.0) {
+      trip.step();
+      if (moved(last, trip.truth(), 0.8, 0.5)) {
+        last = trip.truth();
+        (void)trip.feed(slam);  // a scan that does not match is no reason to stop
+      }
+    }
+    EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.3) << "seed " << seed;
+  }
+}
+
+TEST(LineSlam, WheelsThatSlipByMoreThanAMetreInAGapAreFoundOut) {
+  Rng rng(14);
+  const Pose2 start{2.0, 3.0, 0.0};
+  LineSlam slam({}, start);
+  Pose2 truth = start;
+  Pose2 odom;
+  const Pose2 step{0.4, 0.0, 0.0};
+  const Pose2 slip{-1.5, 0.9, 0.1};  // beyond the window of 1 m that is searched first
+  for (int k = 0; k < 6; ++k) {
+    ASSERT_TRUE(slam.predict(odom, robot_time_s(k)));
+    ASSERT_TRUE(slam.update(scan_at(furnished_room(), truth, k, rng)));
+    truth = truth * step;
+    odom = odom * (k == 4 ? step * slip : step);
+  }
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, truth * inverse(step)), 0.05);
+}
+
 TEST(LineSlam, SaysDegradedInACorridorAndHoldsOnlyWhatItSees) {
   const std::vector<Wall> walls{{{-50.0, 0.0}, {50.0, 0.0}}, {{50.0, 2.0}, {-50.0, 2.0}}};
   Rng rng(8);

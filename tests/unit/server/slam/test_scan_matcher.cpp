@@ -120,6 +120,22 @@ TEST(ScanMatcher, CorrelativeSearchBridgesAGapOfAMetre) {
   EXPECT_THAT(match_widely(reference, points, guess).map_T_base, Pose2Near(kPose, 0.03, 0.01));
 }
 
+TEST(ScanMatcher, ASearchDoesNotPullTheRobotBackAlongACorridorToWhereMoreOfItIsKnown) {
+  Rng rng(6);
+  const std::vector<Wall> corridor{{{-50.0, 0.0}, {50.0, 0.0}}, {{-50.0, 2.0}, {50.0, 2.0}}};
+  std::vector<OrientedPoint> seen;
+  for (const double x_m : {-1.0, -0.7, -0.4, 0.0}) {
+    const Pose2 pose{x_m, 1.0, 0.0};
+    for (const OrientedPoint& point : oriented_points(scan_at(corridor, pose, 0.0, rng, kPi, 6.0))) {
+      seen.push_back(transform(pose, point));
+    }
+  }
+  const ReferenceCloud reference(std::move(seen));
+  const Pose2 pose{0.8, 1.0, 0.05};  // its farthest points lie 0.8 m beyond what was seen before
+  const auto points = oriented_points(scan_at(corridor, pose, 1.0, rng, kPi, 6.0));
+  EXPECT_THAT(match_widely(reference, points, {0.8, 1.1, 0.0}).map_T_base, Pose2Near(pose, 0.03, 0.01));
+}
+
 TEST(ScanMatcher, OfPlacesThatLookAlikeTheExpectedOneIsTaken) {
   // Pillars every 0.7 m along a wall fit one pillar on nearly as well.
   std::vector<Wall> walls = box(0.0, 0.0, 20.0, 3.0);
