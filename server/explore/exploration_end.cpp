@@ -79,7 +79,7 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
     // What only other robots have seen is theirs to look after.
     std::erase_if(left.cut_off, [&](const Point2& p_map) { return !seen_by_itself(**floor, p_map); });
   }
-  left.blocked = known_floor_.occupied_now(**floor);
+  left.blocked = known_floor_.occupied_now(**floor, input.segments);
   left.blocked.insert(left.blocked.end(), left.cut_off.begin(), left.cut_off.end());
   left.beyond_limits = more_beyond_limits(**floor, request_.areas, here, params_);
   return left;
@@ -180,7 +180,8 @@ void Exploration::Impl::conclude(ExploreEnd end, RobotTime now, ExploreStep& out
   out.activity = "driving back to the start";
 }
 
-void Exploration::Impl::measure_progress(RobotTime now) {
+void Exploration::Impl::measure_progress(const StrategyInput& input) {
+  const RobotTime now = input.now;
   if (mode_ == Mode::kReturn || (measured_at_ && to_seconds(now - *measured_at_) < kProgressPeriod_s)) {
     return;
   }
@@ -195,7 +196,7 @@ void Exploration::Impl::measure_progress(RobotTime now) {
   const auto unknown = [&](CellIndex c) {
     return cost.state(cost.frame().cell_of(floor.frame().centre_of(c))) == nav::CellState::kUnknown;
   };
-  known_floor_.add(**view);
+  known_floor_.add(**view, input.map_T_base.translation(), params_.viewpoints.view_range_m);
   const double known_m2 = known_floor_.present_area_m2();
   double border_m = 0.0;
   for (CellIndex c{0, 0}; c.j < floor.height(); ++c.j) {

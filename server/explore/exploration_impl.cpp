@@ -106,7 +106,7 @@ void Exploration::Impl::act(const ExploreInput& input, ExploreStep& out) {
                  input.fleet != nullptr ? input.fleet->floor : nullptr);
   const StrategyInput now = strategy_input(input);
   sonar_obstacles_.note(now);
-  measure_progress(now.now);
+  measure_progress(now);
   const double sigma_m = position_sigma_m(input.pose.covariance);
   check_battery(input, out);
   check_certainty(now, sigma_m, out);

@@ -59,7 +59,7 @@ class Exploration::Impl {
   [[nodiscard]] Left what_is_left(const StrategyInput& input);
   [[nodiscard]] ExploreEnd end_for(const Left& left, const StrategyStep& last, const Point2& here_map) const;
   void conclude(ExploreEnd end, RobotTime now, ExploreStep& out);
-  void measure_progress(RobotTime now);
+  void measure_progress(const StrategyInput& input);
 
   ExploreRequest request_;
   ExploreParams params_;

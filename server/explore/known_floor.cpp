@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/core/occupancy_tile.hpp"
+#include "common/core/polygon.hpp"
 
 namespace seeker::explore {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 /// Occupied cells so near to each other are one thing; fewer cells are noise.
 constexpr double kSameThing_m = 1.0;
 constexpr int kThingCells = 3;
+/// Cells so near to a mapped wall are the wall's; shorter segments may be what stands there.
+constexpr double kWallBand_m = 0.2;
+constexpr double kShortestWall_m = 0.5;
 
 /// A grid as fine as `like` that covers both, all zero.
 Grid<std::uint8_t> covering(const Grid<std::uint8_t>& a, const Grid<std::uint8_t>& like) {
@@ -25,12 +29,21 @@ Grid<std::uint8_t> covering(const Grid<std::uint8_t>& a, const Grid<std::uint8_t
   return {GridFrame{low, cell_m}, static_cast<int>(std::lround(size.x())), static_cast<int>(std::lround(size.y())), 0};
 }
 
-void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from) {
+template <class Wanted>
+void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from, Wanted&& wanted) {
   for (std::size_t k = 0; k < from.cells().size(); ++k) {
-    if (from.cells()[k] != 0) {
-      to[to.frame().cell_of(from.frame().centre_of(from.cell(k)))] = 1;
+    const Point2 p = from.frame().centre_of(from.cell(k));
+    if (from.cells()[k] != 0 && wanted(p)) {
+      to[to.frame().cell_of(p)] = 1;
     }
   }
+}
+
+bool on_wall(const Point2& p_map, const std::vector<MapSegment>& segments) {
+  return std::any_of(segments.begin(), segments.end(), [&](const MapSegment& segment) {
+    return segment.length_m >= kShortestWall_m &&
+           distance_to_segment_m(segment.left(), segment.right(), p_map) < kWallBand_m;
+  });
 }
 
 }  // namespace
@@ -44,14 +57,14 @@ bool seen_by_itself(const nav::FloorView& view, const Point2& p_map) {
   return own.contains(cell) && own[cell] != kUnknownCell;
 }
 
-void KnownFloor::add(const nav::FloorView& view) {
+void KnownFloor::add(const nav::FloorView& view, const Point2& robot_map, double near_m) {
   const Grid<std::uint8_t>& reachable = view.own ? view.own->reachable : view.reachable;
   if (reachable.cells().empty()) {
     return;
   }
   Grid<std::uint8_t> both = covering(floor_, reachable);
-  copy_into(both, floor_);
-  copy_into(both, reachable);
+  copy_into(both, floor_, [](const Point2&) { return true; });
+  copy_into(both, reachable, [&](const Point2& p) { return (p - robot_map).squaredNorm() <= near_m * near_m; });
   floor_ = std::move(both);
   const double cell_m = reachable.frame().resolution_m;
   present_m2_ = cell_m * cell_m *
@@ -64,7 +77,8 @@ bool KnownFloor::contains(const Point2& p_map) const {
   return floor_.contains(cell) && floor_[cell] != 0;
 }
 
-std::vector<Point2> KnownFloor::occupied_now(const nav::FloorView& view) const {
+std::vector<Point2> KnownFloor::occupied_now(const nav::FloorView& view,
+                                             const std::vector<MapSegment>& segments) const {
   struct Thing {
     Point2 p_map;
     int cells = 0;
@@ -76,7 +90,7 @@ std::vector<Point2> KnownFloor::occupied_now(const nav::FloorView& view) const {
       continue;
     }
     const Point2 p = states.frame().centre_of(states.cell(k));
-    if (!contains(p) || !seen_by_itself(view, p)) {
+    if (!contains(p) || !seen_by_itself(view, p) || on_wall(p, segments)) {
       continue;
     }
     const auto same = std::find_if(things.begin(), things.end(),

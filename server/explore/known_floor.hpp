@@ -1,11 +1,12 @@
 /// \file
-/// Floor that the robot could reach at some time.
+/// Floor that the robot could reach at some time, as it saw it from near.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "common/core/grid.hpp"
+#include "common/core/line_map.hpp"
 #include "server/nav/floor_view.hpp"
 
 namespace seeker::explore {
@@ -16,12 +17,15 @@ namespace seeker::explore {
 /// Union of the reachable floor of many floor views; their cells lie on multiples of their size, so that they line up.
 class KnownFloor {
  public:
-  /// Of a view; what only other robots have seen is not remembered: it lies as well as the maps lie upon each other.
-  void add(const nav::FloorView& view);
+  /// Takes what lies within `near_m` of the robot: from afar a wall seen flat is a row of dots, and the floor seems to
+  /// go on between them up to the wall itself. What only other robots have seen is not remembered: it lies as well as
+  /// the maps lie upon each other.
+  void add(const nav::FloorView& view, const Point2& robot_map, double near_m);
   [[nodiscard]] bool contains(const Point2& p_map) const;
-  /// Places where something stands now on floor that the robot could reach: people, or a door that was closed. Walls
-  /// never show up there, since the robot's centre keeps its radius from them.
-  [[nodiscard]] std::vector<Point2> occupied_now(const nav::FloorView& view) const;
+  /// Places where something that is no mapped wall stands now on floor that the robot could reach: people. Walls show
+  /// up there when the robot was a little off as it saw the floor.
+  [[nodiscard]] std::vector<Point2> occupied_now(const nav::FloorView& view,
+                                                 const std::vector<MapSegment>& segments) const;
   /// Of the last grid added.
   [[nodiscard]] double present_area_m2() const { return present_m2_; }
   /// The map moved: what was known no longer lies on cells.

@@ -1,0 +1,67 @@
+#include "server/explore/known_floor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "server/nav/planner.hpp"
+#include "tests/support/matchers.hpp"
+#include "tests/unit/server/nav/ascii_map.hpp"
+
+namespace seeker::explore {
+namespace {
+
+using seeker::testing::Point2Near;
+
+constexpr double kCell_m = 0.25;
+const Point2 kRobot{1.0, 2.0};
+
+/// 10 x 4 m.
+std::vector<std::string> hall() {
+  std::vector<std::string> rows(16, "#......................................#");
+  rows.front() = rows.back() = std::string(40, '#');
+  return rows;
+}
+
+nav::FloorView view_of(const std::vector<std::string>& rows) {
+  const auto occupancy = nav::ascii_map(rows, kCell_m);
+  auto cost = nav::CostMap::build(occupancy);
+  auto floor = nav::reachable_floor(*cost, kRobot, 0.2);
+  return {occupancy, std::move(*cost), std::move(*floor), 1, {}};
+}
+
+/// The hall with something of one block in it, 0.25 x 0.25 m about (x, 2.1).
+nav::FloorView with_a_thing_at(double x_m) {
+  std::vector<std::string> rows = hall();
+  rows[7][static_cast<std::size_t>(x_m / kCell_m)] = '#';
+  return view_of(rows);
+}
+
+TEST(KnownFloor, SomebodyOnFloorThatWasFreeIsNoticed) {
+  KnownFloor known;
+  known.add(view_of(hall()), kRobot, 3.0);
+  const auto places = known.occupied_now(with_a_thing_at(3.0), {});
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_THAT(places.front(), Point2Near(Point2(3.1, 2.1), 0.2));
+}
+
+TEST(KnownFloor, FloorSeenFromAfarIsNotTrusted) {
+  KnownFloor known;
+  known.add(view_of(hall()), kRobot, 3.0);
+  EXPECT_TRUE(known.occupied_now(with_a_thing_at(6.0), {}).empty());
+  known.add(view_of(hall()), {6.0, 2.0}, 3.0);
+  EXPECT_EQ(known.occupied_now(with_a_thing_at(6.0), {}).size(), 1U);
+}
+
+TEST(KnownFloor, AMappedWallIsNobody) {
+  KnownFloor known;
+  known.add(view_of(hall()), kRobot, 3.0);
+  MapSegment wall;
+  wall.id = 1;
+  wall.map_T_segment = {3.1, 2.1, 0.0};
+  wall.length_m = 2.0;
+  EXPECT_TRUE(known.occupied_now(with_a_thing_at(3.0), {wall}).empty());
+  wall.length_m = 0.3;  // as short as a person is wide
+  EXPECT_EQ(known.occupied_now(with_a_thing_at(3.0), {wall}).size(), 1U);
+}
+
+}  // namespace
+}  // namespace seeker::explore
