@@ -15,6 +15,14 @@ constexpr std::array kCurves = {&ExploreSample::time_s,        &ExploreSample::e
                                 &ExploreSample::feature_trace, &ExploreSample::full_trace, &ExploreSample::map_wall_m};
 constexpr std::string_view kHeader = "time_s,error_m,robot_trace,feature_trace,full_trace,map_wall_m\n";
 
+constexpr double kPerCent = 0.01;
+/// Of a share that is a whole number of per cents but for rounding.
+constexpr double kRounding = 1e-9;
+
+std::size_t whole_per_cents(double share) {
+  return static_cast<std::size_t>(std::max(0.0, share) / kPerCent + kRounding);
+}
+
 }  // namespace
 
 void describe(config::Fields& f, ExploreResult& result) {
@@ -40,6 +48,7 @@ void describe(config::Fields& f, ExploreResult& result) {
   f.field("reachable_wall_m", result.reachable_wall_m);
   f.field("mapped_wall_m", result.mapped_wall_m);
   f.field("wall_share", result.wall_share);
+  f.field("share_path_m", result.share_path_m);
   f.field("false_wall_m", result.false_wall_m);
   f.field("map_wall_m", result.map_wall_m);
   f.field("aligned", result.aligned);
@@ -51,6 +60,18 @@ void describe(config::Fields& f, ExploreResult& result) {
   f.field("min_clearance_m", result.min_clearance_m);
   f.field("events", result.events);
   f.field("event_hash", result.event_hash);
+}
+
+double ExploreResult::path_to_share_m(double share) const {
+  const std::size_t per_cents = whole_per_cents(share);
+  return per_cents < share_path_m.size() ? share_path_m[per_cents] : path_length_m;
+}
+
+void note_share(ExploreResult& result, double share, double path_m) {
+  const std::size_t reached = whole_per_cents(share) + 1;
+  if (reached > result.share_path_m.size()) {
+    result.share_path_m.resize(reached, path_m);
+  }
 }
 
 Status save(const std::filesystem::path& path, const ExploreResult& result) {

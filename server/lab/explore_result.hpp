@@ -14,7 +14,7 @@
 namespace seeker::lab {
 
 struct ExploreResult {
-  int schema = 1;
+  int schema = 2;
   std::string world;
   std::string strategy;
   std::uint64_t seed = 0;
@@ -39,6 +39,8 @@ struct ExploreResult {
   double reachable_wall_m = 0.0;  ///< see WallShare
   double mapped_wall_m = 0.0;
   double wall_share = 0.0;
+  /// Path of the true robot until its map first held 0, 1, 2, ... per cent of the walls, looked at once a metre.
+  std::vector<double> share_path_m;
   double false_wall_m = 0.0;
   double map_wall_m = 0.0;
   bool aligned = false;
@@ -53,6 +55,8 @@ struct ExploreResult {
   std::string event_hash;  ///< of the mission's log
 
   [[nodiscard]] double speed() const { return wall_time_s > 0.0 ? robot_time_s / wall_time_s : 0.0; }
+  /// Path until the map held this share of the walls; the whole path where it never did.
+  [[nodiscard]] double path_to_share_m(double share) const;
   [[nodiscard]] double decisions_per_s() const { return decide_s > 0.0 ? decisions / decide_s : 0.0; }
 };
 void describe(config::Fields& f, ExploreResult& result);
@@ -76,6 +80,9 @@ struct ExploreSample {
 [[nodiscard]] std::string curves_csv(const std::vector<ExploreSample>& samples);
 /// kParse: not such a text.
 [[nodiscard]] Result<std::vector<ExploreSample>> parse_curves(std::string_view text);
+
+/// Takes note that after `path_m` the map held `share` of the walls.
+void note_share(ExploreResult& result, double share, double path_m);
 
 /// Means over time and last values; zeros for no samples.
 void add_curves(const std::vector<ExploreSample>& samples, ExploreResult& result);

@@ -14,12 +14,16 @@ namespace {
 constexpr const char* kWallPhase = "wall";
 constexpr Duration kSamplePeriod = std::chrono::seconds(1);
 constexpr double kPathSpacing_m = 0.05;
+constexpr double kShareSpacing_m = 1.0;
 
 /// Watches an exploration from outside while it runs.
 class Observer {
  public:
-  Observer(app::RobotLoop& loop, const sim::Simulation& simulation, std::shared_ptr<const DecisionLog> log)
-      : loop_(loop), watch_(loop, simulation), log_(std::move(log)) {}
+  Observer(app::RobotLoop& loop, const sim::Simulation& simulation, std::shared_ptr<const DecisionLog> log,
+           ExploreRecord& record, double wall_near_m)
+      : loop_(loop), watch_(loop, simulation), log_(std::move(log)), record_(record) {
+    walls_.near_m = wall_near_m;
+  }
 
   /// Before every pass of the loop.
   void look() {
@@ -32,9 +36,21 @@ class Observer {
       sampled_ = loop_.now();
       samples_.push_back(sample());
     }
+    if (watch_.truth().path_length_m >= share_at_m_) {
+      share_at_m_ += kShareSpacing_m;
+      look_at_walls();
+    }
   }
 
-  void fill(ExploreRecord& record) {
+  /// What share of the walls the map holds now.
+  void look_at_walls() {
+    const sim::GroundTruth truth = watch_.truth();
+    record_.walls = share_of_walls(loop_.robot_map().segments(), record_.truth_walls, truth.world_T_start, walls_);
+    note_share(record_.result, record_.walls.share(), truth.path_length_m);
+  }
+
+  void fill() {
+    ExploreRecord& record = record_;
     ExploreResult& result = record.result;
     record.truth = watch_.truth();
     result.path_length_m = record.truth.path_length_m;
@@ -73,6 +89,9 @@ class Observer {
   app::RobotLoop& loop_;
   RunWatch watch_;
   std::shared_ptr<const DecisionLog> log_;
+  ExploreRecord& record_;
+  WallShareParams walls_;
+  double share_at_m_ = 0.0;
   std::vector<PathPlace> path_;
   std::vector<ExploreSample> samples_;
   std::optional<RobotTime> sampled_;
@@ -104,13 +123,9 @@ void fill_map(ExploreRecord& record, const app::RobotLoop& loop) {
   record.unreachable = end.unreachable;
 }
 
-void score(ExploreRecord& record, const ExploreSpec& spec, const sim::RobotModel& robot) {
+/// Of the last look at the walls.
+void score(ExploreRecord& record) {
   ExploreResult& result = record.result;
-  const Pose2& world_T_start = record.truth.world_T_start;
-  record.truth_walls = true_walls(record.world, robot, in_world(spec.bound, world_T_start));
-  WallShareParams params;
-  params.near_m = spec.wall_near_m;
-  record.walls = share_of_walls(record.segments, record.truth_walls, world_T_start, params);
   result.reachable_wall_m = record.walls.reachable_m;
   result.mapped_wall_m = record.walls.mapped_m;
   result.wall_share = record.walls.share();
@@ -162,10 +177,12 @@ Result<ExploreRecord> run_explore(const ExploreSpec& spec, const ExploreWatcher&
   ExploreRecord record;
   record.world = simulation->world();
   record.robot_radius_m = options->sim.robot.radius_m;
+  record.truth_walls =
+      true_walls(record.world, options->sim.robot, in_world(spec.bound, simulation->truth().world_T_start));
 
   app::UpdateHub hub;
   app::RobotLoop loop(options->loop, std::move(assembly->parts), hub);
-  Observer observer(loop, *simulation, log);
+  Observer observer(loop, *simulation, log, record, spec.wall_near_m);
   const Result<double> wall_time_s = run_mission(loop, request_of(spec), [&] {
     observer.look();
     if (watcher) {
@@ -182,9 +199,10 @@ Result<ExploreRecord> run_explore(const ExploreSpec& spec, const ExploreWatcher&
   result.seed = spec.seed;
   result.robot_time_s = to_seconds(loop.now());
   result.wall_time_s = *wall_time_s;
-  observer.fill(record);
+  observer.look_at_walls();
+  observer.fill();
   fill_map(record, loop);
-  score(record, spec, options->sim.robot);
+  score(record);
   return record;
 }
 
