@@ -124,7 +124,7 @@ HorizonChooser::Beam HorizonChooser::one_drive_more(const Beam& beam, Outlook& o
       way_m = outlook.ways.lengths_m(outlook.places[last], outlook.places);
     }
     for (std::size_t k = 0; k < outlook.views.size(); ++k) {
-      if (!sequence.has(k) && way_m[k] != CoarseWays::kNoWay) {
+      if (!sequence.settles(k) && way_m[k] != CoarseWays::kNoWay) {
         longer.push_back(extended(sequence, outlook.views, k, way_m[k], params_.viewpoints.weight_path));
         rate(longer.back(), outlook);
       }

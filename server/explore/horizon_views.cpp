@@ -49,9 +49,23 @@ void move_to(PredictedBelief& belief, const Pose2& from, const Pose2& to, const 
   belief.move(predict_motion({kSpeed_m_s, 0.0}, distance_m(from, to) / kSpeed_m_s, odometry));
 }
 
+/// From one place often more than one opening is well in view.
+void note_shown(std::vector<HorizonView>& views, const PlaceInput& input, const ViewpointParams& params) {
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const Pose2& map_T_view = views[k].opening.map_T_view;
+    for (std::size_t other = 0; other < views.size(); ++other) {
+      if (other == k || well_in_view(views[other].opening, map_T_view, input.floor.occupancy, params)) {
+        views[k].shows.push_back(other);
+      }
+    }
+  }
+}
+
 }  // namespace
 
-bool HorizonSequence::has(std::size_t view) const { return std::find(stops.begin(), stops.end(), view) != stops.end(); }
+bool HorizonSequence::settles(std::size_t view) const {
+  return std::find(settled.begin(), settled.end(), view) != settled.end();
+}
 
 std::vector<HorizonView> horizon_views(const PlaceInput& input, const SightScene& scene, const ExploreParams& params) {
   const auto count = std::min(input.openings.size(), static_cast<std::size_t>(params.viewpoints.max_candidates));
@@ -67,6 +81,7 @@ std::vector<HorizonView> horizon_views(const PlaceInput& input, const SightScene
     view.growth = scene.look(opening.map_T_view).growth();
     views.push_back(std::move(view));
   }
+  note_shown(views, input, params.viewpoints);
   return views;
 }
 
@@ -82,7 +97,13 @@ HorizonSequence extended(const HorizonSequence& sequence, const std::vector<Hori
   longer.stops.push_back(view);
   longer.way_m += way_m + kStop_m;
   const double discount = std::pow(longer.way_m, -weight_path);
-  longer.floor_m2 += discount * (kSettled_m2 + share * added.floor_m2);
+  longer.floor_m2 += discount * share * added.floor_m2;
+  for (const std::size_t shown : added.shows) {
+    if (!longer.settles(shown)) {
+      longer.settled.push_back(shown);
+      longer.floor_m2 += discount * kSettled_m2;
+    }
+  }
   for (const EndForecast& end : added.growth.ends) {
     const auto known = std::find_if(longer.ends.begin(), longer.ends.end(),
                                     [&](const ExpectedEnd& other) { return other.end == end.end; });

@@ -17,6 +17,7 @@ struct HorizonView {
   double way_m = 0.0;     ///< from the robot
   double floor_m2 = 0.0;  ///< unknown floor in sight
   Growth growth;
+  std::vector<std::size_t> shows;  ///< views whose openings are well in view from here, this one among them
 };
 
 /// What one end of a wall is expected to bring in a sequence, discounted.
@@ -29,7 +30,8 @@ struct ExpectedEnd {
 /// Drives one after the other, and what they bring together. Every gain is divided by the way until it is got (to the
 /// power of weight_path): what comes soon counts more.
 struct HorizonSequence {
-  std::vector<std::size_t> stops;  ///< indices into the views
+  std::vector<std::size_t> stops;    ///< indices into the views
+  std::vector<std::size_t> settled;  ///< views whose openings will have been looked at
   double way_m = 0.0;
   double floor_m2 = 0.0;
   std::vector<ExpectedEnd> ends;  ///< each once, where it brings most
@@ -37,7 +39,7 @@ struct HorizonSequence {
   Terms terms;
   double score = 0.0;
 
-  [[nodiscard]] bool has(std::size_t view) const;
+  [[nodiscard]] bool settles(std::size_t view) const;
 };
 
 [[nodiscard]] std::vector<HorizonView> horizon_views(const PlaceInput& input, const SightScene& scene,
