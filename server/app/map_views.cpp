@@ -24,8 +24,10 @@ std::vector<Pose2> MapViewFinder::find(const Situation& situation) {
   if (!costs) {
     return views;  // the search itself says that it cannot move
   }
-  for (const explore::Opening& opening : openings_.find(
-           {**floor, *costs, segments_.of(*situation.tracker, situation.now), areas_, map_T_base, situation.now})) {
+  explore::OpeningsInput input{**floor, *costs,     segments_.of(*situation.tracker, situation.now),
+                               areas_,  map_T_base, situation.now};
+  input.seen_faces = false;  // a search looks too seldom to tell furniture from walls
+  for (const explore::Opening& opening : openings_.find(input)) {
     if (opening.kind != explore::OpeningKind::kFrontier) {
       views.push_back(opening.map_T_view);
     }

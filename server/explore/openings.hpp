@@ -19,7 +19,8 @@ namespace seeker::explore {
 enum class OpeningKind : std::uint8_t {
   kFrontier,  ///< border between free floor that the robot can reach and the unknown (Yamauchi 1997)
   kWallEnd,   ///< virtual end of a segment, beyond which the wall may go on (spec S1.11: it would add to V)
-  /// Border of free floor that the robot sees but is too wide for, as before the back of a wall whose front is mapped.
+  /// Border of free floor that the robot sees but is too wide for, as before the back of a wall whose front is mapped;
+  /// also along a wall that it has seen, but never steeply enough for a line.
   kWallFace,
 };
 
@@ -48,6 +49,8 @@ struct OpeningsInput {
   Pose2 map_T_base;
   RobotTime now;      ///< stands still while the exploration is paused
   bool walls = true;  ///< ends and faces of walls too; false: borders of unknown floor alone
+  /// Faces that were seen, but that no segment holds: furniture looks like them until it has been looked at.
+  bool seen_faces = true;
 };
 
 /// Remembers what was looked at and what could not be reached, so that an exploration always ends: an opening that

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/core/angle.hpp"
 #include "server/explore/openings.hpp"
 #include "server/nav/visibility.hpp"
 
@@ -11,26 +12,78 @@ namespace {
 
 using nav::CellState;
 
-/// Places to look from, this far before the face; the nearest reachable floor within kNearPlace_m of one will do.
-constexpr std::array kViewDistances_m = {0.8, 1.2, 0.5};
-constexpr double kNearPlace_m = 0.3;
+/// Where to stand: distances from the face, and directions off the way out of it.
+constexpr std::array<double, 5> kViewDistances_m{0.8, 1.2, 1.8, 2.5, 0.5};
+constexpr std::array<double, 7> kViewAngles_deg{0.0, 25.0, -25.0, 50.0, -50.0, 65.0, -65.0};
 /// A border that turns so much that the steps into the unknown cancel has no side to be looked at from.
 constexpr double kOneSided = 0.5;
+/// The side of a mapped wall counts as mapped so far before it and behind it: the grid and the wall are a little apart.
+constexpr double kBefore_m = 0.25;
+constexpr double kBehind_m = 0.15;
+/// Shorter segments may be of what stands before a wall.
+constexpr double kShortest_m = 0.3;
+/// A step leads into a wall when this much of it goes across.
+constexpr double kAcross = 0.2;
 
-Point2 steps_into_unknown(const nav::CostMap& map, CellIndex cell) {
-  Point2 sum = Point2::Zero();
-  for (const CellIndex step : {CellIndex{1, 0}, CellIndex{-1, 0}, CellIndex{0, 1}, CellIndex{0, -1}}) {
-    if (map.state({cell.i + step.i, cell.j + step.j}) == CellState::kUnknown) {
-      sum += Point2(step.i, step.j);
+constexpr std::array<CellIndex, 4> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+Point2 direction(CellIndex step) { return {static_cast<double>(step.i), static_cast<double>(step.j)}; }
+
+/// The steps that lead into this wall, one bit each, as in kSteps.
+std::uint8_t steps_into(const MapSegment& segment) {
+  const double theta = segment.map_T_segment.theta_rad;
+  const Point2 into(-std::sin(theta), std::cos(theta));
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < kSteps.size(); ++k) {
+    bits |= direction(kSteps[k]).dot(into) > kAcross ? 1U << k : 0U;
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
+/// For every cell about mapped walls the steps from it that lead into one, from the side that is mapped.
+Grid<std::uint8_t> mapped_sides(const nav::CostMap& map, const std::vector<MapSegment>& segments) {
+  Grid<std::uint8_t> sides(map.frame(), map.width(), map.height(), 0);
+  const double step_m = 0.5 * map.frame().resolution_m;
+  for (const MapSegment& segment : segments) {
+    if (segment.length_m < kShortest_m) {
+      continue;
+    }
+    const std::uint8_t steps = steps_into(segment);
+    for (double x = -0.5 * segment.length_m; x <= 0.5 * segment.length_m; x += step_m) {
+      for (double y = -kBefore_m; y <= kBehind_m; y += step_m) {
+        const CellIndex cell = map.frame().cell_of(segment.map_T_segment * Point2(x, y));
+        if (sides.contains(cell)) {
+          sides[cell] = static_cast<std::uint8_t>(sides[cell] | steps);
+        }
+      }
     }
   }
-  return sum;
+  return sides;
 }
 
-/// Free floor too near to something for the robot to stand on, and beside the unknown.
-bool is_edge(const nav::CostMap& map, CellIndex cell) {
-  return map.state(cell) == CellState::kFree && !map.traversable(cell) && !steps_into_unknown(map, cell).isZero();
-}
+/// Where borders are looked for. A map without any segment says nothing of which walls are mapped.
+struct Borders {
+  const nav::CostMap& map;
+  Grid<std::uint8_t> mapped;
+  bool seen_faces = false;
+
+  /// Sum of the steps into what is not mapped: the unknown, and walls that no segment holds.
+  [[nodiscard]] Point2 steps_out(CellIndex cell) const {
+    Point2 sum = Point2::Zero();
+    for (std::size_t k = 0; k < kSteps.size(); ++k) {
+      const CellState beyond = map.state({cell.i + kSteps[k].i, cell.j + kSteps[k].j});
+      const bool left = beyond == CellState::kUnknown || (seen_faces && beyond == CellState::kOccupied);
+      if (left && (mapped[cell] & (1U << k)) == 0) {
+        sum += direction(kSteps[k]);
+      }
+    }
+    return sum;
+  }
+  /// Free floor too near to something for the robot to stand on, and beside what is not mapped.
+  [[nodiscard]] bool is_edge(CellIndex cell) const {
+    return map.state(cell) == CellState::kFree && !map.traversable(cell) && !steps_out(cell).isZero();
+  }
+};
 
 /// The connected edge that `seed` belongs to, taken out of `mark`, as far as `reach_cells` from the seed.
 std::vector<CellIndex> take_edge(Grid<std::uint8_t>& mark, CellIndex seed, double reach_cells) {
@@ -50,30 +103,37 @@ std::vector<CellIndex> take_edge(Grid<std::uint8_t>& mark, CellIndex seed, doubl
   return cells;
 }
 
+/// The cheapest place from which the face is well in view.
 bool find_viewpoint(Opening& opening, const OpeningsInput& input, const ViewpointParams& params) {
+  const Point2 across(-opening.outward_map.y(), opening.outward_map.x());
+  bool found = false;
   for (const double distance_m : kViewDistances_m) {
-    const auto cell = input.costs.cheapest_near(opening.p_map - distance_m * opening.outward_map, kNearPlace_m);
-    if (!cell) {
-      continue;
-    }
-    const Point2 place = input.floor.cost.frame().centre_of(*cell);
-    const Point2 to_face = opening.p_map - place;
-    opening.map_T_view = {place.x(), place.y(), std::atan2(to_face.y(), to_face.x())};
-    opening.cost = *input.costs.cost_to(*cell);
-    if (well_in_view(opening, opening.map_T_view, input.floor.occupancy, params)) {
-      return true;
+    for (const double angle_deg : kViewAngles_deg) {
+      const double a = deg_to_rad(angle_deg);
+      const Point2 place = opening.p_map + distance_m * (std::sin(a) * across - std::cos(a) * opening.outward_map);
+      const auto cost = input.costs.cost_to(place);
+      if (!cost || (found && *cost >= opening.cost)) {
+        continue;
+      }
+      const Point2 to_face = opening.p_map - place;
+      const Pose2 view{place.x(), place.y(), std::atan2(to_face.y(), to_face.x())};
+      if (well_in_view(opening, view, input.floor.occupancy, params)) {
+        opening.map_T_view = view;
+        opening.cost = *cost;
+        found = true;
+      }
     }
   }
-  return false;
+  return found;
 }
 
-std::optional<Opening> opening_of(const std::vector<CellIndex>& edge, const OpeningsInput& input,
-                                  const ViewpointParams& params) {
+std::optional<Opening> opening_of(const std::vector<CellIndex>& edge, const Borders& borders,
+                                  const OpeningsInput& input, const ViewpointParams& params) {
   const nav::CostMap& map = input.floor.cost;
   Point2 outward = Point2::Zero();
   Point2 mean = Point2::Zero();
   for (const CellIndex cell : edge) {
-    outward += steps_into_unknown(map, cell);
+    outward += borders.steps_out(cell);
     mean += map.frame().centre_of(cell);
   }
   if (outward.norm() < kOneSided * static_cast<double>(edge.size())) {
@@ -94,11 +154,12 @@ std::optional<Opening> opening_of(const std::vector<CellIndex>& edge, const Open
 
 std::vector<Opening> wall_face_openings(const OpeningsInput& input, const ViewpointParams& params) {
   const nav::CostMap& map = input.floor.cost;
+  const Borders borders{map, mapped_sides(map, input.segments), input.seen_faces && !input.segments.empty()};
   Grid<std::uint8_t> mark(map.frame(), map.width(), map.height(), 0);
   std::vector<CellIndex> edges;
   for (CellIndex cell{0, 0}; cell.j < map.height(); ++cell.j) {
     for (cell.i = 0; cell.i < map.width(); ++cell.i) {
-      if (is_edge(map, cell)) {
+      if (borders.is_edge(cell)) {
         mark[cell] = 1;
         edges.push_back(cell);
       }
@@ -115,7 +176,7 @@ std::vector<Opening> wall_face_openings(const OpeningsInput& input, const Viewpo
     if (edge.size() < enough) {
       continue;
     }
-    if (const auto opening = opening_of(edge, input, params)) {
+    if (const auto opening = opening_of(edge, borders, input, params)) {
       openings.push_back(*opening);
     }
   }

@@ -160,14 +160,14 @@ Scene back_of_a_wall(const Pose2& robot) {
   return scene_of(rows, robot, {}, 0.1);
 }
 
-TEST(Openings, FindTheUnseenSideOfAThinWallAndLookAtItSquarely) {
+TEST(Openings, FindTheUnseenSideOfAThinWallAndAPlaceThatShowsIt) {
   const Scene scene = back_of_a_wall({1.0, 0.8, kPi});
   Openings openings{ViewpointParams{}};
   const auto found = openings.find(scene.at(0.0));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found.front().kind, OpeningKind::kWallFace);
   EXPECT_NEAR(found.front().p_map.x(), 2.85, 0.1);
-  EXPECT_NEAR(found.front().map_T_view.theta_rad, 0.0, 0.3);
+  EXPECT_TRUE(well_in_view(found.front(), found.front().map_T_view, scene.floor.occupancy, {}));
   EXPECT_TRUE(scene.costs.cost_to(found.front().map_T_view.translation())) << "a place that the robot can reach";
 }
 
@@ -176,6 +176,46 @@ TEST(Openings, BordersAloneLeaveWallsOut) {
   OpeningsInput input = scene.at(0.0);
   input.walls = false;
   EXPECT_TRUE(Openings{ViewpointParams{}}.find(input).empty()) << "the floor before the wall is too narrow to enter";
+}
+
+/// A wall from `from` to `to`, the free side on the right of that way.
+MapSegment wall_between(const Point2& from, const Point2& to) {
+  const Point2 along = to - from;
+  const Point2 middle = 0.5 * (from + to);
+  MapSegment segment;
+  segment.id = 9;
+  segment.map_T_segment = {middle.x(), middle.y(), std::atan2(along.y(), along.x())};
+  segment.length_m = along.norm();
+  segment.left_real = segment.right_real = true;
+  return segment;
+}
+
+/// 4 x 4 m, all of it seen; three of its walls are in the map.
+Scene room_with_three_walls_mapped() {
+  std::vector<std::string> rows(16, "#..............#");
+  rows.front() = rows.back() = std::string(16, '#');
+  Scene scene = scene_of(rows, {1.0, 2.0, 0.0});
+  scene.segments = {wall_between({0.25, 0.25}, {0.25, 3.75}), wall_between({0.25, 3.75}, {3.75, 3.75}),
+                    wall_between({3.75, 0.25}, {0.25, 0.25})};
+  return scene;
+}
+
+TEST(Openings, AWallThatWasSeenButIsInNoSegmentIsLeft) {
+  Scene scene = room_with_three_walls_mapped();
+  const auto found = wall_face_openings(scene.at(0.0), {});
+  ASSERT_FALSE(found.empty());
+  for (const Opening& opening : found) {
+    EXPECT_NEAR(opening.p_map.x(), 3.7, 0.1);
+    EXPECT_GT(opening.outward_map.x(), 0.9);
+  }
+  scene.segments.push_back(wall_between({3.75, 3.75}, {3.75, 0.25}));
+  EXPECT_TRUE(wall_face_openings(scene.at(0.0), {}).empty());
+}
+
+TEST(Openings, TheOtherSideOfAThinWallDoesNotCountAsMapped) {
+  Scene scene = room_with_three_walls_mapped();
+  scene.segments.push_back(wall_between({3.85, 0.25}, {3.85, 3.75}));  // seen from the right
+  EXPECT_FALSE(wall_face_openings(scene.at(0.0), {}).empty());
 }
 
 TEST(Openings, AnUnseenSideThatStaysUnseenIsSettled) {
