@@ -22,6 +22,8 @@ constexpr double kBefore_m = 0.25;
 constexpr double kBehind_m = 0.15;
 /// Shorter segments may be of what stands before a wall.
 constexpr double kShortest_m = 0.3;
+/// A wall that was seen is looked at again from so much of it; less is mostly furniture.
+constexpr double kShortestSeen_m = 1.0;
 /// A step leads into a wall when this much of it goes across.
 constexpr double kAcross = 0.2;
 
@@ -79,6 +81,11 @@ struct Borders {
     }
     return sum;
   }
+  [[nodiscard]] bool beside_unknown(CellIndex cell) const {
+    return std::any_of(kSteps.begin(), kSteps.end(), [&](CellIndex step) {
+      return map.state({cell.i + step.i, cell.j + step.j}) == CellState::kUnknown;
+    });
+  }
   /// Free floor too near to something for the robot to stand on, and beside what is not mapped.
   [[nodiscard]] bool is_edge(CellIndex cell) const {
     return map.state(cell) == CellState::kFree && !map.traversable(cell) && !steps_out(cell).isZero();
@@ -127,6 +134,14 @@ bool find_viewpoint(Opening& opening, const OpeningsInput& input, const Viewpoin
   return found;
 }
 
+bool long_enough(const std::vector<CellIndex>& edge, const Borders& borders, const ViewpointParams& params) {
+  const double cell_m = borders.map.frame().resolution_m;
+  const auto unseen =
+      std::count_if(edge.begin(), edge.end(), [&](CellIndex cell) { return borders.beside_unknown(cell); });
+  return cell_m * static_cast<double>(unseen) >= params.min_face_m ||
+         cell_m * static_cast<double>(edge.size()) >= kShortestSeen_m;
+}
+
 std::optional<Opening> opening_of(const std::vector<CellIndex>& edge, const Borders& borders,
                                   const OpeningsInput& input, const ViewpointParams& params) {
   const nav::CostMap& map = input.floor.cost;
@@ -166,14 +181,13 @@ std::vector<Opening> wall_face_openings(const OpeningsInput& input, const Viewpo
     }
   }
   const double reach_cells = params.max_frontier_m / 2.0 / map.frame().resolution_m;
-  const auto enough = static_cast<std::size_t>(params.min_face_m / map.frame().resolution_m);
   std::vector<Opening> openings;
   for (const CellIndex seed : edges) {
     if (mark[seed] == 0) {
       continue;
     }
     const std::vector<CellIndex> edge = take_edge(mark, seed, reach_cells);
-    if (edge.size() < enough) {
+    if (!long_enough(edge, borders, params)) {
       continue;
     }
     if (const auto opening = opening_of(edge, borders, input, params)) {
