@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/core/angle.hpp"
 #include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
@@ -292,10 +291,7 @@ void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covarianc
   if (match.degenerate_direction) {
     return;
   }
-  const Pose2& predicted = lines_->robot();
-  const Eigen::Vector3d off(match.map_T_base.x_m - predicted.x_m, match.map_T_base.y_m - predicted.y_m,
-                            wrap_angle(match.map_T_base.theta_rad - predicted.theta_rad));
-  odometry_scale_.learn(off, lines_->robot_covariance_map() + covariance);
+  odometry_scale_.learn(offset_of(match.map_T_base, lines_->robot()), lines_->robot_covariance_map() + covariance);
 }
 
 void LineSlam::use_leftover(const Scan& scan, const Association& association) {

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "common/core/angle.hpp"
+#include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
 ScanMapTracker::ScanMapTracker(const ScanMapParams& params, const Pose2& map_T_base)
@@ -53,14 +54,8 @@ bool ScanMapTracker::is_new_space(const std::vector<OrientedPoint>& points_base,
 
 void ScanMapTracker::apply(const MatchResult& match) {
   const PoseEstimate prior = odometry_.estimate();
-  const Matrix3 measured =
-      match.covariance + Eigen::Vector3d(params_.map_sigma_m, params_.map_sigma_m, params_.map_sigma_rad)
-                             .cwiseAbs2()
-                             .asDiagonal()
-                             .toDenseMatrix();
-  const Eigen::Vector3d innovation(match.map_T_base.x_m - prior.map_T_base.x_m,
-                                   match.map_T_base.y_m - prior.map_T_base.y_m,
-                                   wrap_angle(match.map_T_base.theta_rad - prior.map_T_base.theta_rad));
+  const Matrix3 measured = with_floor(match.covariance, params_.map_sigma_m, params_.map_sigma_rad);
+  const Eigen::Vector3d innovation = offset_of(match.map_T_base, prior.map_T_base);
   const Matrix3 gain = prior.covariance * (prior.covariance + measured).inverse();
   const Eigen::Vector3d correction = gain * innovation;
   // Joseph form: stays symmetric and positive.

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "common/core/angle.hpp"
+#include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
 namespace {
@@ -165,8 +166,7 @@ MatchResult ScanMatcher::match(const ReferenceCloud& reference, const std::vecto
 }
 
 double ScanMatcher::handicap(const Expected& expected, const Pose2& pose) const {
-  const Eigen::Vector3d off(pose.x_m - expected.map_T_base.x_m, pose.y_m - expected.map_T_base.y_m,
-                            wrap_angle(pose.theta_rad - expected.map_T_base.theta_rad));
+  const Eigen::Vector3d off = offset_of(pose, expected.map_T_base);
   return std::min(params_.max_surprise_share, params_.surprise_share * off.dot(expected.information * off));
 }
 

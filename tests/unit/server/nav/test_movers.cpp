@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/core/angle.hpp"
+#include "round_scan.hpp"
 #include "server/nav/floor_view.hpp"
 #include "server/nav/planned_driver.hpp"
 
@@ -102,11 +103,7 @@ TEST(Movers, BeamsThatEndAtOneAreUnusableAndNoOthers) {
 /// Free floor of 6 x 6 m about the origin.
 OccupancyMap open_floor() {
   OccupancyMap map;
-  LaserScan scan;
-  scan.angle_min_rad = -kPi;
-  scan.angle_step_rad = deg_to_rad(0.5);
-  scan.range_max_m = 10.0;
-  scan.ranges_m.assign(720, 3.0F);
+  const LaserScan scan = round_scan(3.0F);
   for (int k = 0; k < 4; ++k) {
     EXPECT_TRUE(map.integrate(scan, {}));
   }

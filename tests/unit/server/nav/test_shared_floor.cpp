@@ -6,6 +6,7 @@
 
 #include "common/core/angle.hpp"
 #include "common/core/occupancy_tile.hpp"
+#include "round_scan.hpp"
 #include "server/nav/floor_view.hpp"
 #include "server/nav/planner.hpp"
 
@@ -48,11 +49,7 @@ TEST(SharedFloor, IsCarriedToWhereItLiesInTheOtherFrame) {
 
 TEST(SharedFloor, AWayLeadsOverFloorThatOnlyAnotherRobotHasSeen) {
   OccupancyMap map;
-  LaserScan scan;
-  scan.angle_min_rad = -kPi;
-  scan.angle_step_rad = deg_to_rad(0.5);
-  scan.range_max_m = 10.0;
-  scan.ranges_m.assign(720, 2.0F);
+  LaserScan scan = round_scan(2.0F);
   scan.ranges_m.at(360) = kNoReturn;
   for (int k = 0; k < 3; ++k) {
     ASSERT_TRUE(map.integrate(scan, {}));
@@ -70,8 +67,7 @@ TEST(SharedFloor, AWayLeadsOverFloorThatOnlyAnotherRobotHasSeen) {
   EXPECT_FALSE(plan((*walled)->cost, {0, 0}, beyond));
 
   OccupancyMap open;
-  scan.ranges_m.assign(720, kNoReturn);
-  ASSERT_TRUE(open.integrate(scan, {}));
+  ASSERT_TRUE(open.integrate(round_scan(kNoReturn), {}));
   FloorSource free_floors({}, {}, 0.25, 1.0);
   free_floors.attend(open, {}, RobotTime{});
   EXPECT_FALSE(plan((*free_floors.view())->cost, {0, 0}, beyond));

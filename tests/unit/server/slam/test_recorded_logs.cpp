@@ -78,7 +78,7 @@ std::vector<Sample> play(const std::filesystem::path& path, const drivers::Repla
     if (scan == nullptr || !scan->odom_T_base) {
       continue;
     }
-    if (last && !moved(*last, *scan->odom_T_base, worse.gap_m, worse.gap_rad) && worse.gap_m > 0.0) {
+    if (worse.gap_m > 0.0 && last && !moved(*last, *scan->odom_T_base, worse.gap_m, worse.gap_rad)) {
       continue;
     }
     last = scan->odom_T_base;
