@@ -236,8 +236,8 @@ Result<std::string> settings_of(const S2Spec& spec) {
     return tl::unexpected<Error>(hash.error());
   }
   hash->add(spec.paper ? "paper" : "default");
-  hash->add(
-      "poses adjusted, foreign rooms stretched, woken robots turn about");  // what a run is has changed with these
+  // What a run is has changed with these.
+  hash->add("poses adjusted, foreign rooms stretched, woken robots turn about, best landmarks kept");
   return hash->hex();
 }
 

@@ -1,5 +1,7 @@
 #include "server/lab/survey_command.hpp"
 
+#include <algorithm>
+
 #include "common/config/fields.hpp"
 #include "server/app/landmark_library.hpp"
 #include "server/app/robot_options.hpp"
@@ -134,6 +136,11 @@ Status run_survey(const SurveyOptions& options, std::ostream& out) {
   const localize::LandmarkDatabase salient = builder.salient();
   figures.all = builder.database().size();
   figures.salient = salient.size();
+  const auto& landmarks = builder.database().landmarks();
+  const auto often = std::count_if(landmarks.begin(), landmarks.end(), [&](const localize::Landmark& landmark) {
+    return landmark.seen >= survey->settings.database.salient_seen;
+  });
+  figures.sparsified += static_cast<std::uint64_t>(often) - salient.size();
   if (salient.empty()) {
     return fail(Errc::kInvalidArgument, "no landmark was seen in " +
                                             std::to_string(survey->settings.database.salient_seen) +

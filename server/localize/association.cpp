@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
+#include <unordered_set>
 
 #include <Eigen/Cholesky>
 
@@ -154,6 +156,17 @@ std::vector<Pairing> associate(const LandmarkDatabase& database, std::span<const
   return one_each(forward);
 }
 
+namespace {
+
+/// Eqs (8)-(9) for a place within the outer radius of one landmark.
+bool stands_apart(const Landmark& landmark, const Point3& p_map, const vision::Descriptor& descriptor,
+                  const SparsityParams& params, vision::Metric metric) {
+  return (landmark.p_map - p_map).norm() > params.inner_radius_m &&
+         landmark_distance(landmark, descriptor, metric) > params.min_distance;
+}
+
+}  // namespace
+
 bool may_insert(const LandmarkDatabase& database, const SeenPoint& point, const vision::Descriptor& descriptor,
                 const SparsityParams& params, vision::Metric metric) {
   if (!params.on) {
@@ -161,11 +174,34 @@ bool may_insert(const LandmarkDatabase& database, const SeenPoint& point, const 
   }
   bool allowed = true;
   database.for_near(point.map.p, params.outer_radius_m, [&](std::size_t index) {
-    const Landmark& landmark = database.at(index);
-    allowed = allowed && (landmark.p_map - point.map.p).norm() > params.inner_radius_m &&
-              landmark_distance(landmark, descriptor, metric) > params.min_distance;
+    allowed = allowed && stands_apart(database.at(index), point.map.p, descriptor, params, metric);
   });
   return allowed;
+}
+
+std::size_t thin_out(LandmarkDatabase& database, const SparsityParams& params, vision::Metric metric) {
+  if (!params.on) {
+    return 0;
+  }
+  std::vector<std::size_t> order(database.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return database.at(a).seen > database.at(b).seen; });
+  std::vector<bool> stays(database.size(), false);
+  std::unordered_set<LandmarkId> dropped;
+  for (const std::size_t candidate : order) {
+    const Landmark& landmark = database.at(candidate);
+    bool apart = true;
+    database.for_near(landmark.p_map, params.outer_radius_m, [&](std::size_t index) {
+      apart = apart && (!stays[index] || stands_apart(database.at(index), landmark.p_map,
+                                                      landmark.views.front().descriptor, params, metric));
+    });
+    stays[candidate] = apart;
+    if (!apart) {
+      dropped.insert(landmark.id);
+    }
+  }
+  return database.erase_if([&](const Landmark& landmark) { return dropped.contains(landmark.id); });
 }
 
 }  // namespace seeker::localize

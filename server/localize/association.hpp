@@ -38,6 +38,9 @@ struct SparsityParams {
   double inner_radius_m = 0.05;  ///< R_A: nothing new nearer than this to a landmark; 0.10 with the paper
   double outer_radius_m = 0.25;  ///< R_B: up to here only what looks different; 0.50 with the paper
   double min_distance = 0.7;     ///< d_f0 of descriptors: 2.5 in the paper, by L1
+  /// Of what stands too close together the landmark that was seen most often stays, chosen once all are known. Else, as
+  /// printed, the one that was seen first, however seldom it is seen again.
+  bool best_first = true;
 
   friend bool operator==(const SparsityParams&, const SparsityParams&) = default;
 };
@@ -88,5 +91,8 @@ struct AlikeLandmark {
 [[nodiscard]] bool may_insert(const LandmarkDatabase& database, const SeenPoint& point,
                               const vision::Descriptor& descriptor, const SparsityParams& params,
                               vision::Metric metric);
+/// Eqs (8)-(9) for a database as it is: erases what stands too close to a landmark that was seen more often, or as
+/// often and earlier. How many.
+std::size_t thin_out(LandmarkDatabase& database, const SparsityParams& params, vision::Metric metric);
 
 }  // namespace seeker::localize

@@ -54,8 +54,6 @@ struct FusionParams {
   /// and a descriptor is kept for each side.
   bool running_mean = false;
   double view_cluster_rad = deg_to_rad(25.0);  ///< views closer than this are of one side
-  /// Errors that many observations share (pose of the eye, calibration): more of them do not make a landmark surer.
-  double sigma_floor_m = 0.005;
 
   friend bool operator==(const FusionParams&, const FusionParams&) = default;
 };

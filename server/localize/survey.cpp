@@ -17,6 +17,7 @@ DatabaseParams paper_database_params() {
   params.sparsity.inner_radius_m = 0.10;
   params.sparsity.outer_radius_m = 0.50;
   params.sparsity.min_distance = 2.5;
+  params.sparsity.best_first = false;
   params.fusion.running_mean = true;
   params.adjustment.on = false;
   return params;
@@ -42,8 +43,8 @@ Status validate(const DatabaseParams& params) {
       !std::isfinite(sparsity.outer_radius_m) || !(sparsity.min_distance >= 0.0)) {
     return bad("sparsity: outer_radius_m must be at least inner_radius_m, and that at least zero");
   }
-  if (!(params.fusion.view_cluster_rad > 0.0) || !(params.fusion.sigma_floor_m >= 0.0)) {
-    return bad("fusion.view_cluster_deg must be above zero, sigma_floor_m at least zero");
+  if (!(params.fusion.view_cluster_rad > 0.0)) {
+    return bad("fusion.view_cluster_deg must be above zero");
   }
   const AdjustmentParams& adjustment = params.adjustment;
   if (adjustment.rounds < 1 || adjustment.iterations < 1 || !positive(adjustment.huber_sigmas) ||
@@ -117,7 +118,8 @@ Result<SightingCounts> SurveyBuilder::add(const Sighting& sighting) {
     if (paired[i]) {
       continue;
     }
-    const bool is_new = may_insert(database_, points[i], descriptor, params_.sparsity, params_.association.metric);
+    const bool is_new = params_.sparsity.best_first ||
+                        may_insert(database_, points[i], descriptor, params_.sparsity, params_.association.metric);
     fates_[points[i].feature] = is_new ? FeatureFate::kInserted : FeatureFate::kSparsified;
     ++(is_new ? counts.inserted : counts.sparsified);
     if (is_new) {
@@ -132,6 +134,9 @@ Result<SightingCounts> SurveyBuilder::add(const Sighting& sighting) {
 LandmarkDatabase SurveyBuilder::salient() const {
   LandmarkDatabase kept = database_;
   kept.erase_if([this](const Landmark& landmark) { return landmark.seen < params_.salient_seen; });
+  if (params_.sparsity.best_first) {
+    thin_out(kept, params_.sparsity, params_.association.metric);
+  }
   return kept;
 }
 

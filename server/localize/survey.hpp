@@ -17,7 +17,7 @@ struct AdjustmentParams {
   int rounds = 2;                ///< of telling anew what is the same point
   int iterations = 4;            ///< of the least squares in each
   double huber_sigmas = 2.0;     ///< observations farther off weigh less
-  double point_sigma_m = 0.01;   ///< of every observation, beside its pixels: blobs differ from side to side
+  double point_sigma_m = 0.003;  ///< of every observation, beside its pixels: blobs differ from side to side
   double offset_sigma_px = 0.2;  ///< of the error that all disparities share
 
   friend bool operator==(const AdjustmentParams&, const AdjustmentParams&) = default;
@@ -47,7 +47,7 @@ struct SightingCounts {
   int features = 0;
   int in_range = 0;
   int matched = 0;     ///< taken for a landmark that was there
-  int sparsified = 0;  ///< refused by the sparsity rule
+  int sparsified = 0;  ///< refused by the sparsity rule; none where that is applied at the end
   int inserted = 0;    ///< new landmarks
 
   friend bool operator==(const SightingCounts&, const SightingCounts&) = default;
@@ -69,9 +69,9 @@ class SurveyBuilder {
   [[nodiscard]] const std::vector<FeatureFate>& fates() const { return fates_; }
   /// Which landmark each feature of the newest sighting was taken for, or has become; 0: none.
   [[nodiscard]] const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
-  /// All so far, salient or not.
+  /// All so far, salient or not, and not thinned out yet where SparsityParams::best_first does that at the end.
   [[nodiscard]] const LandmarkDatabase& database() const { return database_; }
-  /// Spec S2.7: those that were seen often enough.
+  /// Spec S2.7: those that were seen often enough, and of these what the sparsity rule leaves.
   [[nodiscard]] LandmarkDatabase salient() const;
   /// Begins anew; ids go on rising.
   void clear();

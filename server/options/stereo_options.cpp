@@ -72,12 +72,12 @@ void describe(config::Fields& f, SparsityParams& params) {
   f.field("inner_radius_m", params.inner_radius_m);
   f.field("outer_radius_m", params.outer_radius_m);
   f.field("min_distance", params.min_distance);
+  f.field("best_first", params.best_first);
 }
 
 void describe(config::Fields& f, FusionParams& params) {
   f.field("running_mean", params.running_mean);
   f.angle_deg("view_cluster_deg", params.view_cluster_rad);
-  f.field("sigma_floor_m", params.sigma_floor_m);
 }
 
 void describe(config::Fields& f, AdjustmentParams& params) {

@@ -213,6 +213,29 @@ TEST(Sparsity, FollowsEquationsEightAndNine) {
   EXPECT_TRUE(may_insert(database, point_at({0, 0, 0}), same, off, vision::Metric::kL2));
 }
 
+TEST(Sparsity, KeepsWhatWasSeenMostOften) {
+  Rng rng(4);
+  LandmarkDatabase database;
+  const auto insert = [&](double x_m, int seen) {
+    Landmark landmark = landmark_at({x_m, 0.0, 0.0}, random_descriptor(rng));
+    landmark.seen = seen;
+    return database.insert(std::move(landmark));
+  };
+  const LandmarkId first = insert(0.0, 3);
+  const LandmarkId best = insert(0.04, 5);
+  const LandmarkId beyond = insert(0.08, 3);  // near the best, not near the first
+  const LandmarkId apart = insert(0.5, 3);
+  LandmarkDatabase untouched = database;
+  SparsityParams params;
+  EXPECT_EQ(thin_out(database, params, vision::Metric::kL2), 2U);
+  EXPECT_NE(database.find(best), nullptr);
+  EXPECT_NE(database.find(apart), nullptr);
+  EXPECT_EQ(database.find(first), nullptr);
+  EXPECT_EQ(database.find(beyond), nullptr);
+  params.on = false;
+  EXPECT_EQ(thin_out(untouched, params, vision::Metric::kL2), 0U);
+}
+
 TEST(Survey, CountsOfEverySightingAddUp) {
   const LandmarkRoom room(3, 400);
   Rng rng(6);
