@@ -9,6 +9,7 @@ LandmarkEstimator::LandmarkEstimator(localize::StereoLocaliser localiser, Databa
       params_(params),
       library_(updating.library),
       rng_(rng),
+      geometry_(updating.geometry),
       update_(updating.geometry, params.update),
       updating_(updating.inline_work, "the database of landmarks could not be updated") {
   localiser_.start_anywhere();
@@ -75,45 +76,49 @@ void LandmarkEstimator::learn(const StereoLook& look) {
   sighting.features = look.features.features;
   update_.observe(*database_, sighting, localiser_.last());
   updated_at_ = updated_at_.value_or(look.stamp);
-  if (look.stamp - *updated_at_ >= params_.update_period && !updating_.busy()) {
+  const bool due = look.stamp - *updated_at_ >= params_.update_period || update_.full();
+  if (due && !updating_.busy()) {
     begin_update(look.stamp);
   }
 }
 
+/// What was gathered goes to the worker whole: to make the poses of a drive agree takes longer than a tick may.
 void LandmarkEstimator::begin_update(RobotTime now) {
   updated_at_ = now;
-  Result<localize::StagedUpdate> staged = update_.stage(*database_);
-  if (!staged) {
-    if (staged.error().code != Errc::kNotReady) {
-      news_.push_back("the database of landmarks stays as it is: " + staged.error().message);
-    }
+  if (update_.frames() == 0) {
     return;
   }
-  const localize::UpdateCounts& counts = staged->counts;
-  news_.push_back("the database of landmarks is updated: " + std::to_string(counts.before) + " + " +
-                  std::to_string(counts.added) + " - " + std::to_string(counts.removed) + " = " +
-                  std::to_string(counts.after));
-  update_.clear();
-  auto database = std::make_shared<const localize::LandmarkDatabase>(std::move(staged->database));
-  updating_.start([library = library_, name = params_.database, database]() -> Result<Database> {
+  const auto gathered = std::make_shared<const localize::DatabaseUpdate>(
+      std::exchange(update_, localize::DatabaseUpdate(geometry_, params_.update)));
+  updating_.start([library = library_, name = params_.database, gathered, known = database_]() -> Result<Updated> {
+    Result<localize::StagedUpdate> staged = gathered->stage(*known);
+    if (!staged) {
+      return tl::unexpected<Error>(staged.error());
+    }
+    auto database = std::make_shared<const localize::LandmarkDatabase>(std::move(staged->database));
+    // What is not on the disk is not used either: after a restart the robot would know another building.
     const Result<api::LandmarkSummary> kept = library->update(name, *database);
-    return kept ? Result<Database>(database) : Result<Database>(tl::unexpected<Error>(kept.error()));
+    return kept ? Result<Updated>(Updated{std::move(database), staged->counts})
+                : Result<Updated>(tl::unexpected<Error>(kept.error()));
   });
   end_update();  // inline: it is done
 }
 
 void LandmarkEstimator::end_update() {
-  const std::optional<Result<Database>> done = updating_.take();
+  const std::optional<Result<Updated>> done = updating_.take();
   if (!done) {
     return;
   }
-  // What is not on the disk is not used either: after a restart the robot would know another building.
-  const Status used = *done ? localiser_.use(**done) : Status(tl::unexpected<Error>(done->error()));
-  if (used) {
-    database_ = **done;
-  } else {
+  const Status used = *done ? localiser_.use((*done)->database) : Status(tl::unexpected<Error>(done->error()));
+  if (!used) {
     news_.push_back("the database of landmarks stays as it is: " + used.error().message);
+    return;
   }
+  database_ = (*done)->database;
+  const localize::UpdateCounts& counts = (*done)->counts;
+  news_.push_back("the database of landmarks is updated: " + std::to_string(counts.before) + " + " +
+                  std::to_string(counts.added) + " - " + std::to_string(counts.removed) + " = " +
+                  std::to_string(counts.after));
 }
 
 Status LandmarkEstimator::place_at(const PoseEstimate& place) {

@@ -53,6 +53,11 @@ class LandmarkEstimator final : public Estimator {
 
  private:
   using Database = std::shared_ptr<const localize::LandmarkDatabase>;
+  /// A version that is on the disk.
+  struct Updated {
+    Database database;
+    localize::UpdateCounts counts;
+  };
 
   void catch_up();
   void learn(const StereoLook& look);
@@ -64,8 +69,9 @@ class LandmarkEstimator final : public Estimator {
   LandmarkEstimatorParams params_;
   std::shared_ptr<LandmarkLibrary> library_;
   Rng rng_;
+  StereoGeometry geometry_;
   localize::DatabaseUpdate update_;
-  Background<Database> updating_;
+  Background<Updated> updating_;
   std::optional<RobotTime> updated_at_;
   std::vector<std::string> news_;
   /// The one at which the localiser stands, and those after it: while a look is worked on the localiser waits at the

@@ -2,12 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <unordered_set>
+#include <utility>
 
 #include "common/core/assert.hpp"
+#include "server/localize/survey_adjustment.hpp"
 
 namespace seeker::localize {
+namespace {
+
+/// As many as a survey has are made to agree at a time: it takes time with the cube of their number, and each holds all
+/// its features.
+constexpr std::size_t kMostFrames = 100;
+
+/// For about so many frames of a drive a landmark stays in view.
+constexpr double kFramesOfALandmark = 10.0;
+
+}  // namespace
 
 UpdateParams paper_update_params() {
   UpdateParams params;
@@ -94,7 +107,11 @@ bool DatabaseUpdate::observe(const LandmarkDatabase& database, const Sighting& s
   if (step.quality != LocalisationQuality::kLocalised || !step.corrected || !moved(sighting.map_T_eye)) {
     return false;
   }
-  if (!dynamic_.add(sighting)) {
+  if (!check_pose(sighting)) {
+    return false;
+  }
+  recent_.push_back({sighting, step.inliers});
+  if (recent_.size() >= kMostFrames && !learn(database, std::exchange(recent_, {}), dynamic_)) {
     return false;
   }
   last_eye_ = sighting.map_T_eye;
@@ -102,6 +119,8 @@ bool DatabaseUpdate::observe(const LandmarkDatabase& database, const Sighting& s
   tally(database, sighting, step);
   return true;
 }
+
+bool DatabaseUpdate::full() const { return params_.database.adjustment.on && recent_.size() + 1 >= kMostFrames; }
 
 bool DatabaseUpdate::is_gone(const Landmark& landmark) const {
   return params_.count_misses ? landmark.misses >= params_.max_misses : landmark.log_odds <= params_.remove_log_odds;
@@ -127,9 +146,46 @@ void DatabaseUpdate::apply_tallies(LandmarkDatabase& database) const {
   }
 }
 
+/// Puts a part of the drive into the database of what it showed.
+Status DatabaseUpdate::learn(const LandmarkDatabase& database, std::vector<Frame> frames,
+                             SurveyBuilder& dynamic) const {
+  std::vector<Sighting> sightings;
+  std::vector<KnownSight> known;
+  const double loosened = params_.database.adjustment.on ? kFramesOfALandmark : 1.0;
+  for (Frame& frame : frames) {
+    for (const FrameMatch& match : frame.matches) {
+      if (const Landmark* landmark = database.find(match.landmark)) {
+        known.push_back({sightings.size(), match.feature, landmark});
+      }
+    }
+    sightings.push_back(std::move(frame.sighting));
+    // Poses that lean on the same landmarks know no more together than one of them does.
+    sightings.back().pose_covariance *= loosened;
+  }
+  if (const auto adjusted = adjust_poses(geometry_, params_.database, sightings, known); !adjusted) {
+    return tl::unexpected(adjusted.error());
+  }
+  for (const Sighting& sighting : sightings) {
+    if (const auto added = dynamic.add(sighting); !added) {
+      return tl::unexpected(added.error());
+    }
+  }
+  return {};
+}
+
+/// Of a drive's landmarks those seen most often first, where the sparsity rule is to prefer them.
+std::vector<std::size_t> DatabaseUpdate::by_worth(const LandmarkDatabase& dynamic) const {
+  std::vector<std::size_t> order(dynamic.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (params_.database.sparsity.best_first) {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return dynamic.at(a).seen > dynamic.at(b).seen; });
+  }
+  return order;
+}
+
 /// Spec S2.10: what is not known already, is not too close to what is, and was seen often enough.
-void DatabaseUpdate::add_new(LandmarkDatabase& database, UpdateCounts& counts) const {
-  const LandmarkDatabase& dynamic = dynamic_.database();
+void DatabaseUpdate::add_new(const LandmarkDatabase& dynamic, LandmarkDatabase& database, UpdateCounts& counts) const {
   std::vector<vision::StereoFeature> views;
   std::vector<SeenPoint> points;
   for (const Landmark& landmark : dynamic.landmarks()) {
@@ -148,7 +204,7 @@ void DatabaseUpdate::add_new(LandmarkDatabase& database, UpdateCounts& counts) c
     known[pair.point] = true;
     ++counts.duplicates;
   }
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const std::size_t i : by_worth(dynamic)) {
     Landmark landmark = dynamic.at(i);
     if (known[i] || landmark.seen < params_.database.salient_seen) {
       continue;
@@ -172,7 +228,11 @@ Result<StagedUpdate> DatabaseUpdate::stage(const LandmarkDatabase& database) con
   }
   StagedUpdate staged{database, {}};
   staged.counts.frames = frames_;
-  staged.counts.dynamic = static_cast<int>(dynamic_.database().size());
+  SurveyBuilder dynamic = dynamic_;
+  if (const Status learned = learn(database, recent_, dynamic); !learned) {
+    return tl::unexpected(learned.error());
+  }
+  staged.counts.dynamic = static_cast<int>(dynamic.database().size());
   staged.counts.before = database.size();
   apply_tallies(staged.database);
   staged.counts.removed =
@@ -183,13 +243,14 @@ Result<StagedUpdate> DatabaseUpdate::stage(const LandmarkDatabase& database) con
                                     std::to_string(database.size()) +
                                     " landmarks; the pose may have been wrong: check it, or survey the building anew");
   }
-  add_new(staged.database, staged.counts);
+  add_new(dynamic.database(), staged.database, staged.counts);
   staged.counts.after = staged.database.size();
   return staged;
 }
 
 void DatabaseUpdate::clear() {
   dynamic_.clear();
+  recent_.clear();
   tallies_.clear();
   last_eye_.reset();
   frames_ = 0;

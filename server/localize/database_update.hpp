@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "server/localize/stereo_localiser.hpp"
 #include "server/localize/survey.hpp"
@@ -55,7 +56,9 @@ struct StagedUpdate {
   UpdateCounts counts;
 };
 
-/// Gathers what the frames of a drive say about a database.
+/// Gathers what the frames of a drive say about a database. The poses of a drive lean on the same landmarks and on each
+/// other: they are made to agree (adjust_poses()) before what they show becomes landmarks, else a drive that began
+/// uncertain would write its first error down.
 class DatabaseUpdate {
  public:
   /// Asserts that the arguments are valid.
@@ -64,6 +67,9 @@ class DatabaseUpdate {
   /// One frame with the localiser's pose and what it expected and matched there. Only frames while LOCALISED teach
   /// anything: false where this one was not taken.
   bool observe(const LandmarkDatabase& database, const Sighting& sighting, const LocaliserStep& step);
+  [[nodiscard]] int frames() const { return frames_; }
+  /// The next frame will take long: as many as are made to agree at a time have come together. Better stage() now.
+  [[nodiscard]] bool full() const;
   /// The update of the database that the frames were matched against. kNotReady: no frame taught anything; kRefused:
   /// it would remove more than the share allowed (with both counts): rather the pose was wrong, or survey anew.
   [[nodiscard]] Result<StagedUpdate> stage(const LandmarkDatabase& database) const;
@@ -79,16 +85,25 @@ class DatabaseUpdate {
     double log_odds = 0.0;
   };
 
+  /// A frame, and what it showed of the database.
+  struct Frame {
+    Sighting sighting;
+    std::vector<FrameMatch> matches;
+  };
+
   [[nodiscard]] bool moved(const Pose2& map_T_eye) const;
   [[nodiscard]] bool hidden(const Landmark& landmark, const Sighting& sighting) const;
   void tally(const LandmarkDatabase& database, const Sighting& sighting, const LocaliserStep& step);
   void apply_tallies(LandmarkDatabase& database) const;
   [[nodiscard]] bool is_gone(const Landmark& landmark) const;
-  void add_new(LandmarkDatabase& database, UpdateCounts& counts) const;
+  [[nodiscard]] Status learn(const LandmarkDatabase& database, std::vector<Frame> frames, SurveyBuilder& dynamic) const;
+  [[nodiscard]] std::vector<std::size_t> by_worth(const LandmarkDatabase& dynamic) const;
+  void add_new(const LandmarkDatabase& dynamic, LandmarkDatabase& database, UpdateCounts& counts) const;
 
   StereoGeometry geometry_;
   UpdateParams params_;
   SurveyBuilder dynamic_;
+  std::vector<Frame> recent_;  ///< the drive's last part, not in `dynamic_` yet
   std::unordered_map<LandmarkId, Tally> tallies_;
   std::optional<Pose2> last_eye_;
   int frames_ = 0;

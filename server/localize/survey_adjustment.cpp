@@ -14,8 +14,9 @@
 namespace seeker::localize {
 namespace {
 
-/// A point as one sighting saw it, over the floor.
+/// A point as one sighting saw it, over the floor; or where it was known to be.
 struct Observation {
+  bool known = false;  ///< no sighting: `p_eye` and `covariance_eye` are of the frame map
   std::size_t sighting = 0;
   Point3 p_eye = Point3::Zero();
   double disparity_px = 0.0;
@@ -38,8 +39,9 @@ struct Linearised {
 
 class Adjustment {
  public:
-  Adjustment(const StereoGeometry& geometry, const DatabaseParams& params, const std::vector<Sighting>& sightings)
-      : geometry_(geometry), params_(params), measured_(sightings), adjusted_(sightings) {}
+  Adjustment(const StereoGeometry& geometry, const DatabaseParams& params, const std::vector<Sighting>& sightings,
+             std::span<const KnownSight> known)
+      : geometry_(geometry), params_(params), measured_(sightings), known_(known), adjusted_(sightings) {}
 
   Status run(AdjustmentReport& report);
   /// With the disparities' common error taken out.
@@ -58,6 +60,7 @@ class Adjustment {
   const StereoGeometry& geometry_;
   const DatabaseParams& params_;
   const std::vector<Sighting>& measured_;
+  std::span<const KnownSight> known_;
   std::vector<Sighting> adjusted_;
   std::vector<Track> tracks_;
   double offset_px_ = 0.0;       ///< that all disparities have too much
@@ -70,7 +73,12 @@ Status Adjustment::find_tracks() {
   DatabaseParams params = params_;
   params.sparsity.on = false;
   SurveyBuilder builder(geometry_, params);
+  std::map<std::pair<std::size_t, std::size_t>, const Landmark*> known;  // by sighting and feature
+  for (const KnownSight& sight : known_) {
+    known[{sight.sighting, sight.feature}] = sight.landmark;
+  }
   std::map<LandmarkId, Track> tracks;
+  std::map<LandmarkId, Track> known_tracks;
   for (std::size_t s = 0; s < adjusted_.size(); ++s) {
     if (const auto added = builder.add(adjusted_[s]); !added) {
       return tl::unexpected(added.error());
@@ -79,16 +87,25 @@ Status Adjustment::find_tracks() {
       const auto point = builder.landmarks()[i] == 0
                              ? std::nullopt
                              : triangulate_within(geometry_, adjusted_[s].features[i], params_.noise, params_.range);
-      if (point) {
-        tracks[builder.landmarks()[i]].push_back(
-            {s, point->p, adjusted_[s].features[i].disparity_px, point->covariance.topLeftCorner<2, 2>()});
+      if (!point) {
+        continue;
       }
+      const auto found = known.find({s, i});
+      Track& track = found == known.end() ? tracks[builder.landmarks()[i]] : known_tracks[found->second->id];
+      if (found != known.end() && track.empty()) {
+        const Landmark& landmark = *found->second;
+        track.push_back({true, 0, landmark.p_map, 0.0, landmark.covariance().topLeftCorner<2, 2>()});
+      }
+      track.push_back(
+          {false, s, point->p, adjusted_[s].features[i].disparity_px, point->covariance.topLeftCorner<2, 2>()});
     }
   }
   tracks_.clear();
-  for (auto& [id, track] : tracks) {
-    if (track.size() > 1) {
-      tracks_.push_back(std::move(track));
+  for (auto* some : {&known_tracks, &tracks}) {
+    for (auto& [id, track] : *some) {
+      if (track.size() > 1) {
+        tracks_.push_back(std::move(track));
+      }
     }
   }
   return {};
@@ -99,6 +116,15 @@ Linearised Adjustment::linearise(const Track& track) const {
   Linearised at;
   Point2 weighted = Point2::Zero();
   for (const Observation& seen : track) {
+    if (seen.known) {
+      at.places.emplace_back(seen.p_eye.head<2>());
+      at.weights.emplace_back((seen.covariance_eye + floor_m2 * Matrix2::Identity()).inverse());
+      at.jacobians.emplace_back(Block::Zero());
+      at.by_offset.emplace_back(Point2::Zero());
+      at.total += at.weights.back();
+      weighted += at.weights.back() * at.places.back();
+      continue;
+    }
     const Pose2& map_T_eye = adjusted_[seen.sighting].map_T_eye;
     const Matrix2 turn = Eigen::Rotation2Dd(map_T_eye.theta_rad).toRotationMatrix();
     const Matrix2 covariance = turn * seen.covariance_eye * turn.transpose() + floor_m2 * Matrix2::Identity();
@@ -152,6 +178,9 @@ void Adjustment::add(const Track& track) {
     mean_by_offset += rest * at.weights[i] * at.by_offset[i];
   }
   for (std::size_t i = 0; i < track.size(); ++i) {
+    if (track[i].known) {
+      continue;  // neither a pose nor the offset moves it
+    }
     const Point2 own = at.by_offset[i] - mean_by_offset;
     const Eigen::RowVector2d weighed = at.by_offset[i].transpose() * at.weights[i];
     gradient_(offset_row()) += weighed * (at.places[i] - at.mean);
@@ -163,6 +192,9 @@ void Adjustment::add(const Track& track) {
     const Eigen::Matrix<double, 3, 2> pull = at.jacobians[i].transpose() * at.weights[i];
     gradient_.segment<3>(row_of(track[i].sighting)) += pull * (at.places[i] - at.mean);
     for (std::size_t k = 0; k < track.size(); ++k) {
+      if (track[k].known) {
+        continue;
+      }
       Matrix2 between = -rest * at.weights[k];
       if (i == k) {
         between += Matrix2::Identity();
@@ -240,12 +272,12 @@ std::vector<Sighting> Adjustment::take() {
 }  // namespace
 
 Result<AdjustmentReport> adjust_poses(const StereoGeometry& geometry, const DatabaseParams& params,
-                                      std::vector<Sighting>& sightings) {
+                                      std::vector<Sighting>& sightings, std::span<const KnownSight> known) {
   AdjustmentReport report;
   if (!params.adjustment.on) {
     return report;
   }
-  Adjustment adjustment(geometry, params, sightings);
+  Adjustment adjustment(geometry, params, sightings, known);
   if (const Status ok = adjustment.run(report); !ok) {
     return tl::unexpected(ok.error());
   }

@@ -101,6 +101,28 @@ TEST(SurveyAdjustment, ThePaperTakesPosesAsTheyAre) {
   EXPECT_EQ(sightings[7].map_T_eye, before);
 }
 
+TEST(SurveyAdjustment, KnownLandmarksHoldASurveyThatBeganWrong) {
+  const testing::LandmarkRoom room(9, 600);
+  const LandmarkDatabase database = testing::survey(room, kEyes, {}, 9);
+  std::vector<Sighting> sightings = rough_survey(9);
+  const Pose2 off{0.05, -0.04, 0.01};  // of all poses alike, which nothing that they share can tell
+  std::vector<KnownSight> known;
+  for (std::size_t s = 0; s < sightings.size(); ++s) {
+    const std::vector<SeenPoint> points = see(kEyes, sightings[s], {}, {});
+    for (const Pairing& pair : associate(database, sightings[s].features, points, {})) {
+      known.push_back({s, points[pair.point].feature, &database.at(pair.landmark)});
+    }
+    sightings[s].map_T_eye = off * sightings[s].map_T_eye;
+    sightings[s].pose_covariance = Eigen::Vector3d(0.01, 0.01, 0.001).asDiagonal();
+  }
+  const PoseError before = error_of(sightings);
+  ASSERT_TRUE(adjust_poses(kEyes, {}, sightings, known));
+  const PoseError after = error_of(sightings);
+  EXPECT_GT(before.rms_m, 0.04);
+  EXPECT_LT(after.rms_m, 0.02) << "the landmarks themselves were surveyed to 5 mm";
+  EXPECT_LT(after.rms_rad, 0.003);
+}
+
 TEST(SurveyAdjustment, RefusesAPoseThatIsNone) {
   std::vector<Sighting> sightings = rough_survey(7);
   sightings[3].map_T_eye.x_m = std::nan("");

@@ -24,7 +24,8 @@ class UpdateDrive {
     Rng chance(5);
     const LeverArm arm;
     Pose2 base{5.0, 3.0, 0.0};
-    EXPECT_TRUE(localiser->start_at(base, 1e-4 * Matrix3::Identity()));
+    const Matrix3 covariance = Eigen::Vector3d(2.5e-3, 2.5e-3, 9e-4).asDiagonal();  // P0 of spec S2.9
+    EXPECT_TRUE(localiser->start_at(base * start_off, start_off == Pose2{} ? 1e-4 * Matrix3::Identity() : covariance));
     int taken = 0;
     for (int i = 0; i < frames; ++i) {
       const Twist2 velocity{0.32, 0.16};
@@ -40,6 +41,7 @@ class UpdateDrive {
     return taken;
   }
 
+  Pose2 start_off;  ///< of the pose that the localiser is told at first
   std::shared_ptr<const LandmarkDatabase> database;
   DatabaseUpdate update;
 };
@@ -107,6 +109,25 @@ TEST(DatabaseUpdate, OfAnUnchangedRoomRemovesAlmostNothing) {
   const auto staged = drive.update.stage(*drive.database);
   ASSERT_TRUE(staged);
   EXPECT_LE(staged->counts.removed, static_cast<int>(drive.database->size()) / 50);
+}
+
+TEST(DatabaseUpdate, OfADriveThatBeganUncertainPutsNewLandmarksWhereTheyAre) {
+  LandmarkRoom room = changed(LandmarkRoom(2, 500));
+  UpdateDrive drive(LandmarkRoom(2, 500), {});
+  drive.start_off = {0.0, 0.05, 0.01};
+  drive.drive(room, 90);
+  const auto staged = drive.update.stage(*drive.database);
+  ASSERT_TRUE(staged) << staged.error().message;
+  ASSERT_GT(staged->counts.added, 10);
+  int near = 0;
+  for (const Landmark& landmark : staged->database.landmarks()) {
+    if (landmark.id < drive.database->next_id()) {
+      continue;
+    }
+    near += std::any_of(room.points().begin(), room.points().end(),
+                        [&](const testing::RoomPoint& point) { return (point.p_map - landmark.p_map).norm() < 0.05; });
+  }
+  EXPECT_GT(near, 0.9 * staged->counts.added);
 }
 
 TEST(DatabaseUpdate, OfThePaperCountsMissesInARow) {
