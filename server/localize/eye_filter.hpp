@@ -58,7 +58,7 @@ void predict(EyeBelief& belief, const Twist2& velocity, double tau_s, const Leve
 /// Noise of measurements beside that of pixels.
 struct MeasurementNoise {
   double range_floor_m = 0.01;       ///< 0.02 in spec S2.9
-  double bearing_floor_rad = 0.002;  ///< 0.005 in spec S2.9
+  double bearing_floor_rad = 0.001;  ///< 0.005 in spec S2.9
   bool landmark_covariance = true;   ///< add that of the landmark's place
 
   friend bool operator==(const MeasurementNoise&, const MeasurementNoise&) = default;

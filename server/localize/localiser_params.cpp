@@ -106,6 +106,7 @@ LocaliserParams paper_localiser_params() {
   params.map_sigma_m = 0.0;
   params.map_sigma_rad = 0.0;
   params.tracking.max_distance = 2.5;
+  params.tracking.gate_chi2 = 9.210;
   params.relocalise.max_distance = 2.5;
   return params;
 }

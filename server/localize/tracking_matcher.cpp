@@ -75,7 +75,7 @@ Eigen::Vector2d window_px(const StereoGeometry& geometry, const EyeBelief& belie
   const Eigen::RowVector3d by_pose(offset.y() / (range * range), -offset.x() / (range * range), -1.0);
   const double own = covariance.topLeftCorner<2, 2>().trace() / (range * range);
   const double sigma_rad = std::sqrt(by_pose * belief.pose_covariance() * by_pose.transpose() + own);
-  const double across_px = params.tracking.window_sigmas * sigma_rad * geometry.focal_px;
+  const double across_px = std::sqrt(params.tracking.gate_chi2) * sigma_rad * geometry.focal_px;
   const double height_px = params.tracking.height_tolerance_m / range * geometry.focal_px;
   return {std::max(across_px, params.tracking.min_window_px), std::max(height_px, params.tracking.min_window_px)};
 }
