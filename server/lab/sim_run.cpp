@@ -67,10 +67,11 @@ RunWatch::RunWatch(app::RobotLoop& loop, const sim::Simulation& simulation) : lo
 void RunWatch::look() {
   const sim::GroundTruth truth = simulation_.truth();
   steps_.push_back({loop_.now(), truth.world_T_base});
-  const Pose2 map_T_base = inverse(truth.world_T_start) * truth.world_T_base;
-  const Pose2 believed = loop_.status().pose.map_T_base;
-  error_m_ = distance_m(map_T_base, believed);
-  error_rad_ = std::abs(wrap_angle(map_T_base.theta_rad - believed.theta_rad));
+  const PoseEstimate believed = loop_.status().pose;
+  // A pose is that of its stamp: since then the robot has driven on.
+  const Pose2 map_T_base = inverse(truth.world_T_start) * world_T_base_at(believed.stamp);
+  error_m_ = distance_m(map_T_base, believed.map_T_base);
+  error_rad_ = std::abs(wrap_angle(map_T_base.theta_rad - believed.map_T_base.theta_rad));
   max_error_m_ = std::max(max_error_m_, error_m_);
 }
 

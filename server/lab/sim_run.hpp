@@ -54,7 +54,7 @@ class RunWatch {
   [[nodiscard]] std::vector<Pose2> true_path() const;  ///< in the frame `world`, thinned out
   [[nodiscard]] const std::vector<api::Event>& events() const { return events_; }
   [[nodiscard]] std::string event_hash() const { return hash_.hex(); }  ///< kinds, texts, severities, mission times
-  [[nodiscard]] double error_m() const { return error_m_; }             ///< believed against true pose at the last look
+  [[nodiscard]] double error_m() const { return error_m_; }             ///< believed against true pose, last look
   [[nodiscard]] double error_rad() const { return error_rad_; }
   [[nodiscard]] double max_error_m() const { return max_error_m_; }
 

@@ -73,12 +73,27 @@ Vote vote_of_beam(const Context& context, const Line& line, bool corner, std::si
     return Vote::kReal;
   }
   const double range_m = static_cast<double>(context.scan.ranges_m[beam]);
-  // No return is +infinity: the beam goes on behind the end.
+  // No return is +infinity: the beam goes on behind the end, or the wall mirrored it away. An end that is taken for
+  // real there moves on with the robot and holds it back.
+  if (!std::isfinite(range_m) && cosine < std::sin(params.lost_rad)) {
+    return Vote::kVirtual;
+  }
   return range_m > expected_m + params.depth_step_m ? Vote::kReal : Vote::kVirtual;
+}
+
+/// Distance on the line between the beam through a point of it and the next one.
+double spacing_m(const Context& context, const Line& line, const Point2& point) {
+  const double range_m = std::max(point.norm(), line.r_m);
+  const double sine = std::max(line.r_m / range_m, std::sin(context.params.grazing_rad));
+  return range_m * std::abs(context.scan.angle_step_rad) / sine;
 }
 
 bool is_real(const Context& context, std::size_t index, const End& end) {
   constexpr int kBeams = 3;
+  // Where one beam more or less on the wall moves its end by more than that, the end would creep on with the robot.
+  if (spacing_m(context, context.found.lines[index], end.point) > context.params.end_spacing_m) {
+    return false;
+  }
   const bool corner = is_corner(context, index, end.point);
   int real = 0;
   for (int step = 1; step <= kBeams; ++step) {
@@ -88,13 +103,6 @@ bool is_real(const Context& context, std::size_t index, const End& end) {
     }
   }
   return 2 * real > kBeams;
-}
-
-/// Distance on the line between the beam through a point of it and the next one.
-double spacing_m(const Context& context, const Line& line, const Point2& point) {
-  const double range_m = std::max(point.norm(), line.r_m);
-  const double sine = std::max(line.r_m / range_m, std::sin(context.params.grazing_rad));
-  return range_m * std::abs(context.scan.angle_step_rad) / sine;
 }
 
 /// sigma_e of spec S1.4 step 5: noise of the last range along the line, and where between two beams the end lies.

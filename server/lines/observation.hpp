@@ -26,6 +26,8 @@ struct SegmentObservation {
 
 struct ObservationParams {
   double grazing_rad = 0.0873;      ///< lines seen at a smaller angle are left out (5 degrees, spec S1.4 step 3)
+  double lost_rad = 0.1745;         ///< returns from surfaces at a smaller angle get lost: no end where there is none
+  double end_spacing_m = 0.2;       ///< ends between beams that meet the line further apart than this are virtual
   double depth_step_m = 0.15;       ///< delta of step 4: nearer than the line by this = occluded, farther = wall ends
   double corner_gap_m = 0.15;       ///< another line begins within this of the end
   double corner_angle_rad = 0.349;  ///< and turns by more than this (20 degrees): a corner

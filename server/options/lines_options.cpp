@@ -41,6 +41,8 @@ void describe(config::Fields& f, FastParams& params) {
 
 void describe(config::Fields& f, ObservationParams& params) {
   f.angle_deg("grazing_deg", params.grazing_rad);
+  f.angle_deg("lost_deg", params.lost_rad);
+  f.field("end_spacing_m", params.end_spacing_m);
   f.field("depth_step_m", params.depth_step_m);
   f.field("corner_gap_m", params.corner_gap_m);
   f.angle_deg("corner_angle_deg", params.corner_angle_rad);
@@ -49,6 +51,8 @@ void describe(config::Fields& f, ObservationParams& params) {
   f.field("wall_sigma_m", params.wall_sigma_m);
   f.angle_deg("wall_sigma_deg", params.wall_sigma_rad);
   f.check("grazing_deg", params.grazing_rad > 0.0, "must be positive");
+  f.check("lost_deg", params.lost_rad >= 0.0, "must not be negative");
+  f.check("end_spacing_m", params.end_spacing_m > 0.0, "must be positive");
 }
 
 void describe(config::Fields& f, LineThresholds& params) {

@@ -64,6 +64,36 @@ TEST(Observation, EndsAtTheLimitsOfSightAreVirtual) {
   EXPECT_FALSE(seen[0].real[kRight]);
 }
 
+TEST(Observation, AWallWhoseReturnsGetLostAtItsFlatEndDoesNotEndThere) {
+  // One metre beside a wall: what lies 6 m ahead and more is seen at less than 10 degrees.
+  const testing::Room room{{{0.0, 1.0}, {8.0, 1.0}}};
+  ScannerModel model = ScannerModel::half_circle(721, 0.0);
+  model.range_max_m = 20.0;
+  LaserScan scan = scan_of(room, model);
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    if (scan.ranges_m[beam] > 6.2F) {
+      scan.ranges_m[beam] = kNoReturn;
+    }
+  }
+  const auto seen = observed(scan);
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_FALSE(seen[0].real[kRight]);
+  ObservationParams trusting;
+  trusting.lost_rad = 0.0;
+  EXPECT_TRUE(observed(scan, trusting)[0].real[kRight]);
+}
+
+TEST(Observation, AnEndThatTheBeamsDoNotResolveIsVirtual) {
+  // A wall that ends 4 m ahead: beams of half a degree meet it every 0.15 m there, beams of one degree every 0.3 m.
+  const testing::Room room{{{0.0, 1.0}, {4.0, 1.0}}};
+  const auto fine = observed(scan_of(room, ScannerModel::half_circle(361, 0.0)));
+  const auto coarse = observed(scan_of(room, ScannerModel::half_circle(181, 0.0)));
+  ASSERT_EQ(fine.size(), 1U);
+  ASSERT_EQ(coarse.size(), 1U);
+  EXPECT_TRUE(fine[0].real[kRight]);
+  EXPECT_FALSE(coarse[0].real[kRight]);
+}
+
 TEST(Observation, GrazedLinesAreLeftOut) {
   const testing::Room room{{{2.0, 0.1}, {6.0, 0.1}}};
   ScannerModel model{.beams = 8001, .first_rad = -0.4, .step_rad = 1e-4};
