@@ -33,6 +33,15 @@ std::vector<nav::Mover> RobotLoop::movers() const {
   return movers;
 }
 
+std::vector<nav::Mover> RobotLoop::movers_base() const {
+  std::vector<nav::Mover> all = nav::moved(movers(), inverse(pose_.map_T_base));
+  if (odometry_) {
+    const std::vector<nav::Mover> seen = seen_movers_.movers_base(odometry_->odom_T_base, now());
+    all.insert(all.end(), seen.begin(), seen.end());
+  }
+  return all;
+}
+
 const LaserScan& RobotLoop::scan_of_building() {
   const std::vector<nav::Mover> others = movers();
   if (others.empty()) {

@@ -187,6 +187,9 @@ void RobotLoop::sense() {
   read(parts_.devices.base.get(), "base", params_.base_timeout, odometry_, fresh_odometry_, last_odometry_);
   read(parts_.devices.lidar.get(), "lidar", params_.lidar_timeout, scan_, fresh_scan_, last_scan_);
   read(parts_.devices.sonar.get(), "sonar", params_.sonar_timeout, sonar_, fresh_sonar_, last_sonar_);
+  if (fresh_scan_ && odometry_) {
+    seen_movers_.look(*scan_, odometry_->odom_T_base, now());
+  }
 }
 
 void RobotLoop::estimate() {
@@ -322,7 +325,7 @@ void RobotLoop::act(const Twist2& wanted) {
                                            .scan = scan_ ? &*scan_ : nullptr,
                                            .sonar = sonar_ ? &*sonar_ : nullptr,
                                            .velocity = odometry_ ? odometry_->velocity : Twist2{},
-                                           .movers_base = nav::moved(movers(), inverse(pose_.map_T_base))},
+                                           .movers_base = movers_base()},
                                           params_.safety);
   safety_reason_ = verdict.reason;
   command_ = verdict.allowed;

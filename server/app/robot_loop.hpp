@@ -21,6 +21,7 @@
 #include "server/app/safety_supervisor.hpp"
 #include "server/app/update_hub.hpp"
 #include "server/nav/occupancy_map.hpp"
+#include "server/nav/seen_movers.hpp"
 #include "server/vision/stereo_features.hpp"
 
 namespace seeker::app {
@@ -164,6 +165,8 @@ class RobotLoop {
   void move_fleet(const Pose2& new_T_old);
   /// Other robots of the fleet, frame `map`; none that has not been heard of lately.
   [[nodiscard]] std::vector<nav::Mover> movers() const;
+  /// Those, and whatever the laser sees driving about; frame `base`.
+  [[nodiscard]] std::vector<nav::Mover> movers_base() const;
   /// The newest scan without beams that end at other robots: for pose and maps. What stops the robot sees all of it.
   [[nodiscard]] const LaserScan& scan_of_building();
   /// Takes a picture and has the mission's recogniser look at it.
@@ -220,8 +223,9 @@ class RobotLoop {
   PoseEstimate pose_;
   std::optional<Pose2> odom_T_base_at_pose_;
   std::optional<FleetView> fleet_;
-  RobotTime fleet_at_;          ///< when it was told
-  LaserScan building_;          ///< see scan_of_building()
+  RobotTime fleet_at_;  ///< when it was told
+  LaserScan building_;  ///< see scan_of_building()
+  nav::SeenMovers seen_movers_;
   RobotTopology own_topology_;  ///< set in every tick
   Twist2 command_;
   std::string safety_reason_;

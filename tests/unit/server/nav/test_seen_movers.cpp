@@ -1,0 +1,122 @@
+#include "server/nav/seen_movers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "common/core/angle.hpp"
+#include "common/core/rng.hpp"
+
+namespace seeker::nav {
+namespace {
+
+constexpr double kDt_s = 0.1;
+constexpr double kBodyRadius_m = 0.25;
+
+/// A square hall about the origin, and one round body in it.
+struct Hall {
+  double half_m = 5.0;
+  std::optional<Point2> body;
+
+  [[nodiscard]] double range_m(const Point2& from, const Point2& along) const {
+    double range_m = 1e9;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (std::abs(along[axis]) > 1e-9) {
+        range_m = std::min(range_m, (std::copysign(half_m, along[axis]) - from[axis]) / along[axis]);
+      }
+    }
+    if (body) {
+      const Point2 to_body = *body - from;
+      const double ahead_m = to_body.dot(along);
+      const double beside2 = to_body.squaredNorm() - ahead_m * ahead_m;
+      if (ahead_m > 0.0 && beside2 < kBodyRadius_m * kBodyRadius_m) {
+        range_m = std::min(range_m, ahead_m - std::sqrt(kBodyRadius_m * kBodyRadius_m - beside2));
+      }
+    }
+    return range_m;
+  }
+
+  /// Of a laser of 180 degrees with errors of 1 cm.
+  [[nodiscard]] LaserScan scan(const Pose2& odom_T_base, Rng& rng) const {
+    LaserScan scan;
+    scan.angle_min_rad = -kPi / 2;
+    scan.angle_step_rad = deg_to_rad(0.5);
+    scan.range_max_m = 20.0;
+    for (std::size_t beam = 0; beam <= 360; ++beam) {
+      const double angle_rad = odom_T_base.theta_rad + scan.angle_rad(beam);
+      const double exact_m = range_m(odom_T_base.translation(), {std::cos(angle_rad), std::sin(angle_rad)});
+      scan.ranges_m.push_back(static_cast<float>(exact_m + rng.normal(0.01)));
+    }
+    return scan;
+  }
+};
+
+RobotTime at(int tick) { return RobotTime{} + seconds(tick * kDt_s); }
+
+TEST(SeenMovers, OneThatDrivesIsSeenWithItsVelocityFromARobotThatDrivesToo) {
+  Rng rng(3);
+  Hall hall;
+  SeenMovers seen;
+  const Twist2 own{0.4, 0.3};
+  Pose2 odom_T_base{-3.0, -1.0, 0.0};
+  Pose2 odom_T_body{2.0, 0.5, kPi};
+  for (int tick = 0; tick < 10; ++tick) {
+    hall.body = odom_T_body.translation();
+    seen.look(hall.scan(odom_T_base, rng), odom_T_base, at(tick));
+    const auto movers = seen.movers_base(odom_T_base, at(tick));
+    if (tick >= 4) {
+      ASSERT_EQ(movers.size(), 1U) << tick;
+      const Pose2 odom_T_mover = odom_T_base * movers.front().frame_T_base;
+      EXPECT_LT(distance_m(odom_T_mover, odom_T_body), 0.06);
+      EXPECT_NEAR(wrap_angle(odom_T_mover.theta_rad - kPi), 0.0, 0.15);
+      EXPECT_NEAR(movers.front().velocity.v_m_s, 0.5, 0.1);  // 2 cm over 0.4 s
+    }
+    odom_T_base = odom_T_base * integrate(own, kDt_s);
+    odom_T_body = odom_T_body * integrate({0.5, 0.0}, kDt_s);
+  }
+}
+
+TEST(SeenMovers, PillarsAndWallsThatARobotPassesStand) {
+  Rng rng(4);
+  Hall hall;
+  hall.body = Point2(0.0, 0.8);
+  SeenMovers seen;
+  Pose2 odom_T_base{-3.0, 0.0, 0.0};
+  for (int tick = 0; tick < 120; ++tick) {
+    seen.look(hall.scan(odom_T_base, rng), odom_T_base, at(tick));
+    EXPECT_TRUE(seen.movers_base(odom_T_base, at(tick)).empty()) << tick;
+    odom_T_base = odom_T_base * integrate({0.5, tick < 60 ? 0.0 : 0.8}, kDt_s);
+  }
+}
+
+TEST(SeenMovers, OneThatHasGoneOutOfSightIsForgotten) {
+  Rng rng(5);
+  Hall hall;
+  SeenMovers seen;
+  const Pose2 odom_T_base{};
+  for (int tick = 0; tick < 8; ++tick) {
+    hall.body = Point2(3.0, -2.0 + 0.05 * tick);
+    seen.look(hall.scan(odom_T_base, rng), odom_T_base, at(tick));
+  }
+  EXPECT_FALSE(seen.movers_base(odom_T_base, at(8)).empty());
+  hall.body.reset();
+  seen.look(hall.scan(odom_T_base, rng), odom_T_base, at(12));
+  EXPECT_TRUE(seen.movers_base(odom_T_base, at(12)).empty());
+}
+
+TEST(SeenMovers, WhatTheEdgeOfTheScanCutsOrAWallJoinsIsNoBody) {
+  Rng rng(6);
+  Hall hall;
+  hall.body = Point2(2.0, 0.0);
+  ASSERT_EQ(free_bodies(hall.scan({}, rng)).size(), 1U);
+  EXPECT_NEAR(free_bodies(hall.scan({}, rng)).front().radius_m, kBodyRadius_m, 0.05);
+  hall.body = Point2(0.0, 2.0);  // half of it is out of sight
+  EXPECT_TRUE(free_bodies(hall.scan({}, rng)).empty());
+  hall.body = Point2(5.0, 0.0);  // half of it is in the wall
+  EXPECT_TRUE(free_bodies(hall.scan({}, rng)).empty());
+}
+
+}  // namespace
+}  // namespace seeker::nav
