@@ -33,8 +33,8 @@ std::vector<nav::Mover> RobotLoop::movers() const {
   return movers;
 }
 
-std::vector<nav::Mover> RobotLoop::movers_base() const {
-  std::vector<nav::Mover> all = nav::moved(movers(), inverse(pose_.map_T_base));
+std::vector<nav::Mover> RobotLoop::movers_base(const Pose2& map_T_base) const {
+  std::vector<nav::Mover> all = nav::moved(movers(), inverse(map_T_base));
   if (odometry_) {
     const std::vector<nav::Mover> seen = seen_movers_.movers_base(odometry_->odom_T_base, now());
     all.insert(all.end(), seen.begin(), seen.end());
@@ -43,11 +43,11 @@ std::vector<nav::Mover> RobotLoop::movers_base() const {
 }
 
 const LaserScan& RobotLoop::scan_of_building() {
-  const std::vector<nav::Mover> others = movers();
+  const std::vector<nav::Mover> others = movers_base(parts_.estimator->estimate().map_T_base);
   if (others.empty()) {
     return *scan_;
   }
-  building_ = nav::without_movers(*scan_, parts_.estimator->estimate().map_T_base, others);
+  building_ = nav::without_movers(*scan_, Pose2{}, others);
   return building_;
 }
 

@@ -244,7 +244,7 @@ Situation RobotLoop::situation() const {
   s.map_name = map_.identity().name;
   s.has_stereo = parts_.devices.stereo != nullptr && parts_.stereo != nullptr;
   s.fleet = fleet_ ? &*fleet_ : nullptr;
-  s.movers = movers();
+  s.movers = nav::moved(movers_base(pose_.map_T_base), pose_.map_T_base);
   return s;
 }
 
@@ -325,7 +325,7 @@ void RobotLoop::act(const Twist2& wanted) {
                                            .scan = scan_ ? &*scan_ : nullptr,
                                            .sonar = sonar_ ? &*sonar_ : nullptr,
                                            .velocity = odometry_ ? odometry_->velocity : Twist2{},
-                                           .movers_base = movers_base()},
+                                           .movers_base = movers_base(pose_.map_T_base)},
                                           params_.safety);
   safety_reason_ = verdict.reason;
   command_ = verdict.allowed;

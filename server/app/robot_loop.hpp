@@ -165,8 +165,8 @@ class RobotLoop {
   void move_fleet(const Pose2& new_T_old);
   /// Other robots of the fleet, frame `map`; none that has not been heard of lately.
   [[nodiscard]] std::vector<nav::Mover> movers() const;
-  /// Those, and whatever the laser sees driving about; frame `base`.
-  [[nodiscard]] std::vector<nav::Mover> movers_base() const;
+  /// Those, and whatever the laser sees driving about; frame `base` of the robot at that place.
+  [[nodiscard]] std::vector<nav::Mover> movers_base(const Pose2& map_T_base) const;
   /// The newest scan without beams that end at other robots: for pose and maps. What stops the robot sees all of it.
   [[nodiscard]] const LaserScan& scan_of_building();
   /// Takes a picture and has the mission's recogniser look at it.

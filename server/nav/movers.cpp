@@ -48,10 +48,12 @@ double nearest_m(const Braking& own, const Braking& other) {
   return nearest;
 }
 
-/// Told to drive slower than it does, the base brakes at once; else it does as told until it may be told otherwise.
+/// Told to drive slower than it does, the base brakes at once, and goes on to do so if it has not slowed enough by the
+/// time it may be told again; else it does as told until then.
 Braking told(const Twist2& twist, const Twist2& present, const ClearanceParams& params) {
-  const bool slower = std::abs(twist.v_m_s) < std::abs(present.v_m_s);
-  return {{}, slower ? present : twist, slower ? 0.0 : params.reaction_s, params.decel_m_s2};
+  const double slower_m_s = std::abs(present.v_m_s) - std::abs(twist.v_m_s);
+  const double drives_on_s = params.reaction_s - std::max(0.0, slower_m_s) / params.decel_m_s2;
+  return {{}, slower_m_s > 0.0 ? present : twist, std::max(0.0, drives_on_s), params.decel_m_s2};
 }
 
 }  // namespace

@@ -9,6 +9,8 @@ namespace {
 
 /// Points of one body lie no farther from one beam to the next.
 constexpr double kGap_m = 0.15;
+/// A beam between them may be lost.
+constexpr std::size_t kNextBeams = 2;
 constexpr double kMinRadius_m = 0.08;
 constexpr double kMaxRadius_m = 0.4;
 constexpr std::size_t kMinBeams = 4;
@@ -22,16 +24,36 @@ constexpr double kFollowed_s = 0.6;
 /// Nothing is said of one that was followed for a shorter time, or has been out of sight for a longer one.
 constexpr double kLeast_s = 0.35;
 constexpr double kLost_s = 0.3;
+/// One that has driven is taken for one that may drive on for so long, and looked for where it was for so long.
+constexpr double kRests_s = 10.0;
+constexpr double kLookedFor_s = 1.0;
 /// Slower ones may be pillars whose other side comes into sight; faster ones are two bodies taken for one.
 constexpr double kSlowest_m_s = 0.25;
 constexpr double kFastest_m_s = 2.0;
 /// Half way through, an even drive was half way along.
 constexpr double kUneven_m = 0.05;
-constexpr double kSlack_m = 0.05;
+constexpr double kSlack_m = 0.1;
 
-/// A run of beams [first, last].
-std::optional<FreeBody> body_of(const LaserScan& scan, std::size_t first, std::size_t last) {
-  if (first == 0 || last + 1 >= scan.ranges_m.size() || last + 1 - first < kMinBeams) {
+bool usable(const LaserScan& scan, std::size_t beam) {
+  return std::isfinite(scan.ranges_m[beam]) && scan.ranges_m[beam] > 0.0F &&
+         (scan.quality.empty() || scan.quality[beam] > 0);
+}
+
+/// The next beam that ends at the same body.
+std::optional<std::size_t> next_on_body(const LaserScan& scan, std::size_t beam) {
+  for (std::size_t next = beam + 1; next <= beam + kNextBeams && next < scan.ranges_m.size(); ++next) {
+    if (usable(scan, next) && std::abs(scan.ranges_m[next] - scan.ranges_m[beam]) < kGap_m) {
+      return next;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Of beams that end at one thing, in their order.
+std::optional<FreeBody> body_of(const LaserScan& scan, const std::vector<std::size_t>& beams) {
+  const std::size_t first = beams.front();
+  const std::size_t last = beams.back();
+  if (first == 0 || last + 1 >= scan.ranges_m.size() || beams.size() < kMinBeams) {
     return std::nullopt;
   }
   const auto point = [&](std::size_t beam) {
@@ -45,81 +67,90 @@ std::optional<FreeBody> body_of(const LaserScan& scan, std::size_t first, std::s
     return std::nullopt;
   }
   Point2 sum = Point2::Zero();
-  for (std::size_t beam = first; beam <= last; ++beam) {
+  for (const std::size_t beam : beams) {
     sum += point(beam);
   }
-  const Point2 middle = sum / static_cast<double>(last + 1 - first);
+  const Point2 middle = sum / static_cast<double>(beams.size());
   return FreeBody{scan.base_T_laser * Point2(middle + kDepth * radius_m * middle.normalized()), radius_m};
-}
-
-bool usable(const LaserScan& scan, std::size_t beam) {
-  return std::isfinite(scan.ranges_m[beam]) && scan.ranges_m[beam] > 0.0F &&
-         (scan.quality.empty() || scan.quality[beam] > 0);
 }
 
 }  // namespace
 
 std::vector<FreeBody> free_bodies(const LaserScan& scan) {
   std::vector<FreeBody> bodies;
-  std::size_t first = 0;
-  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
-    const bool goes_on = beam + 1 < scan.ranges_m.size() && usable(scan, beam) && usable(scan, beam + 1) &&
-                         std::abs(scan.ranges_m[beam + 1] - scan.ranges_m[beam]) < kGap_m;
-    if (!goes_on) {
-      const auto body = usable(scan, beam) ? body_of(scan, first, beam) : std::nullopt;
-      if (body) {
-        bodies.push_back(*body);
-      }
-      first = beam + 1;
+  for (std::size_t first = 0; first < scan.ranges_m.size();) {
+    std::vector<std::size_t> beams{first};
+    while (const std::optional<std::size_t> next = next_on_body(scan, beams.back())) {
+      beams.push_back(*next);
     }
+    const auto body = usable(scan, first) ? body_of(scan, beams) : std::nullopt;
+    if (body) {
+      bodies.push_back(*body);
+    }
+    first = beams.back() + 1;
   }
   return bodies;
 }
 
+void SeenMovers::follow(const FreeBody& body_odom, RobotTime now) {
+  Track* nearest = nullptr;
+  double nearest_m = kSameBody_m;
+  for (Track& track : tracks_) {
+    const double d_m = (track.seen.back().p_odom - body_odom.centre).norm();
+    if (track.seen.back().at < now && d_m < nearest_m) {
+      nearest = &track;
+      nearest_m = d_m;
+    }
+  }
+  if (nearest == nullptr) {
+    nearest = &tracks_.emplace_back();
+  }
+  nearest->seen.push_back({now, body_odom.centre});
+  nearest->radius_m = std::max(nearest->radius_m, body_odom.radius_m);
+}
+
 void SeenMovers::look(const LaserScan& scan, const Pose2& odom_T_base, RobotTime now) {
   for (const FreeBody& body : free_bodies(scan)) {
-    const Point2 p_odom = odom_T_base * body.centre;
-    Track* nearest = nullptr;
-    double nearest_m = kSameBody_m;
-    for (Track& track : tracks_) {
-      const double d_m = (track.seen.back().p_odom - p_odom).norm();
-      if (track.seen.back().at < now && d_m < nearest_m) {
-        nearest = &track;
-        nearest_m = d_m;
-      }
-    }
-    if (nearest == nullptr) {
-      nearest = &tracks_.emplace_back();
-    }
-    nearest->seen.push_back({now, p_odom});
-    nearest->radius_m = body.radius_m;
+    follow({odom_T_base * body.centre, body.radius_m}, now);
   }
   for (Track& track : tracks_) {
     while (to_seconds(now - track.seen.front().at) > kFollowed_s && track.seen.size() > 1) {
       track.seen.pop_front();
     }
+    if (track.seen.back().at == now && track.surely_drives()) {
+      track.drove_at = now;
+    }
   }
-  std::erase_if(tracks_, [now](const Track& track) { return to_seconds(now - track.seen.back().at) > kLost_s; });
+  std::erase_if(tracks_, [now](const Track& track) {
+    return to_seconds(now - track.seen.back().at) > (track.drove_at ? kLookedFor_s : kLost_s);
+  });
+}
+
+Point2 SeenMovers::Track::velocity_odom() const {
+  const double time_s = to_seconds(seen.back().at - seen.front().at);
+  return time_s < kLeast_s ? Point2(Point2::Zero()) : Point2((seen.back().p_odom - seen.front().p_odom) / time_s);
+}
+
+bool SeenMovers::Track::surely_drives() const {
+  const Point2 velocity = velocity_odom();
+  const Seen& from = seen.front();
+  const bool even = std::all_of(seen.begin(), seen.end(), [&](const Seen& at) {
+    return (from.p_odom + to_seconds(at.at - from.at) * velocity - at.p_odom).norm() < kUneven_m;
+  });
+  return even && velocity.norm() >= kSlowest_m_s && velocity.norm() <= kFastest_m_s;
 }
 
 std::vector<Mover> SeenMovers::movers_base(const Pose2& odom_T_base, RobotTime now) const {
   std::vector<Mover> movers;
   for (const Track& track : tracks_) {
-    const Seen& from = track.seen.front();
-    const Seen& to = track.seen.back();
-    const double time_s = to_seconds(to.at - from.at);
-    if (time_s < kLeast_s || to_seconds(now - to.at) > kLost_s) {
+    const double age_s = to_seconds(now - track.seen.back().at);
+    if (!track.drove_at || to_seconds(now - *track.drove_at) > kRests_s || age_s > kLost_s) {
       continue;
     }
-    const Point2 velocity = (to.p_odom - from.p_odom) / time_s;
-    const bool even = std::all_of(track.seen.begin(), track.seen.end(), [&](const Seen& seen) {
-      return (from.p_odom + to_seconds(seen.at - from.at) * velocity - seen.p_odom).norm() < kUneven_m;
-    });
-    if (even && velocity.norm() >= kSlowest_m_s && velocity.norm() <= kFastest_m_s) {
-      const Point2 p_odom = to.p_odom + to_seconds(now - to.at) * velocity;
-      const Pose2 odom_T_mover{p_odom.x(), p_odom.y(), std::atan2(velocity.y(), velocity.x())};
-      movers.push_back({inverse(odom_T_base) * odom_T_mover, {velocity.norm(), 0.0}, track.radius_m, kSlack_m});
-    }
+    const Point2 velocity = track.velocity_odom();
+    const Point2 p_odom = track.seen.back().p_odom + age_s * velocity;
+    const Pose2 odom_T_mover{p_odom.x(), p_odom.y(), std::atan2(velocity.y(), velocity.x())};
+    movers.push_back({inverse(odom_T_base) * odom_T_mover, {velocity.norm(), 0.0}, track.radius_m, kSlack_m});
   }
   return movers;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "common/core/pose2.hpp"
@@ -25,7 +26,8 @@ struct FreeBody {
 class SeenMovers {
  public:
   void look(const LaserScan& scan, const Pose2& odom_T_base, RobotTime now);
-  /// Those that drove on evenly while they were followed, brought on to the present; frame `base`.
+  /// Those that drive on evenly, or have done so shortly before and are still in sight; brought on to the present,
+  /// frame `base`.
   [[nodiscard]] std::vector<Mover> movers_base(const Pose2& odom_T_base, RobotTime now) const;
 
  private:
@@ -35,8 +37,16 @@ class SeenMovers {
   };
   struct Track {
     std::deque<Seen> seen;
-    double radius_m = 0.0;
+    double radius_m = 0.0;  ///< the widest that was seen: what is half hidden is no smaller
+    std::optional<RobotTime> drove_at;
+
+    /// On average while it was followed.
+    [[nodiscard]] Point2 velocity_odom() const;
+    /// Nothing else moves as evenly and as fast.
+    [[nodiscard]] bool surely_drives() const;
   };
+
+  void follow(const FreeBody& body_odom, RobotTime now);
 
   std::vector<Track> tracks_;
 };

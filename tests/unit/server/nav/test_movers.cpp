@@ -75,6 +75,14 @@ TEST(Movers, OneThatDrivesAwayOrPassesFarOffIsNoReasonToBrake) {
   EXPECT_EQ(limit_for_movers(wanted, wanted, {}, params), wanted);
 }
 
+TEST(Movers, AtSpeedOneIsSlowedWhateverTheWheelsSayOfTheLastMillimetre) {
+  const Twist2 wanted{0.5, 0.0};
+  for (const double present_m_s : {0.4999, 0.5, 0.5001}) {
+    const Twist2 may = limit_for_movers(wanted, {present_m_s, 0.0}, {mover_at(1.2, 0.3, -2.5, 0.5)}, {});
+    EXPECT_LT(may.v_m_s, wanted.v_m_s) << present_m_s;
+  }
+}
+
 TEST(Movers, OneThatStandsIsLeftToTheSensors) {
   const Twist2 wanted{0.5, 0.0};
   EXPECT_EQ(limit_for_movers(wanted, wanted, {mover_at(0.6, 0, 0, 0.0)}, {}), wanted);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -91,6 +92,25 @@ TEST(SeenMovers, PillarsAndWallsThatARobotPassesStand) {
   }
 }
 
+TEST(SeenMovers, OneThatHasStoppedIsAMoverForAWhile) {
+  Rng rng(8);
+  Hall hall;
+  const Pose2 odom_T_base{};
+  const auto drives_then_stands = [&](int ticks) {
+    SeenMovers seen;
+    for (int tick = 0; tick < ticks; ++tick) {
+      hall.body = Point2(3.0, -1.0 + 0.05 * std::min(tick, 8));
+      seen.look(hall.scan(odom_T_base, rng), odom_T_base, at(tick));
+    }
+    return seen.movers_base(odom_T_base, at(ticks - 1));
+  };
+  const auto movers = drives_then_stands(40);
+  ASSERT_EQ(movers.size(), 1U);
+  EXPECT_LT(movers.front().velocity.v_m_s, 0.06);
+  EXPECT_LT((movers.front().frame_T_base.translation() - *hall.body).norm(), 0.06);
+  EXPECT_TRUE(drives_then_stands(200).empty());
+}
+
 TEST(SeenMovers, OneThatHasGoneOutOfSightIsForgotten) {
   Rng rng(5);
   Hall hall;
@@ -116,6 +136,16 @@ TEST(SeenMovers, WhatTheEdgeOfTheScanCutsOrAWallJoinsIsNoBody) {
   EXPECT_TRUE(free_bodies(hall.scan({}, rng)).empty());
   hall.body = Point2(5.0, 0.0);  // half of it is in the wall
   EXPECT_TRUE(free_bodies(hall.scan({}, rng)).empty());
+}
+
+TEST(SeenMovers, ABodyIsOneThoughABeamIsLost) {
+  Rng rng(7);
+  Hall hall;
+  hall.body = Point2(2.0, 0.0);
+  LaserScan scan = hall.scan({}, rng);
+  scan.ranges_m[180] = std::numeric_limits<float>::infinity();
+  ASSERT_EQ(free_bodies(scan).size(), 1U);
+  EXPECT_NEAR(free_bodies(scan).front().radius_m, kBodyRadius_m, 0.05);
 }
 
 }  // namespace
