@@ -187,7 +187,8 @@ void RobotLoop::sense() {
   read(parts_.devices.base.get(), "base", params_.base_timeout, odometry_, fresh_odometry_, last_odometry_);
   read(parts_.devices.lidar.get(), "lidar", params_.lidar_timeout, scan_, fresh_scan_, last_scan_);
   read(parts_.devices.sonar.get(), "sonar", params_.sonar_timeout, sonar_, fresh_sonar_, last_sonar_);
-  if (fresh_scan_ && odometry_) {
+  // A recording cannot be slowed, and is to give the map that it gives offline.
+  if (fresh_scan_ && odometry_ && !parts_.devices.runs_without_mission) {
     seen_movers_.look(*scan_, odometry_->odom_T_base, now());
   }
 }
