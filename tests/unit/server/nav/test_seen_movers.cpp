@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -16,10 +18,11 @@ namespace {
 constexpr double kDt_s = 0.1;
 constexpr double kBodyRadius_m = 0.25;
 
-/// A square hall about the origin, and one round body in it.
+/// A square hall about the origin, one round body and pieces of wall in it.
 struct Hall {
   double half_m = 5.0;
   std::optional<Point2> body;
+  std::vector<std::pair<Point2, Point2>> walls;
 
   [[nodiscard]] double range_m(const Point2& from, const Point2& along) const {
     double range_m = 1e9;
@@ -34,6 +37,16 @@ struct Hall {
       const double beside2 = to_body.squaredNorm() - ahead_m * ahead_m;
       if (ahead_m > 0.0 && beside2 < kBodyRadius_m * kBodyRadius_m) {
         range_m = std::min(range_m, ahead_m - std::sqrt(kBodyRadius_m * kBodyRadius_m - beside2));
+      }
+    }
+    for (const auto& [start, end] : walls) {
+      const Point2 wall = end - start;
+      const double across = along.x() * wall.y() - along.y() * wall.x();
+      const Point2 to_start = start - from;
+      const double wall_m = (to_start.x() * wall.y() - to_start.y() * wall.x()) / across;
+      const double share = (to_start.x() * along.y() - to_start.y() * along.x()) / across;
+      if (wall_m > 0.0 && share >= 0.0 && share <= 1.0) {
+        range_m = std::min(range_m, wall_m);
       }
     }
     return range_m;
@@ -89,6 +102,27 @@ TEST(SeenMovers, PillarsAndWallsThatARobotPassesStand) {
     seen.look(hall.scan(odom_T_base, rng), odom_T_base, at(tick));
     EXPECT_TRUE(seen.movers_base(odom_T_base, at(tick)).empty()) << tick;
     odom_T_base = odom_T_base * integrate({0.5, tick < 60 ? 0.0 : 0.8}, kDt_s);
+  }
+}
+
+/// Ends of walls as beside doors: from another place one sees more of them, or another side.
+TEST(SeenMovers, EndsOfWallsThatARobotDrivesPastStand) {
+  Rng rng(9);
+  for (int drive = 0; drive < 100; ++drive) {
+    Hall hall;
+    const double length_m = rng.uniform(0.2, 1.0);
+    hall.walls = {{{0.0, -0.05}, {length_m, -0.05}},
+                  {{0.0, 0.05}, {length_m, 0.05}},
+                  {{0.0, -0.05}, {0.0, 0.05}},
+                  {{length_m, -0.05}, {length_m, 0.05}}};
+    SeenMovers seen;
+    Pose2 odom_T_base{rng.uniform(-0.8, -0.4), rng.uniform(-1.5, -0.5), rng.uniform(1.2, 1.9)};
+    const Twist2 velocity{rng.uniform(0.1, 0.5), rng.uniform(-0.3, 0.3)};
+    for (int tick = 0; tick < 50; ++tick) {
+      seen.look(hall.scan(odom_T_base, rng), odom_T_base, at(tick));
+      ASSERT_TRUE(seen.movers_base(odom_T_base, at(tick)).empty()) << "drive " << drive << ", tick " << tick;
+      odom_T_base = odom_T_base * integrate(velocity, kDt_s);
+    }
   }
 }
 
