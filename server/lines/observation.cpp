@@ -81,17 +81,19 @@ Vote vote_of_beam(const Context& context, const Line& line, bool corner, std::si
   return range_m > expected_m + params.depth_step_m ? Vote::kReal : Vote::kVirtual;
 }
 
-/// Distance on the line between the beam through a point of it and the next one.
-double spacing_m(const Context& context, const Line& line, const Point2& point) {
-  const double range_m = std::max(point.norm(), line.r_m);
-  const double sine = std::max(line.r_m / range_m, std::sin(context.params.grazing_rad));
-  return range_m * std::abs(context.scan.angle_step_rad) / sine;
+/// Distance on the line from an end to where the next beam outward meets the line.
+double spacing_m(const Context& context, const Line& line, const End& end) {
+  const double flattest_rad = kPi / 2.0 - context.params.grazing_rad;
+  const double bearing_rad = wrap_angle(std::atan2(end.point.y(), end.point.x()) - line.alpha_rad);
+  const double next_rad = bearing_rad + end.outward * context.scan.angle_step_rad;
+  const auto along_m = [&](double rad) { return line.r_m * std::tan(std::clamp(rad, -flattest_rad, flattest_rad)); };
+  return std::abs(along_m(next_rad) - along_m(bearing_rad));
 }
 
 bool is_real(const Context& context, std::size_t index, const End& end) {
   constexpr int kBeams = 3;
   // Where one beam more or less on the wall moves its end by more than that, the end would creep on with the robot.
-  if (spacing_m(context, context.found.lines[index], end.point) > context.params.end_spacing_m) {
+  if (spacing_m(context, context.found.lines[index], end) > context.params.end_spacing_m) {
     return false;
   }
   const bool corner = is_corner(context, index, end.point);
@@ -105,12 +107,35 @@ bool is_real(const Context& context, std::size_t index, const End& end) {
   return 2 * real > kBeams;
 }
 
-/// sigma_e of spec S1.4 step 5: noise of the last range along the line, and where between two beams the end lies.
-double end_sigma_m(const Context& context, const Line& line, const Point2& point) {
-  const double sine = std::min(1.0, line.r_m / std::max(point.norm(), std::numeric_limits<double>::min()));
+/// How far beyond the line's last point the wall ends.
+struct Beyond {
+  double expected_m = 0.0;
+  double sigma_m = 0.0;
+};
+
+/// The wall ends somewhere between its last beam and the next; exactly there where the next one hits what leads around
+/// the corner, such as the inner side of a door post.
+Beyond beyond_last_point(const Context& context, const Line& line, const End& end) {
+  const double next_m = spacing_m(context, line, end);
+  const double range_sigma_m = context.found.range_sigma_m;
+  const std::optional<std::size_t> beam = beam_beyond(context, end, 1);
+  if (beam && std::isfinite(context.scan.ranges_m[*beam])) {
+    const double angle_rad = context.scan.angle_rad(*beam);
+    const Point2 hit = context.scan.ranges_m[*beam] * Point2(std::cos(angle_rad), std::sin(angle_rad));
+    const Point2 outward = (end.point - 0.5 * (line.start + line.end)).normalized();
+    const double hit_m = outward.dot(hit - end.point);
+    if (hit_m > -range_sigma_m && hit_m < std::max(next_m, range_sigma_m)) {
+      return {std::max(0.0, hit_m), range_sigma_m};
+    }
+  }
+  return {0.5 * next_m, next_m / std::sqrt(12.0)};
+}
+
+/// sigma_e of spec S1.4 step 5: noise of the last range along the line, and where beyond its point the end lies.
+double end_sigma_m(const Context& context, const Line& line, const End& end, const Beyond& beyond) {
+  const double sine = std::min(1.0, line.r_m / std::max(end.point.norm(), std::numeric_limits<double>::min()));
   const double along_m = context.found.range_sigma_m * std::sqrt(1.0 - sine * sine);
-  const double sampling_m = spacing_m(context, line, point) / std::sqrt(12.0);
-  return std::hypot(along_m, sampling_m);
+  return std::hypot(along_m, beyond.sigma_m);
 }
 
 bool is_grazed(const Line& line, double grazing_rad) {
@@ -128,9 +153,9 @@ SegmentObservation observe_line(const Context& context, std::size_t index) {
   for (const Side side : {kLeft, kRight}) {
     const End end = end_of(line, side == kLeft, context.scan);
     seen.real[side] = is_real(context, index, end);
-    seen.end_sigma_m[side] = end_sigma_m(context, line, points[side]);
-    // The wall ends somewhere between its last beam and the next.
-    const double beyond_m = seen.real[side] ? 0.5 * spacing_m(context, line, points[side]) : 0.0;
+    const Beyond beyond = beyond_last_point(context, line, end);
+    seen.end_sigma_m[side] = end_sigma_m(context, line, end, beyond);
+    const double beyond_m = seen.real[side] ? beyond.expected_m : 0.0;
     s[side] += side == kLeft ? -beyond_m : beyond_m;
   }
   const double s_m = 0.5 * (s[kLeft] + s[kRight]);

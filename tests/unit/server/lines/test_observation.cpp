@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
@@ -92,6 +95,43 @@ TEST(Observation, AnEndThatTheBeamsDoNotResolveIsVirtual) {
   ASSERT_EQ(coarse.size(), 1U);
   EXPECT_TRUE(fine[0].real[kRight]);
   EXPECT_FALSE(coarse[0].real[kRight]);
+}
+
+TEST(Observation, EndsSeenFlatlyAreToldNeitherTooNearNorTooFar) {
+  // One metre beside a wall that ends some 4 m ahead, and of another that begins there: where the beams meet them
+  // differs from place to place, and beams lie further apart the farther they go.
+  constexpr int kPlaces = 400;
+  double too_far_m = 0.0;
+  for (int place = 0; place < kPlaces; ++place) {
+    const double end_m = 3.8 + 0.001 * place;
+    const auto seen = observed(scan_of({{{0.0, 1.0}, {end_m, 1.0}}}, ScannerModel::half_circle(361, 0.0)));
+    ASSERT_EQ(seen.size(), 1U);
+    ASSERT_TRUE(seen[0].real[kRight]);
+    const double told_m = (seen[0].base_T_segment * Point2(0.5 * seen[0].length_m, 0.0)).x();
+    EXPECT_NEAR(told_m, end_m, 0.5 * 0.17);
+    too_far_m += (told_m - end_m) / kPlaces;
+  }
+  EXPECT_NEAR(too_far_m, 0.0, 0.001);
+}
+
+TEST(Observation, AWallBeginsWhereABeamHitsTheInnerSideOfItsDoorPost) {
+  int real = 0;
+  for (int place = 0; place < 20; ++place) {
+    const double post_m = 3.0 + 0.01 * place;
+    const testing::Room room{{{post_m, 1.0}, {post_m + 1.5, 1.0}}, {{post_m, 1.0}, {post_m, 1.04}}, {{0, 2}, {6, 2}}};
+    const auto seen = observed(scan_of(room, ScannerModel::half_circle(361, 0.0)));
+    const auto wall = std::find_if(seen.begin(), seen.end(), [&](const SegmentObservation& segment) {
+      return std::abs(segment.base_T_segment.y_m - 1.0) < 0.05 && segment.length_m > 0.5;
+    });
+    ASSERT_NE(wall, seen.end());
+    if (!wall->real[kLeft]) {
+      continue;  // two beams hit the post
+    }
+    ++real;
+    const double told_m = (wall->base_T_segment * Point2(-0.5 * wall->length_m, 0.0)).x();
+    EXPECT_NEAR(told_m, post_m, 0.01) << "beams meet the wall every 0.1 m";
+  }
+  EXPECT_GE(real, 10);
 }
 
 TEST(Observation, GrazedLinesAreLeftOut) {
