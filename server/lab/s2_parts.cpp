@@ -19,9 +19,10 @@ constexpr double kDialSigma_rad = deg_to_rad(0.3);
 
 }  // namespace
 
-Bench bench_of(const S2Spec& spec, const sim::RobotModel& model) {
-  Bench bench;
-  bench.model = model;
+Bench bench_of(const S2Spec& spec, const app::RobotOptions& options) {
+  const sim::RobotModel& model = options.sim.robot;
+  Bench bench{model, options.stereo.features, options.stereo.database, options.stereo.localiser,
+              options.stereo.estimator.update};
   if (spec.paper) {
     bench.features = vision::paper_stereo_params();
     bench.database = localize::paper_database_params();

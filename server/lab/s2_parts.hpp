@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/app/robot_options.hpp"
 #include "server/lab/s2_run.hpp"
 #include "server/lab/s2_scene.hpp"
 #include "server/lab/table.hpp"
@@ -29,7 +30,8 @@ struct Bench {
   localize::UpdateParams update;
 };
 
-[[nodiscard]] Bench bench_of(const S2Spec& spec, const sim::RobotModel& model);
+/// Of the robot's configuration, or with the paper's own values.
+[[nodiscard]] Bench bench_of(const S2Spec& spec, const app::RobotOptions& options);
 
 /// The views of the survey with poses as they were noted down.
 [[nodiscard]] Result<std::vector<localize::Sighting>> survey_views(const Bench& bench, const sim::World& world,

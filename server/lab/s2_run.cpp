@@ -237,7 +237,7 @@ Result<std::string> settings_of(const S2Spec& spec) {
   }
   hash->add(spec.paper ? "paper" : "default");
   // What a run is has changed with these.
-  hash->add("poses adjusted, foreign rooms stretched, woken robots turn about, best landmarks kept");
+  hash->add("poses adjusted, foreign rooms stretched, woken robots turn about, best landmarks kept, as configured");
   return hash->hex();
 }
 
@@ -250,7 +250,7 @@ Result<S2Record> run_s2(const S2Spec& spec) {
   if (!world) {
     return tl::unexpected<Error>(world.error());
   }
-  const Bench bench = s2::bench_of(spec, options->sim.robot);
+  const Bench bench = s2::bench_of(spec, *options);
   S2Run run(spec, bench, std::move(*world));
   for (const auto step : {&S2Run::survey_and_drive, &S2Run::change_and_update, &S2Run::relocalise}) {
     if (Status ok = (run.*step)(); !ok) {

@@ -36,7 +36,7 @@ struct AssociationParams {
 struct SparsityParams {
   bool on = true;
   double inner_radius_m = 0.05;  ///< R_A: nothing new nearer than this to a landmark; 0.10 with the paper
-  double outer_radius_m = 0.25;  ///< R_B: up to here only what looks different; 0.50 with the paper
+  double outer_radius_m = 0.2;   ///< R_B: up to here only what looks different; 0.50 with the paper
   double min_distance = 0.7;     ///< d_f0 of descriptors: 2.5 in the paper, by L1
   /// Of what stands too close together the landmark that was seen most often stays, chosen once all are known. Else, as
   /// printed, the one that was seen first, however seldom it is seen again.

@@ -28,6 +28,7 @@ UpdateParams paper_update_params() {
   params.count_misses = true;
   params.min_move_m = 0.0;
   params.min_turn_rad = 0.0;
+  params.max_teaching_sigma_m = 0.0;
   return params;
 }
 
@@ -51,6 +52,9 @@ Status validate(const UpdateParams& params) {
   }
   if (!(params.min_move_m >= 0.0) || !(params.min_turn_rad >= 0.0)) {
     return bad("min_move_m and min_turn_deg must be at least 0");
+  }
+  if (!(params.max_teaching_sigma_m >= 0.0)) {
+    return bad("max_teaching_sigma_m must be at least 0");
   }
   return params.max_removed_share > 0.0 && params.max_removed_share <= 1.0
              ? Status()
@@ -165,7 +169,12 @@ Status DatabaseUpdate::learn(const LandmarkDatabase& database, std::vector<Frame
   if (const auto adjusted = adjust_poses(geometry_, params_.database, sightings, known); !adjusted) {
     return tl::unexpected(adjusted.error());
   }
+  const double most_m = params_.max_teaching_sigma_m;
   for (const Sighting& sighting : sightings) {
+    const Matrix2 place = sighting.pose_covariance.topLeftCorner<2, 2>();
+    if (most_m > 0.0 && largest_sigma(place) > most_m) {
+      continue;
+    }
     if (const auto added = dynamic.add(sighting); !added) {
       return tl::unexpected(added.error());
     }

@@ -26,7 +26,10 @@ struct UpdateParams {
   double occlusion_ratio = 1.25;           ///< disparity of what hides over that of the landmark
   double min_move_m = 0.10;                ///< frames count as new evidence after so much motion,
   double min_turn_rad = deg_to_rad(10.0);  ///< or so much turning
-  double max_removed_share = 0.5;          ///< an update that would remove more is refused
+  /// Frames from places less certain than this make no landmarks; 0: all do. Landmarks of one frame share its pose's
+  /// error, and a localiser takes them for as many that err each on their own.
+  double max_teaching_sigma_m = 0.01;
+  double max_removed_share = 0.5;  ///< an update that would remove more is refused
 
   friend bool operator==(const UpdateParams&, const UpdateParams&) = default;
 };

@@ -206,6 +206,7 @@ void describe(config::Fields& f, UpdateParams& params) {
   f.field("occlusion_ratio", params.occlusion_ratio);
   f.field("min_move_m", params.min_move_m);
   f.angle_deg("min_turn_deg", params.min_turn_rad);
+  f.field("max_teaching_sigma_m", params.max_teaching_sigma_m);
   f.field("max_removed_share", params.max_removed_share);
 }
 

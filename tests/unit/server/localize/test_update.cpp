@@ -130,6 +130,18 @@ TEST(DatabaseUpdate, OfADriveThatBeganUncertainPutsNewLandmarksWhereTheyAre) {
   EXPECT_GT(near, 0.9 * staged->counts.added);
 }
 
+TEST(DatabaseUpdate, PlacesThatAreNotCertainEnoughAddNoLandmarks) {
+  const LandmarkRoom room(2, 500);
+  UpdateParams strict;
+  strict.max_teaching_sigma_m = 1e-6;
+  UpdateDrive drive(room, strict);
+  EXPECT_GT(drive.drive(changed(room), 180), 150);
+  const auto staged = drive.update.stage(*drive.database);
+  ASSERT_TRUE(staged) << staged.error().message;
+  EXPECT_EQ(staged->counts.added, 0);
+  EXPECT_GT(staged->counts.removed, 10) << "what is gone is seen from there as well";
+}
+
 TEST(DatabaseUpdate, OfThePaperCountsMissesInARow) {
   const LandmarkRoom room(2, 500);
   UpdateParams params;
