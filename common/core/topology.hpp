@@ -59,6 +59,15 @@ struct Topology {
   friend bool operator==(const Topology&, const Topology&) = default;
 };
 
+/// What an exploration by topology goes on from when its program was cut off; frame `map`.
+struct TopologyMemory {
+  Topology topology;
+  std::vector<Point2> closed_map;     ///< goals of its own that were given up
+  std::vector<Point2> looked_at_map;  ///< goals of others that were looked at from as near as a way leads
+
+  friend bool operator==(const TopologyMemory&, const TopologyMemory&) = default;
+};
+
 /// Another robot of the fleet, its places already in the frame `map` of the robot that reads this.
 struct RobotTopology {
   std::string robot_id;

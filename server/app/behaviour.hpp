@@ -94,6 +94,9 @@ class Behaviour {
   /// Of an exploration by topology: places it has been at and still means to go to, and the goal it drives to.
   [[nodiscard]] virtual const Topology* topology() const { return nullptr; }
   [[nodiscard]] virtual std::optional<Point2> target_map() const { return std::nullopt; }
+  /// What it goes on from when the program is cut off, and what it is told then before its first step.
+  [[nodiscard]] virtual std::optional<TopologyMemory> memory() const { return std::nullopt; }
+  virtual void remember(const TopologyMemory& /*memory*/) {}
   /// Everything found so far, with ids from 1 that stay.
   [[nodiscard]] virtual std::vector<api::Detection> detections() const { return {}; }
 };

@@ -38,6 +38,8 @@ class ExploreBehaviour final : public Behaviour {
   void map_moved(const Pose2& new_T_old) override;
   [[nodiscard]] const Topology* topology() const override { return exploration_.strategy().topology(); }
   [[nodiscard]] std::optional<Point2> target_map() const override { return exploration_.strategy().target_map(); }
+  [[nodiscard]] std::optional<TopologyMemory> memory() const override { return exploration_.strategy().memory(); }
+  void remember(const TopologyMemory& memory) override { exploration_.remember(memory); }
 
  private:
   ExploreBehaviour(explore::Exploration exploration, Duration segments_period)

@@ -2,23 +2,71 @@
 
 #include <utility>
 
+#include "server/app/kept_files.hpp"
 #include "server/app/map_service.hpp"
 
 namespace seeker::app {
+namespace {
 
-void MapService::write_checkpoint(const api::MissionId& mission, LoopMap map) {
-  const auto shared = std::make_shared<const LoopMap>(std::move(map));
+/// Of a map that a mission could not go on in; the first free number is taken.
+std::string name_aside(const api::MissionId& mission, int number) {
+  constexpr std::size_t kMaxName = 48;
+  return mission.substr(0, kMaxName) + "-cut-off" + (number > 1 ? "-" + std::to_string(number) : "");
+}
+
+}  // namespace
+
+void MapService::write_checkpoint(const api::MissionId& mission, Checkpoint checkpoint) {
+  const auto shared = std::make_shared<const Checkpoint>(std::move(checkpoint));
   const auto answer = [this](const Status& written) {
     // A robot that shuts down needs no answer.
     static_cast<void>(mailbox_.post([this, written] { loop_.checkpoint_written(written); }));
   };
   const Status ok = enqueue([this, mission, shared, answer](const store::MapFiles& /*files*/) {
-    const Result<store::MapListing> written = checkpoints_.write(file_of(*shared, mission), true);
-    answer(written ? Status() : Status(tl::unexpected<Error>(written.error())));
+    // First, so that no map is without one; a full disk is told with the map.
+    static_cast<void>(keep_place(checkpoint_folder(), mission, shared->map_T_base));
+    const Result<store::MapListing> written = checkpoints_.write(file_of(shared->map, mission), true);
+    Status kept = written ? Status() : Status(tl::unexpected<Error>(written.error()));
+    // After the map: what is remembered of an older one is less, and never of places that the map does not have.
+    if (kept && shared->topology) {
+      kept = keep_topology(checkpoint_folder(), mission, *shared->topology, shared->map.map.epoch);
+    }
+    answer(kept);
   });
   if (!ok) {
     answer(ok);
   }
+}
+
+void MapService::write_place(const api::MissionId& mission, const Pose2& map_T_base) {
+  const auto answer = [this] { static_cast<void>(mailbox_.post([this] { loop_.place_written(); })); };
+  const Status ok = enqueue([this, mission, map_T_base, answer](const store::MapFiles& /*files*/) {
+    static_cast<void>(keep_place(checkpoint_folder(), mission, map_T_base));  // a full disk is told with the map
+    answer();
+  });
+  if (!ok) {
+    answer();
+  }
+}
+
+void MapService::set_checkpoint_aside(const api::MissionId& mission) {
+  static_cast<void>(enqueue([this, mission](const store::MapFiles& files) {
+    Result<store::MapFile> file = checkpoints_.read(mission);
+    Result<store::MapListing> saved = fail(Errc::kNotFound, "there is no map");
+    constexpr int kMostNames = 100;
+    for (int k = 1; file && !saved && k <= kMostNames; ++k) {
+      file->origin.name = name_aside(mission, k);
+      saved = files.write(*file, false);
+    }
+    const std::string text = saved ? "the map that the robot was not found in is saved as '" + file->origin.name + "'"
+                                   : "the map that the robot was not found in could not be saved: " +
+                                         (file ? saved.error() : file.error()).message;
+    tell("map-set-aside", text, saved ? api::Severity::kInfo : api::Severity::kWarning);
+  }));
+}
+
+void MapService::tell(const std::string& kind, const std::string& text, api::Severity severity) {
+  static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.log(kind, text, severity); }));
 }
 
 void MapService::drop_checkpoints() {
@@ -28,6 +76,7 @@ void MapService::drop_checkpoints() {
     for (const store::MapListing& listing : kept ? *kept : std::vector<store::MapListing>()) {
       static_cast<void>(checkpoints_.remove(listing.header.origin.name));
     }
+    drop_kept(checkpoint_folder());
   }));
 }
 
@@ -49,9 +98,16 @@ void MapService::resume_from(const api::MissionId& mission, const api::Reply<voi
   const Status ok = enqueue([this, mission, reply](const store::MapFiles& /*files*/) {
     Result<store::MapFile> file = checkpoints_.read(mission);
     const MapIdentity identity{"", file ? file->origin.created_unix_s : 0, api::MapUse::kContinue};
+    std::string trouble;
+    const KeptState kept = file ? read_kept(checkpoint_folder(), mission, file->map.epoch, trouble) : KeptState{};
+    if (!trouble.empty()) {
+      tell("resume-without-memory", "the mission goes on in its map, but without all that it remembered: " + trouble,
+           api::Severity::kWarning);
+    }
     const auto map = std::make_shared<const Result<LineMap>>(
         file ? Result<LineMap>(std::move(file->map)) : Result<LineMap>(tl::unexpected<Error>(file.error())));
-    const bool posted = mailbox_.post([this, map, identity, reply] { reply(loop_.resume_in_map(*map, identity)); });
+    const bool posted =
+        mailbox_.post([this, map, identity, kept, reply] { reply(loop_.resume_in_map(*map, identity, kept)); });
     if (!posted) {
       reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
     }

@@ -55,7 +55,7 @@ MapService::MapService(MapStorage storage, RobotLoop& loop, Mailbox& mailbox)
       loop_(loop),
       mailbox_(mailbox),
       files_(storage_.folder),
-      checkpoints_(storage_.folder / "checkpoints" / storage_.robot_id),
+      checkpoints_(checkpoint_folder()),
       disk_(kMaxWaiting, "maps") {}
 
 Status MapService::enqueue(Work work) {

@@ -42,7 +42,11 @@ class MapService {
   /// Goes on with a paused mission, or with one that a crash cut off: in the map it had built, where that was kept.
   void resume_mission(const api::Reply<void>& reply);
   /// Keeps the map of a running mission; the loop gets the answer. From the loop's thread.
-  void write_checkpoint(const api::MissionId& mission, LoopMap map);
+  void write_checkpoint(const api::MissionId& mission, Checkpoint checkpoint);
+  /// Keeps where the robot is in it; the loop is told when that is done.
+  void write_place(const api::MissionId& mission, const Pose2& map_T_base);
+  /// Saves the map of a mission that did not go on in it under a name of its own.
+  void set_checkpoint_aside(const api::MissionId& mission);
   void drop_checkpoints();
 
  private:
@@ -54,6 +58,10 @@ class MapService {
   void on_worker(const api::Reply<T>& reply, std::function<Result<T>(const store::MapFiles&)> work);
   void write(const LoopMap& from, const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply);
   [[nodiscard]] store::MapFile file_of(const LoopMap& from, const std::string& name) const;
+  void tell(const std::string& kind, const std::string& text, api::Severity severity);
+  [[nodiscard]] std::filesystem::path checkpoint_folder() const {
+    return storage_.folder / "checkpoints" / storage_.robot_id;
+  }
   void resume_from(const api::MissionId& mission, const api::Reply<void>& reply);
 
   MapStorage storage_;

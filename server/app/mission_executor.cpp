@@ -46,6 +46,12 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   return request.id;
 }
 
+void MissionExecutor::remember(const TopologyMemory& memory) {
+  if (active_) {
+    active_->behaviour->remember(memory);
+  }
+}
+
 Status MissionExecutor::command(api::MissionCommand command, RobotTime now) {
   if (!active_) {
     return fail(Errc::kNotReady, "no mission is running");

@@ -55,6 +55,8 @@ class MissionExecutor {
   /// What a running mission knows of places moves with the map; what ended missions left keeps its old epoch.
   void map_moved(const Pose2& new_T_old, RobotTime now);
 
+  /// What the behaviour knew when the program was cut off; before its first step.
+  void remember(const TopologyMemory& memory);
   void client_lost(const std::string& client, WallTime wall_now);
   void client_back(const std::string& client);
 

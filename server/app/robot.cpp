@@ -12,6 +12,10 @@ constexpr std::chrono::milliseconds kIdleWait{200};
 /// How long a loop that waits for its world leaves clients without an answer.
 constexpr std::chrono::milliseconds kAwaitSlice{10};
 
+constexpr const char* kMapWaits =
+    "the map of the mission that was cut off has not been taken up again; 'seeker resume' does, and so does a new "
+    "mission with a new map";
+
 std::optional<Pose2> known_place(const RobotLoop& loop) {
   const PoseEstimate pose = loop.status().pose;
   const bool known = pose.quality == LocalisationQuality::kLocalised || pose.quality == LocalisationQuality::kDegraded;
@@ -171,9 +175,13 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
     keep_journal();
   }
   if (journal_ && !maps.empty()) {
-    loop_.on_checkpoint = [this](const api::MissionId& mission, LoopMap map) {
-      maps_.write_checkpoint(mission, std::move(map));
+    loop_.on_checkpoint = [this](const api::MissionId& mission, Checkpoint checkpoint) {
+      maps_.write_checkpoint(mission, std::move(checkpoint));
     };
+    loop_.on_place = [this](const api::MissionId& mission, const Pose2& map_T_base) {
+      maps_.write_place(mission, map_T_base);
+    };
+    loop_.on_checkpoint_unused = [this](const api::MissionId& mission) { maps_.set_checkpoint_aside(mission); };
     loop_.on_checkpoints_void = [this] { maps_.drop_checkpoints(); };
   }
 }
@@ -201,7 +209,8 @@ FleetHost Robot::fleet_host() {
 
 void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
   const bool posted = mailbox_.post([this, reply] {
-    Result<LineMap> map = loop_.robot_map().map();
+    Result<LineMap> map =
+        loop_.map_waits_for_resume() ? Result<LineMap>(fail(Errc::kNotReady, kMapWaits)) : loop_.robot_map().map();
     if (!map) {
       reply(tl::unexpected<Error>(map.error()));
       return;
@@ -216,7 +225,7 @@ void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
 void Robot::give_own_topology(const api::Reply<OwnTopology>& reply) {
   const bool posted = mailbox_.post([this, reply] {
     OwnTopology own;
-    if (known_place(loop_)) {
+    if (known_place(loop_) && !loop_.map_waits_for_resume()) {
       own = loop_.own_topology();
       own->robot_id = identity_.robot_id;
     }

@@ -1,5 +1,8 @@
 // The map of a mission that builds one outlives a crash: it is kept on disk while the mission runs.
 
+#include <algorithm>
+#include <utility>
+
 #include "server/app/robot_loop.hpp"
 
 namespace seeker::app {
@@ -10,22 +13,51 @@ bool builds_map(const api::MissionTask& task) {
   return std::holds_alternative<api::ExploreMission>(task) || (search != nullptr && search->explore);
 }
 
+/// Where the newest scan was kept. There is one in every map that has been kept.
+std::optional<Pose2> last_place(const LineMap& map) {
+  const auto newest = std::max_element(map.keyframes.begin(), map.keyframes.end(),
+                                       [](const MapKeyframe& a, const MapKeyframe& b) { return a.stamp < b.stamp; });
+  for (const MapNode& node : map.nodes) {
+    if (newest != map.keyframes.end() && node.id == newest->node) {
+      return node.map_T_node * newest->node_T_base;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void RobotLoop::keep_checkpoint() {
   const api::MissionRequest* mission = missions_.request();
   slam::MapTracker* tracker = parts_.estimator->map_tracker();
-  if (!on_checkpoint || mission == nullptr || tracker == nullptr || !builds_map(mission->task)) {
+  if (!on_checkpoint || mission == nullptr || tracker == nullptr || !builds_map(mission->task) || map_.relocalising()) {
     return;
   }
-  const bool due = now() - checkpoint_at_ >= params_.map.checkpoint_period;
-  if (!due || checkpoint_waits_ || map_.relocalising() || checkpoint_revision_ == tracker->revision()) {
+  const bool far =
+      checkpoint_map_T_base_ && distance_m(*checkpoint_map_T_base_, pose_.map_T_base) >= params_.map.checkpoint_way_m;
+  const bool due = far || now() - checkpoint_at_ >= params_.map.checkpoint_period;
+  if (!due || checkpoint_waits_ || checkpoint_revision_ == tracker->revision()) {
+    keep_place(mission->id);
     return;
   }
   checkpoint_at_ = now();
+  checkpoint_map_T_base_ = pose_.map_T_base;
   checkpoint_revision_ = tracker->revision();
   checkpoint_waits_ = checkpoint_kept_ = true;
-  on_checkpoint(mission->id, {tracker->map(), map_.identity()});
+  on_checkpoint(mission->id, {{tracker->map(), map_.identity()}, missions_.behaviour()->memory(), pose_.map_T_base});
+  place_at_ = now();
+}
+
+/// More often than the map, which costs more; it says nothing without one.
+void RobotLoop::keep_place(const api::MissionId& mission) {
+  const bool known =
+      pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
+  if (!on_place || !checkpoint_kept_ || place_waits_ || !known || now() - place_at_ < params_.map.place_period) {
+    return;
+  }
+  place_at_ = now();
+  place_waits_ = true;
+  on_place(mission, pose_.map_T_base);
 }
 
 void RobotLoop::checkpoint_written(const Status& written) {
@@ -55,9 +87,17 @@ std::optional<api::MissionId> RobotLoop::checkpoint_to_resume() const {
   return wanted && !missions_.present() && !resuming_ && !has_own_map_ ? std::optional(unfinished_->id) : std::nullopt;
 }
 
-Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& identity) {
+bool RobotLoop::map_waits_for_resume() const {
+  // A map that somebody has loaded meanwhile is meant to be used.
+  return checkpoint_to_resume().has_value() && map_.identity().name.empty();
+}
+
+Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& identity, KeptState kept) {
   if (authority_.estop()) {
     return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
+  }
+  if (!unfinished_) {
+    return fail(Errc::kNotReady, "no mission was cut off");
   }
   const Status usable = map ? validate(*map) : Status(tl::unexpected<Error>(map.error()));
   if (!usable) {
@@ -66,29 +106,61 @@ Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& i
     }
     return command_mission(api::MissionCommand::kResume);
   }
-  if (Status ok = load_map(*map, identity); !ok) {
+  if (missions_.present()) {
+    return may_change_map();
+  }
+  // Unlike load_map() for a robot that still rolls, too: it brakes, and stands no farther off than it is looked for.
+  if (Status ok = map_.load(*map, identity, now()); !ok) {
     return ok;
   }
+  forget_places();
+  log("map-loaded", "the map of mission '" + unfinished_->id + "' is loaded; the robot looks for its place in it");
+  if (const auto place = kept.map_T_base ? kept.map_T_base : last_place(*map)) {
+    if (Status ok = map_.look_where_it_stood(*place, now()); !ok) {
+      return ok;
+    }
+  }
+  memory_ = std::move(kept.topology);
   resuming_ = has_own_map_ = checkpoint_kept_ = true;
   return {};
 }
 
 void RobotLoop::resume_when_found() {
-  if (!resuming_ || map_.relocalising()) {
+  // What is known to be floor decides what is left to explore: the kept scans are written into it first.
+  if (!resuming_ || map_.relocalising() || map_.rendering()) {
     return;
   }
   resuming_ = false;
   const bool found =
       pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
-  const Result<api::MissionId> started =
-      found && unfinished_ ? start_mission(api::MissionRequest(*unfinished_), "resumed")
-                           : Result<api::MissionId>(fail(
-                                 Errc::kNotReady, "the robot did not find its place in the map it had (" + pose_.cause +
-                                                      "); help with 'seeker relocalise --at X,Y,DEG --wait', then "
-                                                      "'seeker resume'"));
+  if (!found) {
+    begin_map_anew();
+  }
+  const Result<api::MissionId> started = unfinished_
+                                             ? start_mission(api::MissionRequest(*unfinished_), "resumed")
+                                             : Result<api::MissionId>(fail(Errc::kNotReady, "no mission was cut off"));
   if (!started) {
     log("resume-failed", started.error().message, api::Severity::kError);
+  } else if (memory_) {
+    missions_.remember(*memory_);
   }
+  memory_.reset();
+}
+
+/// Better than a robot that is lost for good: the fleet, or an operator, may lay the two maps upon each other later.
+void RobotLoop::begin_map_anew() {
+  log("resume-anew",
+      "the robot did not find its place in the map it had (" + pose_.cause +
+          "): the mission begins a new one, and the old one is saved under a name; to go on in that one, stop the "
+          "mission, load it with 'seeker map load NAME' and help with 'seeker relocalise --at X,Y,DEG'",
+      api::Severity::kWarning);
+  if (on_checkpoint_unused && unfinished_) {
+    on_checkpoint_unused(unfinished_->id);
+  }
+  has_own_map_ = false;
+  memory_.reset();
+  map_.begin_anew();
+  forget_places();
 }
 
 }  // namespace seeker::app

@@ -23,6 +23,7 @@ Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& reque
     }
     unfinished_.reset();
     checkpoint_at_ = now();
+    checkpoint_map_T_base_ = pose_.map_T_base;
     if (on_mission_started) {
       on_mission_started(request);
     }

@@ -11,6 +11,7 @@
 
 #include "common/api/robot_api.hpp"
 #include "server/app/background.hpp"
+#include "server/app/checkpoint.hpp"
 #include "server/app/components.hpp"
 #include "server/app/devices.hpp"
 #include "server/app/estimator.hpp"
@@ -118,11 +119,15 @@ class RobotLoop {
   // crash.
   /// The cut-off mission whose map may be there; nothing when there is none to resume or it needs no map.
   [[nodiscard]] std::optional<api::MissionId> checkpoint_to_resume() const;
-  /// Loads the map of the cut-off mission and looks for the robot's place in it; then the mission goes on. Where there
-  /// is no map to load it begins anew.
-  [[nodiscard]] Status resume_in_map(const Result<LineMap>& map, const MapIdentity& identity);
+  /// Loads the map of the cut-off mission and looks for the robot's place in it, first where it was last; then the
+  /// mission goes on. Where there is no map to load, or the robot is not found in it, a new map is begun.
+  [[nodiscard]] Status resume_in_map(const Result<LineMap>& map, const MapIdentity& identity, KeptState kept = {});
+  /// The present map is not the robot's own yet: the one that its mission was building waits for `resume`.
+  [[nodiscard]] bool map_waits_for_resume() const;
   /// The answer to on_checkpoint.
   void checkpoint_written(const Status& written);
+  /// The answer to on_place. A place that was not kept is no loss: the next one follows soon.
+  void place_written() { place_waits_ = false; }
   void client_lost(const std::string& client, const std::string& why, WallTime wall_now);
   void client_back(const std::string& client);
   /// The client left on purpose: its lease is free, its mission goes on.
@@ -147,7 +152,11 @@ class RobotLoop {
   std::function<void(const api::MissionStatus&)> on_mission;
   std::function<void(const api::Detection&)> on_detection;
   /// Keeps the map of a mission that is building it; answer with checkpoint_written().
-  std::function<void(const api::MissionId&, LoopMap)> on_checkpoint;
+  std::function<void(const api::MissionId&, Checkpoint)> on_checkpoint;
+  /// Keeps where the robot is in that map; answer with place_written().
+  std::function<void(const api::MissionId&, const Pose2&)> on_place;
+  /// The robot was not found in the map that is kept for a mission, which goes on without it.
+  std::function<void(const api::MissionId&)> on_checkpoint_unused;
   /// No mission needs its checkpoint any more.
   std::function<void()> on_checkpoints_void;
 
@@ -181,8 +190,11 @@ class RobotLoop {
   void take_recognition();
   void act(const Twist2& wanted);
   void keep_checkpoint();
+  void keep_place(const api::MissionId& mission);
   void drop_checkpoints();
   void resume_when_found();
+  void begin_map_anew();
+  void forget_places();
   void publish();
   void publish_tiles(RobotTime stamp);
   void publish_segments(RobotTime stamp);
@@ -239,6 +251,10 @@ class RobotLoop {
   bool checkpoint_waits_ = false;  ///< one is being written
   std::optional<std::uint64_t> checkpoint_revision_;
   RobotTime checkpoint_at_;
+  std::optional<Pose2> checkpoint_map_T_base_;  ///< where the robot was then
+  bool place_waits_ = false;                    ///< one is being written
+  RobotTime place_at_;
+  std::optional<TopologyMemory> memory_;  ///< of unfinished_, in its map
   std::vector<api::StampedPose> trajectory_;
   std::uint64_t event_sequence_ = 0;
   std::uint64_t published_revision_ = 0;

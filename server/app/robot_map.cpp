@@ -131,14 +131,25 @@ Status RobotMap::load(const LineMap& map, const MapIdentity& identity, RobotTime
   }
   identity_ = identity;
   relocalising_since_ = now;
-  // A map of another place: nothing of the old one may be used, nor be taken for the new one by a client.
+  take_new_frame();
+  return {};
+}
+
+void RobotMap::begin_anew() {
+  tracker_->reset({});
+  identity_ = {};
+  relocalising_since_.reset();
+  take_new_frame();
+}
+
+/// A map of another place: nothing of the old one may be used, nor be taken for the new one by a client.
+void RobotMap::take_new_frame() {
   ++epoch_;
   epoch_offset_ = epoch_ - tracker_->estimate().map_epoch;
   replace_occupancy(nav::OccupancyMap(occupancy_params_));
   begin_rendering();
   tracker_revision_.reset();
   segments_at_.reset();
-  return {};
 }
 
 Status RobotMap::relocalise(const std::optional<Pose2>& map_T_base, RobotTime now) {
@@ -146,6 +157,17 @@ Status RobotMap::relocalise(const std::optional<Pose2>& map_T_base, RobotTime no
     return no_map();
   }
   Status ok = tracker_->relocalise(map_T_base);
+  if (ok) {
+    relocalising_since_ = now;
+  }
+  return ok;
+}
+
+Status RobotMap::look_where_it_stood(const Pose2& map_T_base, RobotTime now) {
+  if (tracker_ == nullptr) {
+    return no_map();
+  }
+  Status ok = tracker_->look_where_it_stood(map_T_base);
   if (ok) {
     relocalising_since_ = now;
   }

@@ -23,7 +23,9 @@ struct RobotMapParams {
   int render_scans_per_tick = 40;                            ///< kept scans written anew after the map has moved
   Duration segment_period = std::chrono::milliseconds(500);  ///< between publications of changed segments, robot time
   Duration relocalise_limit = std::chrono::seconds(60);      ///< robot time in which a search for the place must end
-  Duration checkpoint_period = std::chrono::seconds(30);     ///< robot time between checkpoints of a mission's map
+  Duration checkpoint_period = std::chrono::seconds(30);     ///< robot time between checkpoints of a mission's map,
+  double checkpoint_way_m = 5.0;  ///< or so far from where the last was made: what is seen then is in it in part
+  Duration place_period = std::chrono::seconds(1);  ///< robot time between notes of where the robot is in that map
 };
 
 /// Under which name the present map is kept, and since when it exists.
@@ -79,6 +81,10 @@ class RobotMap {
   /// Replaces the map and looks for the robot's place in it. Errors of MapTracker::load(); all stays as it was then.
   [[nodiscard]] Status load(const LineMap& map, const MapIdentity& identity, RobotTime now);
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base, RobotTime now);
+  /// Looks for the robot where it was last, then everywhere: MapTracker::look_where_it_stood().
+  [[nodiscard]] Status look_where_it_stood(const Pose2& map_T_base, RobotTime now);
+  /// Forgets the map; a new one begins where the robot is. There must be one of segments.
+  void begin_anew();
 
  private:
   struct KeptScan {
@@ -86,6 +92,7 @@ class RobotMap {
     Pose2 map_T_base;
   };
 
+  void take_new_frame();
   void begin_rendering();
   void replace_occupancy(nav::OccupancyMap map);
 

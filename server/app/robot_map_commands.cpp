@@ -49,7 +49,15 @@ Status RobotLoop::load_map(const LineMap& map, const MapIdentity& identity) {
   if (Status ok = map_.load(map, identity, now()); !ok) {
     return ok;
   }
-  // All of these are places in the old map.
+  forget_places();
+  log("map-loaded", "map '" + identity.name + "' is loaded to " + std::string(api::to_string(identity.use)) +
+                        "; the robot looks for its place in it");
+  republish_ = true;
+  return {};
+}
+
+/// All of these are places in the map before.
+void RobotLoop::forget_places() {
   trajectory_.clear();
   own_topology_ = {};
   fleet_.reset();
@@ -57,10 +65,6 @@ Status RobotLoop::load_map(const LineMap& map, const MapIdentity& identity) {
     parts_.forget_places();
   }
   pose_ = map_.follow(parts_.estimator->estimate(), now());
-  log("map-loaded", "map '" + identity.name + "' is loaded to " + std::string(api::to_string(identity.use)) +
-                        "; the robot looks for its place in it");
-  republish_ = true;
-  return {};
 }
 
 Status RobotLoop::relocalise(const std::optional<Pose2>& map_T_base) {

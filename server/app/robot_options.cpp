@@ -89,6 +89,10 @@ void describe(config::Fields& f, RobotMapParams& params) {
   f.seconds("relocalise_limit_s", params.relocalise_limit);
   f.seconds("checkpoint_period_s", params.checkpoint_period);
   f.check("checkpoint_period_s", params.checkpoint_period > Duration::zero(), "must be above 0");
+  f.field("checkpoint_way_m", params.checkpoint_way_m);
+  f.check("checkpoint_way_m", params.checkpoint_way_m > 0.0, "must be above 0");
+  f.seconds("place_period_s", params.place_period);
+  f.check("place_period_s", params.place_period > Duration::zero(), "must be above 0");
 }
 
 void describe(config::Fields& f, FleetMotionParams& params) {

@@ -41,6 +41,7 @@ Exploration::~Exploration() = default;
 ExploreStep Exploration::step(const ExploreInput& input) { return impl_->step(input); }
 void Exploration::resume(RobotTime now) { impl_->resume(now); }
 void Exploration::transform(const Pose2& new_T_old) { impl_->transform(new_T_old); }
+void Exploration::remember(const TopologyMemory& memory) { impl_->remember(memory); }
 const ExploreStrategy& Exploration::strategy() const { return impl_->strategy(); }
 
 }  // namespace seeker::explore

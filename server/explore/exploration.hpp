@@ -92,6 +92,8 @@ class Exploration {
   void resume(RobotTime now);
   /// The map moved (new epoch): `new_T_old` takes old map coordinates to new ones.
   void transform(const Pose2& new_T_old);
+  /// Before the first step: what the strategy knew when the program was cut off.
+  void remember(const TopologyMemory& memory);
   /// The strategy, for what it tells of its topology; valid as long as the exploration is not moved.
   [[nodiscard]] const ExploreStrategy& strategy() const;
 

@@ -23,6 +23,7 @@ class Exploration::Impl {
   [[nodiscard]] ExploreStep step(const ExploreInput& input);
   void resume(RobotTime now);
   void transform(const Pose2& new_T_old);
+  void remember(const TopologyMemory& memory) { strategy_->remember(memory); }
   [[nodiscard]] const ExploreStrategy& strategy() const { return *strategy_; }
 
  private:

@@ -54,6 +54,10 @@ class ExploreStrategy {
   virtual void transform(const Pose2& new_T_old) = 0;
   /// Places it has been at and still means to go to; null where the strategy keeps none.
   [[nodiscard]] virtual const Topology* topology() const { return nullptr; }
+  /// What it must know again to go on after the program was cut off; nothing where all of it is seen from the map.
+  [[nodiscard]] virtual std::optional<TopologyMemory> memory() const { return std::nullopt; }
+  /// Before the first step: goes on from there.
+  virtual void remember(const TopologyMemory& /*memory*/) {}
   /// The goal it drives to, of those in its topology.
   [[nodiscard]] virtual std::optional<Point2> target_map() const { return std::nullopt; }
 };

@@ -259,6 +259,15 @@ std::optional<Point2> TopologicalStrategy::target_map() const {
   return goal_ ? std::optional(goal_->p_map) : std::nullopt;
 }
 
+std::optional<TopologyMemory> TopologicalStrategy::memory() const {
+  return TopologyMemory{map_.topology(), map_.closed_map(), done_map_};
+}
+
+void TopologicalStrategy::remember(const TopologyMemory& memory) {
+  map_ = TopologyMap(topological_.map, memory.topology, memory.closed_map);
+  done_map_ = memory.looked_at_map;
+}
+
 void TopologicalStrategy::interrupted(RobotTime now) {
   since_ = now;
   scan_at_.reset();

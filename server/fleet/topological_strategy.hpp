@@ -39,6 +39,8 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   void transform(const Pose2& new_T_old) override;
   [[nodiscard]] const Topology* topology() const override { return &map_.topology(); }
   [[nodiscard]] std::optional<Point2> target_map() const override;
+  [[nodiscard]] std::optional<TopologyMemory> memory() const override;
+  void remember(const TopologyMemory& memory) override;
 
  private:
   using Input = explore::StrategyInput;

@@ -33,6 +33,16 @@ bool settled(const Topology& topology, const Point2& p_map, const Corridors& cor
 
 }  // namespace
 
+TopologyMap::TopologyMap(const TopologyParams& params, Topology kept, std::vector<Point2> closed_map)
+    : params_(params), map_(std::move(kept)), closed_map_(std::move(closed_map)) {
+  for (const TopologyNode& node : map_.nodes) {
+    next_node_ = std::max(next_node_, node.id + 1);
+    for (const TopologyGoal& goal : node.goals) {
+      next_goal_ = std::max(next_goal_, goal.id + 1);
+    }
+  }
+}
+
 const TopologyNode* TopologyMap::find(std::uint64_t node) const {
   const auto at = std::find_if(map_.nodes.begin(), map_.nodes.end(),
                                [node](const TopologyNode& candidate) { return candidate.id == node; });

@@ -77,6 +77,8 @@ struct RuleInput {
 class TopologyMap {
  public:
   explicit TopologyMap(const TopologyParams& params) : params_(params) {}
+  /// Goes on from what was kept; ids count on above those in it.
+  TopologyMap(const TopologyParams& params, Topology kept, std::vector<Point2> closed_map);
 
   [[nodiscard]] const Topology& topology() const { return map_; }
   [[nodiscard]] const TopologyNode* current() const { return find(map_.current); }
@@ -98,6 +100,8 @@ class TopologyMap {
   /// Nobody need go there any more, nor to what a later tree shows within V_R of it.
   void close(std::uint64_t goal);
   [[nodiscard]] bool has(std::uint64_t goal) const;
+  /// Goals that were given up.
+  [[nodiscard]] const std::vector<Point2>& closed_map() const { return closed_map_; }
   void transform(const Pose2& new_T_old);
 
  private:

@@ -78,6 +78,7 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   next_id_ = 1;
   place_.reset();
   hint_.reset();
+  kept_.reset();
   read_only_.reset();
   quality_ = LocalisationQuality::kUnknown;
   cause_ = "no odometry yet";

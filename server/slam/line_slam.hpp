@@ -45,6 +45,7 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] LineMap map() const override;
   [[nodiscard]] Status load(const LineMap& map, MapUse use) override;
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base) override;
+  [[nodiscard]] Status look_where_it_stood(const Pose2& map_T_base) override;
   void for_each_scan(const std::function<void(const LaserScan&, const Pose2&)>& visit) const override;
 
   [[nodiscard]] const LineSlamCounts& counts() const { return counts_; }
@@ -73,6 +74,7 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] bool map_is_full() const;
   void start_local_map();
   void look_for_robot();
+  [[nodiscard]] std::vector<SeenPoints> seen_lately() const;
   [[nodiscard]] PlaceAnswer find_place() const;
   [[nodiscard]] bool is_confirmed(const Pose2& map_T_node);
   void settle(const PlaceAnswer& answer);
@@ -104,6 +106,7 @@ class LineSlam final : public MapTracker {
   std::unique_ptr<PlaceMap> place_;
   std::string search_cause_;
   std::optional<Pose2> hint_;  ///< map_T_base that somebody has named
+  std::optional<Pose2> kept_;  ///< map_T_base where the robot stood; nothing once scans have denied it
   Pose2 last_try_;             ///< node_T_base
   int scans_since_try_ = 0;
   int tries_ = 0;

@@ -108,6 +108,7 @@ Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
     failures_ = 0;
   }
   hint_ = map_T_base;
+  kept_.reset();
   claim_.reset();
   witnesses_ = 0;
   place_.reset();
@@ -117,6 +118,17 @@ Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
   search_cause_ = kLooking;
   cause_ = search_cause_;
   ++revision_;
+  return {};
+}
+
+Status LineSlam::look_where_it_stood(const Pose2& map_T_base) {
+  if (!is_finite(map_T_base)) {
+    return fail(Errc::kInvalidArgument, "the place to look at is not a number");
+  }
+  if (Status looking = relocalise(std::nullopt); !looking) {
+    return looking;
+  }
+  kept_ = map_T_base;
   return {};
 }
 
@@ -144,7 +156,7 @@ void LineSlam::look_for_robot() {
   settle(find_place());
 }
 
-PlaceAnswer LineSlam::find_place() const {
+std::vector<SeenPoints> LineSlam::seen_lately() const {
   const Pose2 base_T_node = inverse(lines_->robot());
   std::vector<SeenPoints> seen;
   const std::vector<LocalMap>& maps = backend_.maps();
@@ -156,6 +168,14 @@ PlaceAnswer LineSlam::find_place() const {
       seen.push_back(
           transform(base_T_other * keyframes[i].node_T_base, view_of(keyframes[i], params_.loops.view_range_m)));
     }
+  }
+  return seen;
+}
+
+PlaceAnswer LineSlam::find_place() const {
+  const std::vector<SeenPoints> seen = seen_lately();
+  if (kept_) {
+    return recogniser_.confirm(*place_, seen, *kept_);
   }
   std::optional<SearchWindow> window;
   if (hint_) {
@@ -169,7 +189,7 @@ bool LineSlam::is_confirmed(const Pose2& map_T_node) {
   const bool agrees = claim_ && !moved(*claim_, map_T_node, params_.relocalise.agree_m, params_.relocalise.agree_rad);
   witnesses_ = agrees ? witnesses_ + 1 : 1;
   claim_ = map_T_node;
-  return witnesses_ >= params_.relocalise.witnesses;
+  return kept_ || witnesses_ >= params_.relocalise.witnesses;
 }
 
 void LineSlam::settle(const PlaceAnswer& answer) {
@@ -182,11 +202,13 @@ void LineSlam::settle(const PlaceAnswer& answer) {
                     with_floor(to_a * match.covariance * to_a.transpose(), params_.relocalise.joint_sigma_m,
                                params_.relocalise.joint_sigma_rad));
     place_.reset();
+    kept_.reset();
     quality_ = LocalisationQuality::kLocalised;
     cause_.clear();
     ++revision_;
     return;
   }
+  kept_.reset();
   const bool lost = tries_ >= params_.relocalise.max_tries;
   search_cause_ =
       (lost ? "the robot was not found in the map: " : kLooking + std::string(": ")) + std::string(answer.reason);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <Eigen/LU>
+
 #include "common/core/angle.hpp"
 
 namespace seeker::slam {
@@ -87,30 +89,95 @@ PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, con
 PlaceRecogniser::PlaceRecogniser(const PlaceParams& params)
     : params_(params), search_(params.search), matcher_(params.match) {}
 
-PlaceAnswer PlaceRecogniser::locate(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
-                                    const std::optional<SearchWindow>& window) const {
-  const std::vector<OrientedPoint> points = all_points(seen_base);
-  const GlobalSearchResult found = search_.search(map.pyramid(), points, window);
-  const std::vector<OrientedPoint> sparse = thin_out(points, params_.match_points);
-  const std::vector<OrientedPoint> cells =
-      thin_by_cells(points, params_.search.thin_cell_m, std::numeric_limits<std::size_t>::max());
+/// Scans as the steps of a search need them.
+struct PlaceRecogniser::Query {
+  const std::vector<SeenPoints>& seen;
+  std::vector<OrientedPoint> points;
+  std::vector<OrientedPoint> sparse;  ///< for the final match
+  std::vector<OrientedPoint> cells;   ///< for the fit
+
+  Query(const std::vector<SeenPoints>& seen_base, const PlaceParams& params)
+      : seen(seen_base),
+        points(all_points(seen_base)),
+        sparse(thin_out(points, params.match_points)),
+        cells(thin_by_cells(points, params.search.thin_cell_m, std::numeric_limits<std::size_t>::max())) {}
+};
+
+PlaceCandidate PlaceRecogniser::refine(const PlaceMap& map, const Query& query, const Pose2& start) const {
+  PlaceCandidate candidate;
+  candidate.match = matcher_.match(map.cloud(), query.sparse, start);
+  const Pose2& pose = candidate.match.map_T_base;
+  candidate.fit = fit_of(map.pyramid(), map.free_space(), query.cells, pose);
+  candidate.agreement = agreement_of(map.pyramid(), map.free_space(), query.seen, pose, params_.agreement);
+  return candidate;
+}
+
+/// Each place once.
+std::vector<PlaceCandidate> PlaceRecogniser::refine_all(const PlaceMap& map, const Query& query,
+                                                        const GlobalSearchResult& found) const {
   std::vector<PlaceCandidate> candidates;
   for (const GlobalCandidate& start : found.candidates) {
-    PlaceCandidate candidate;
-    candidate.match = matcher_.match(map.cloud(), sparse, start.map_T_base);
+    PlaceCandidate candidate = refine(map, query, start.map_T_base);
     candidate.score = start.score;
-    const Pose2& pose = candidate.match.map_T_base;
     const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const PlaceCandidate& other) {
-      return same_place(other.match.map_T_base, pose, params_.search);
+      return same_place(other.match.map_T_base, candidate.match.map_T_base, params_.search);
     });
     if (!known && candidate.match.pairs >= params_.match.min_pairs) {
-      candidate.fit = fit_of(map.pyramid(), map.free_space(), cells, pose);
-      candidate.agreement = agreement_of(map.pyramid(), map.free_space(), seen_base, pose, params_.agreement);
       candidates.push_back(std::move(candidate));
     }
   }
-  PlaceAnswer answer = judge(std::move(candidates), cells.size(), params_.judge);
+  return candidates;
+}
+
+PlaceAnswer PlaceRecogniser::locate(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
+                                    const std::optional<SearchWindow>& window) const {
+  const Query query(seen_base, params_);
+  const GlobalSearchResult found = search_.search(map.pyramid(), query.points, window);
+  PlaceAnswer answer = judge(refine_all(map, query, found), query.cells.size(), params_.judge);
   answer.complete = found.complete;
+  return answer;
+}
+
+bool PlaceRecogniser::agrees(const PlaceCandidate& candidate, const Pose2& map_T_base) const {
+  return candidate.match.pairs >= params_.match.min_pairs && candidate.fit.all >= params_.kept.min_fit &&
+         candidate.agreement.through <= params_.judge.max_through &&
+         candidate.agreement.disagreement() <= params_.kept.max_disagreement &&
+         distance_m(candidate.match.map_T_base, map_T_base) < params_.kept.max_m;
+}
+
+void PlaceRecogniser::accept(PlaceCandidate candidate, PlaceAnswer& answer) const {
+  // Where a corridor says nothing, the place is known by where the robot stood.
+  const double stood_m2 = params_.kept.sigma_m * params_.kept.sigma_m;
+  const double stood_rad2 = params_.kept.sigma_rad * params_.kept.sigma_rad;
+  const Matrix3 stood = Eigen::Vector3d(stood_m2, stood_m2, stood_rad2).asDiagonal();
+  candidate.match.covariance = (candidate.match.covariance.inverse() + stood.inverse()).inverse();
+  answer.verdict = PlaceVerdict::kUnique;
+  answer.reason = "the robot stands where it was";
+  answer.candidates = {std::move(candidate)};
+}
+
+PlaceAnswer PlaceRecogniser::confirm(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
+                                     const Pose2& map_T_base) const {
+  const Query query(seen_base, params_);
+  PlaceAnswer answer;
+  answer.cells = query.cells.size();
+  PlaceCandidate here = refine(map, query, map_T_base);
+  if (agrees(here, map_T_base)) {
+    accept(std::move(here), answer);
+    return answer;
+  }
+  const SearchWindow window{map_T_base, params_.kept.max_m, params_.kept.max_rad};
+  std::vector<PlaceCandidate> near = refine_all(map, query, search_.search(map.pyramid(), query.points, window));
+  std::stable_sort(near.begin(), near.end(),
+                   [](const PlaceCandidate& a, const PlaceCandidate& b) { return a.support() > b.support(); });
+  answer.lead = near.size() > 1 ? near[0].support() - near[1].support() : 1.0;
+  if (!near.empty() && agrees(near.front(), map_T_base) && answer.lead >= params_.kept.min_lead &&
+      !near.front().match.degenerate_direction) {
+    accept(std::move(near.front()), answer);
+    return answer;
+  }
+  answer.candidates = std::move(near);
+  answer.reason = "the robot does not stand where it was";
   return answer;
 }
 

@@ -61,6 +61,18 @@ struct JudgeParams {
   double min_certainty = 1.05;
 };
 
+/// What is asked of a place that the robot was at when it was seen last: others need not be excluded. Half of the view
+/// may show what the map does not, for the robot may have gone on after the map was kept.
+struct KeptPlaceParams {
+  double min_fit = 0.35;
+  double max_disagreement = 0.15;  ///< beams through walls, and points in free space
+  double max_m = 0.7;              ///< it rolled on, or was pushed
+  double max_rad = 1.2;            ///< it turned on
+  double min_lead = 0.05;          ///< of the best place within that over the next one, where the robot has moved
+  double sigma_m = 0.3;            ///< of the place in the direction that scans say nothing about
+  double sigma_rad = 0.1;
+};
+
 enum class PlaceVerdict : std::uint8_t {
   kNone,       ///< nothing in the map looks like this
   kAmbiguous,  ///< more than one place does, or the points do not say enough: drive on and ask again with more scans
@@ -88,6 +100,7 @@ struct PlaceParams {
   MatchParams match;
   AgreementParams agreement;
   JudgeParams judge;
+  KeptPlaceParams kept;
   std::size_t match_points = 360;  ///< of the final match
 };
 
@@ -99,8 +112,19 @@ class PlaceRecogniser {
   /// Scans in the frame `base` of one pose, one scan or several put together by odometry.
   [[nodiscard]] PlaceAnswer locate(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
                                    const std::optional<SearchWindow>& window = std::nullopt) const;
+  /// Whether the robot still stands at `map_T_base`, or near it. The covariance of the match says how well that is
+  /// known in every direction.
+  [[nodiscard]] PlaceAnswer confirm(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
+                                    const Pose2& map_T_base) const;
 
  private:
+  struct Query;
+  [[nodiscard]] PlaceCandidate refine(const PlaceMap& map, const Query& query, const Pose2& start) const;
+  [[nodiscard]] std::vector<PlaceCandidate> refine_all(const PlaceMap& map, const Query& query,
+                                                       const GlobalSearchResult& found) const;
+  [[nodiscard]] bool agrees(const PlaceCandidate& candidate, const Pose2& map_T_base) const;
+  void accept(PlaceCandidate candidate, PlaceAnswer& answer) const;
+
   PlaceParams params_;
   GlobalMatcher search_;
   ScanMatcher matcher_;

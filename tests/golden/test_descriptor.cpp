@@ -6,6 +6,7 @@
 
 #include "seeker/v1/emulator.pb.h"
 #include "seeker/v1/fleet.pb.h"
+#include "seeker/v1/kept.pb.h"
 #include "seeker/v1/session.pb.h"
 #include "tests/support/data.hpp"
 
@@ -70,6 +71,7 @@ Schema present() {
   Schema out;
   describe(*seeker::v1::Envelope::descriptor()->file(), out);
   describe(*seeker::v1::FleetRequest::descriptor()->file(), out);
+  describe(*seeker::v1::KeptPlace::descriptor()->file(), out);
   describe(*seeker::v1::EmulatorRequest::descriptor()->file(), out);
   return out;
 }

@@ -16,7 +16,12 @@ namespace {
 /// Stands still for ever.
 class Standing final : public app::Behaviour {
  public:
+  explicit Standing(std::optional<TopologyMemory>& remembered) : remembered_(remembered) {}
   app::Decision step(const app::Situation& /*situation*/) override { return {}; }
+  void remember(const TopologyMemory& memory) override { remembered_ = memory; }
+
+ private:
+  std::optional<TopologyMemory>& remembered_;
 };
 
 api::MissionRequest exploration() {
@@ -32,15 +37,17 @@ class MapCheckpoints : public ::testing::Test {
     const app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml")).value();
     app::Assembly assembly = app::assemble(options).value();
     assembly.parts.estimator = std::make_unique<app::TrackerEstimator>(std::make_unique<FakeMapTracker>(state));
-    assembly.parts.behaviours = [](const api::MissionTask&, const app::Situation&) {
-      return Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Standing>());
+    assembly.parts.behaviours = [this](const api::MissionTask&, const app::Situation&) {
+      return Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Standing>(remembered));
     };
     loop = std::make_unique<app::RobotLoop>(options.loop, std::move(assembly.parts), hub);
     loop->on_event = [this](const api::Event& event) { events.push_back(event); };
-    loop->on_checkpoint = [this](const api::MissionId& mission, const app::LoopMap& map) {
+    loop->on_checkpoint = [this](const api::MissionId& mission, const app::Checkpoint& checkpoint) {
       kept.push_back(mission);
-      EXPECT_EQ(map.map.segments.size(), state->map.segments.size());
+      EXPECT_EQ(checkpoint.map.map.segments.size(), state->map.segments.size());
     };
+    loop->on_place = [this](const api::MissionId& /*mission*/, const Pose2& /*map_T_base*/) { ++places; };
+    loop->on_checkpoint_unused = [this](const api::MissionId& mission) { set_aside.push_back(mission); };
     loop->on_checkpoints_void = [this] { ++dropped; };
     loop->start();
     state->map = room_map();
@@ -62,6 +69,9 @@ class MapCheckpoints : public ::testing::Test {
   std::unique_ptr<app::RobotLoop> loop;
   std::vector<api::Event> events;
   std::vector<api::MissionId> kept;
+  std::vector<api::MissionId> set_aside;
+  std::optional<TopologyMemory> remembered;
+  int places = 0;
   int dropped = 0;
   app::WallTime wall;
 };
@@ -127,21 +137,45 @@ TEST_F(MapCheckpoints, MissionCutOffByACrashGoesOnWhereTheRobotIsFoundInItsMap) 
   EXPECT_EQ(dropped, 1);
 }
 
-TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceSaysHowToHelpIt) {
+TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSetAside) {
   loop->offer_unfinished(exploration());
+  EXPECT_TRUE(loop->map_waits_for_resume());
   state->lost_because = "no scan fits";
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}));
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.0, 0.0}, TopologyMemory{}}));
+  EXPECT_FALSE(loop->map_waits_for_resume());
   ticks(20);
-  EXPECT_FALSE(loop->missions().present());
-  ASSERT_EQ(count("resume-failed"), 1);
-  EXPECT_NE(events.back().text.find("seeker relocalise --at"), std::string::npos) << events.back().text;
-  state->lost_because.clear();
-  ASSERT_TRUE(loop->relocalise(Pose2{1.0, 0.0, 0.0}));
+  ASSERT_TRUE(loop->missions().running());
+  EXPECT_EQ(count("resume-anew"), 1);
+  EXPECT_EQ(set_aside, (std::vector<api::MissionId>{"look-round"}));
+  EXPECT_EQ(dropped, 1) << "the new map is kept under the mission's name from now on";
+  EXPECT_TRUE(state->map.segments.empty());
+  EXPECT_FALSE(remembered) << "places of another map";
+}
+
+TEST_F(MapCheckpoints, MissionGoesOnFromWhereItWasWithWhatItRemembered) {
+  loop->offer_unfinished(exploration());
+  TopologyMemory memory;
+  memory.closed_map = {{2.0, 3.0}};
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.5, 0.0}, memory}));
   ticks(20);
-  EXPECT_FALSE(loop->checkpoint_to_resume()) << "its map is loaded already";
-  EXPECT_TRUE(loop->command_mission(api::MissionCommand::kResume));
-  EXPECT_TRUE(loop->missions().running());
-  EXPECT_EQ(state->loads, 1);
+  ASSERT_TRUE(loop->missions().running());
+  EXPECT_LT(distance_m(loop->status().pose.map_T_base, {1.0, 0.5, 0.0}), 0.01) << "it was looked for there";
+  EXPECT_EQ(remembered, memory);
+}
+
+TEST_F(MapCheckpoints, PlaceIsKeptMoreOftenThanTheMapItIsIn) {
+  ASSERT_TRUE(loop->start_mission(exploration(), "tester"));
+  ticks(290);
+  EXPECT_EQ(places, 0) << "it says nothing without a map";
+  ticks(15);
+  ASSERT_EQ(kept.size(), 1U);
+  ticks(30);
+  EXPECT_EQ(places, 1) << "the last one is still being written";
+  for (int k = 0; k < 5; ++k) {
+    loop->place_written();
+    ticks(10);
+  }
+  EXPECT_EQ(places, 6);
 }
 
 TEST_F(MapCheckpoints, WithoutAMapTheMissionBeginsAnew) {

@@ -64,7 +64,15 @@ class FakeMapTracker final : public slam::MapTracker {
     const std::lock_guard lock(state_->mutex);
     return state_->estimate;
   }
-  void reset(const Pose2& map_T_base) override { state_->estimate.map_T_base = map_T_base; }
+  void reset(const Pose2& map_T_base) override {
+    const std::lock_guard lock(state_->mutex);
+    state_->map = {};
+    state_->changed();
+    state_->searching.reset();
+    state_->estimate.map_T_base = map_T_base;
+    state_->estimate.quality = LocalisationQuality::kLocalised;
+    state_->estimate.cause.clear();
+  }
 
   [[nodiscard]] std::vector<MapSegment> segments() const override {
     const std::lock_guard lock(state_->mutex);
@@ -91,6 +99,7 @@ class FakeMapTracker final : public slam::MapTracker {
     search();
     return {};
   }
+  [[nodiscard]] Status look_where_it_stood(const Pose2& map_T_base) override { return relocalise(map_T_base); }
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base) override {
     const std::lock_guard lock(state_->mutex);
     if (state_->map.segments.empty()) {

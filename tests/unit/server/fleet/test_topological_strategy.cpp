@@ -207,5 +207,20 @@ TEST(TopologicalParams, AreRefusedWhenTheyMakeNoSense) {
   EXPECT_FALSE(validate(params));
 }
 
+TEST(TopologicalStrategy, DoesNotExploreAgainWhatItRemembers) {
+  Exploration first = exploration_of();
+  ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);
+  const ToyRun whole = robot.run(first, 900.0);
+  ASSERT_TRUE(whole.end.has_value());
+  const std::optional<TopologyMemory> memory = first.strategy().memory();
+  ASSERT_TRUE(memory.has_value());
+  Exploration again = exploration_of();
+  again.remember(*memory);
+  const ToyRun rest = robot.run(again, 900.0);
+  ASSERT_TRUE(rest.end.has_value());
+  EXPECT_LT(rest.path_m, 0.2 * whole.path_m);
+  EXPECT_GE(again.strategy().topology()->nodes.size(), memory->topology.nodes.size());
+}
+
 }  // namespace
 }  // namespace seeker::fleet

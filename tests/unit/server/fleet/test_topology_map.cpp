@@ -213,5 +213,19 @@ TEST(CorridorsOfAMap, TellFreeFromBlockedFromUnseen) {
   EXPECT_FALSE(corridors.walled_off(left, {4.5, 1.5}));
 }
 
+TEST(TopologyMap, GoesOnFromWhatWasKeptWithNewIds) {
+  TopologyMap before({});
+  (void)before.create({0.0, 0.0, 0.0}, tree_with({{5.0, 0.0}, {0.0, 5.0}}), {}, kUnseen);
+  before.close(before.topology().nodes[0].goals[0].id);
+  TopologyMap after({}, before.topology(), before.closed_map());
+  EXPECT_EQ(after.topology(), before.topology());
+  ASSERT_EQ(after.closed_map().size(), 1U);
+  (void)after.create({9.0, 0.0, 0.0}, tree_with({{-4.0, 0.0}, {0.0, -5.0}}), {}, kUnseen);
+  const TopologyNode& added = after.topology().nodes.back();
+  EXPECT_GT(added.id, before.topology().nodes.back().id);
+  ASSERT_EQ(added.goals.size(), 1U) << "what was given up stays so";
+  EXPECT_GT(added.goals[0].id, before.topology().nodes[0].goals[0].id);
+}
+
 }  // namespace
 }  // namespace seeker::fleet

@@ -256,6 +256,37 @@ TEST(LineSlam, ContinuesALoadedMap) {
   EXPECT_TRUE(validate(slam.map()));
 }
 
+TEST(LineSlam, GoesOnWhereItStoodInAMapOfItsFirstMetre) {
+  Trip trip(15);
+  LineSlam mapper({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, mapper, 1.0));
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
+  EXPECT_EQ(slam.look_where_it_stood({0.0, NAN, 0.0}).error().code, Errc::kInvalidArgument);
+  ASSERT_TRUE(slam.look_where_it_stood(mapper.estimate().map_T_base));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown) << "no scan has confirmed it yet";
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 0.3));
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 15.0));
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.2);
+  EXPECT_TRUE(validate(slam.map()));
+}
+
+TEST(LineSlam, IsFoundElsewhereWhenItDoesNotStandWhereItStood) {
+  Trip first(9);
+  LineSlam mapper({}, first.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(first, mapper, 60.0));
+  Trip second(10, {15.0, 3.0, 1.4});
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
+  ASSERT_TRUE(slam.look_where_it_stood(mapper.estimate().map_T_base));
+  for (int metre = 0; metre < 10 && slam.estimate().quality == LocalisationQuality::kUnknown; ++metre) {
+    ASSERT_NO_FATAL_FAILURE(drive(second, slam, 1.0));
+  }
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, second.truth()), 0.3);
+}
+
 TEST(LineSlam, IsLostInTheMapOfAnotherBuilding) {
   Trip trip(12);
   LineSlam mapper({}, trip.truth());

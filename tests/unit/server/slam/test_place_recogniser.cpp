@@ -189,6 +189,65 @@ TEST(PlaceRecogniser, AWindowKeepsTheSearchWhereTheRobotMayBe) {
   EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02));
 }
 
+TEST(PlaceRecogniser, ARobotThatHasNotMovedIsConfirmedByOneScanOfAMapOfOne) {
+  Rng rng(11);
+  const auto walls = both(furnished_room(), shifted(furnished_room(), 14.0));
+  const Pose2 truth{2.5, 3.2, 0.7};
+  const LaserScan seen = scan_at(walls, truth, 0.0, rng, kPi);
+  const auto map = PlaceMap::build({transform(truth, seen_points(seen))});
+  ASSERT_TRUE(map);
+  const std::vector<SeenPoints> now{seen_points(scan_at(walls, truth, 1.0, rng, kPi))};
+  const auto answer = PlaceRecogniser().confirm(*map, now, truth * Pose2{0.2, 0.1, -0.1});
+  ASSERT_EQ(answer.verdict, PlaceVerdict::kUnique) << answer.reason;
+  EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02));
+}
+
+TEST(PlaceRecogniser, ARobotThatTurnedOnIsConfirmedNearby) {
+  Rng rng(12);
+  const PlaceMap map = room_map(rng);
+  const Pose2 truth{2.5, 3.2, 0.7};
+  const std::vector<SeenPoints> now{seen_points(scan_at(office(), truth, 1.0, rng, kPi))};
+  const auto answer = PlaceRecogniser().confirm(map, now, truth * Pose2{0.5, 0.2, 0.9});
+  ASSERT_EQ(answer.verdict, PlaceVerdict::kUnique) << answer.reason;
+  EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02));
+}
+
+TEST(PlaceRecogniser, ACorridorKeepsTheRobotWhereItStoodAndSaysHowWellThatIsKnown) {
+  Rng rng(13);
+  const auto walls = box(0.0, 0.0, 40.0, 2.0);
+  std::vector<Pose2> poses;
+  for (int k = 1; k < 20; ++k) {
+    poses.push_back({2.0 * k, 1.0, 0.0});
+  }
+  const auto map = PlaceMap::build(seen_from(walls, poses, rng));
+  ASSERT_TRUE(map);
+  const Pose2 truth{20.0, 1.1, 0.1};
+  const std::vector<SeenPoints> now{seen_points(scan_at(walls, truth, 1.0, rng, kTwoPi, 8.0))};
+  const auto answer = PlaceRecogniser().confirm(*map, now, truth);
+  ASSERT_EQ(answer.verdict, PlaceVerdict::kUnique) << answer.reason;
+  const MatchResult& match = answer.candidates.front().match;
+  EXPECT_THAT(match.map_T_base, Pose2Near(truth, 0.3, 0.03));
+  EXPECT_GT(match.covariance(0, 0), 10.0 * match.covariance(1, 1)) << "along against across";
+  EXPECT_LT(match.covariance(0, 0), 0.1) << "no more than where it stood";
+}
+
+TEST(PlaceRecogniser, ARobotThatWasCarriedAwayIsNotConfirmed) {
+  Rng rng(14);
+  const PlaceMap map = room_map(rng);
+  for (const Pose2& elsewhere : {Pose2{8.3, 4.6, -2.0},
+                                 Pose2{5.9, 2.0, 2.6},
+                                 Pose2{1.2, 1.2, -2.6},
+                                 {3.2, 3.0, 2.5},
+                                 {7.0, 3.0, 0.7},
+                                 {6.0, 1.5, 1.0},
+                                 {3.0, 4.4, -1.0},
+                                 {2.0, 3.0, -2.0}}) {
+    const std::vector<SeenPoints> now{seen_points(scan_at(office(), elsewhere, 1.0, rng, kPi))};
+    const auto answer = PlaceRecogniser().confirm(map, now, {2.5, 3.6, 0.7});
+    EXPECT_NE(answer.verdict, PlaceVerdict::kUnique) << elsewhere;
+  }
+}
+
 TEST(PlaceRecogniser, NothingSeenIsNoPlace) {
   Rng rng(8);
   const PlaceMap map = room_map(rng);

@@ -1,0 +1,26 @@
+/// \file
+/// What a mission that builds a map keeps on disk, and goes on from when its program was cut off.
+#pragma once
+
+#include <optional>
+
+#include "common/api/mission.hpp"
+#include "common/core/topology.hpp"
+#include "server/app/robot_map.hpp"
+
+namespace seeker::app {
+
+/// One moment: what the mission knows belongs to this state of the map.
+struct Checkpoint {
+  LoopMap map;
+  std::optional<TopologyMemory> topology;  ///< of an exploration by topology
+  Pose2 map_T_base;                        ///< where the robot was
+};
+
+/// What there is besides the map.
+struct KeptState {
+  std::optional<Pose2> map_T_base;         ///< where the robot was last, kept more often than the map
+  std::optional<TopologyMemory> topology;  ///< nothing where it belongs to another state of the map
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,115 @@
+#include "server/app/kept_files.hpp"
+
+#include "common/wire/convert.hpp"
+#include "common/wire/convert_fleet.hpp"
+#include "common/wire/envelope.hpp"
+#include "seeker/v1/kept.pb.h"
+#include "server/store/sealed_file.hpp"
+
+namespace seeker::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlaceKind = "place";
+constexpr const char* kTopologyKind = "topology";
+/// A topology within its limits takes less.
+constexpr std::size_t kMaxFileBytes = 4UL << 20U;
+/// The message is that of a fleet, which wants a name.
+constexpr const char* kOwner = "self";
+
+fs::path path_of(const fs::path& folder, const api::MissionId& mission, const std::string& kind) {
+  return folder / (mission + "." + kind);
+}
+
+template <class Message>
+Status read_message(const fs::path& path, const std::string& kind, Message& message) {
+  const Result<std::vector<std::uint8_t>> bytes = store::read_sealed_file(path, kind, kMaxFileBytes);
+  if (!bytes) {
+    return tl::unexpected<Error>(bytes.error());
+  }
+  return wire::parse_within_limits({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, message);
+}
+
+Result<Pose2> read_place(const fs::path& path) {
+  v1::KeptPlace message;
+  if (const Status read = read_message(path, kPlaceKind, message); !read) {
+    return tl::unexpected<Error>(read.error());
+  }
+  return wire::from_message<Pose2>(message.map_t_base());
+}
+
+/// Nothing where it belongs to another state of the map.
+Result<std::optional<TopologyMemory>> read_topology(const fs::path& path, std::uint32_t map_epoch) {
+  v1::KeptTopology message;
+  if (const Status read = read_message(path, kTopologyKind, message); !read) {
+    return tl::unexpected<Error>(read.error());
+  }
+  if (message.map_epoch() != map_epoch) {
+    return std::optional<TopologyMemory>();
+  }
+  Result<RobotTopology> told = wire::from_message<RobotTopology>(message.topology());
+  Result<std::vector<Point2>> closed = wire::from_message<std::vector<Point2>>(message.closed_map());
+  Result<std::vector<Point2>> looked_at = wire::from_message<std::vector<Point2>>(message.looked_at_map());
+  if (!told || !closed || !looked_at) {
+    return tl::unexpected<Error>(!told ? told.error() : !closed ? closed.error() : looked_at.error());
+  }
+  return std::optional<TopologyMemory>({std::move(told->topology), std::move(*closed), std::move(*looked_at)});
+}
+
+/// "Not found" is no trouble: nothing was kept.
+void note(const Error& error, std::string& trouble) {
+  if (error.code != Errc::kNotFound) {
+    trouble += (trouble.empty() ? "" : "; ") + error.message;
+  }
+}
+
+}  // namespace
+
+Status keep_place(const fs::path& folder, const api::MissionId& mission, const Pose2& map_T_base) {
+  v1::KeptPlace message;
+  wire::write(map_T_base, message.mutable_map_t_base());
+  return store::write_sealed_file(path_of(folder, mission, kPlaceKind), kPlaceKind, message.SerializeAsString());
+}
+
+Status keep_topology(const fs::path& folder, const api::MissionId& mission, const TopologyMemory& memory,
+                     std::uint32_t map_epoch) {
+  RobotTopology told;
+  told.robot_id = kOwner;
+  told.topology = memory.topology;
+  v1::KeptTopology message;
+  message.set_map_epoch(map_epoch);
+  wire::write(api::within_limits(std::move(told)), message.mutable_topology());
+  wire::write(memory.closed_map, message.mutable_closed_map());
+  wire::write(memory.looked_at_map, message.mutable_looked_at_map());
+  return store::write_sealed_file(path_of(folder, mission, kTopologyKind), kTopologyKind, message.SerializeAsString());
+}
+
+KeptState read_kept(const fs::path& folder, const api::MissionId& mission, std::uint32_t map_epoch,
+                    std::string& trouble) {
+  KeptState kept;
+  if (const Result<Pose2> place = read_place(path_of(folder, mission, kPlaceKind))) {
+    kept.map_T_base = *place;
+  } else {
+    note(place.error(), trouble);
+  }
+  if (Result<std::optional<TopologyMemory>> topology =
+          read_topology(path_of(folder, mission, kTopologyKind), map_epoch)) {
+    kept.topology = std::move(*topology);
+  } else {
+    note(topology.error(), trouble);
+  }
+  return kept;
+}
+
+void drop_kept(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending == std::string(".") + kPlaceKind || ending == std::string(".") + kTopologyKind) {
+      fs::remove(entry.path(), error);
+    }
+  }
+}
+
+}  // namespace seeker::app
