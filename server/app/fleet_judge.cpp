@@ -27,26 +27,31 @@ api::FleetState state_of(fleet::MergeVerdict verdict) {
   return api::FleetState::kInsufficientOverlap;
 }
 
-/// Whether one map has grown from the other: it has begun anew where no local map is where it was.
+const MapKeyframe* first_scan(const LineMap& map, std::uint32_t node) {
+  const auto scan = std::find_if(map.keyframes.begin(), map.keyframes.end(),
+                                 [node](const MapKeyframe& keyframe) { return keyframe.node == node; });
+  return scan == map.keyframes.end() ? nullptr : &*scan;
+}
+
+/// Whether one map has grown from the other: it has begun anew where no local map is where it was. Every map begins
+/// with the same number at the origin, but no two scans of a laser are the same.
 bool same_map(const LineMap& before, const LineMap& now) {
   return std::any_of(before.nodes.begin(), before.nodes.end(), [&](const MapNode& one) {
-    return std::any_of(now.nodes.begin(), now.nodes.end(), [&](const MapNode& other) {
-      return one.id == other.id && one.created == other.created && fleet::same_place(one.map_T_node, other.map_T_node);
-    });
+    const MapKeyframe* scan = first_scan(before, one.id);
+    return scan != nullptr && std::any_of(now.nodes.begin(), now.nodes.end(), [&](const MapNode& other) {
+             const MapKeyframe* same = one.id == other.id ? first_scan(now, other.id) : nullptr;
+             return same != nullptr && *same == *scan && fleet::same_place(one.map_T_node, other.map_T_node);
+           });
   });
 }
 
-bool has_node(const fleet::PreparedMap& map, std::uint32_t id) {
-  return std::any_of(map.nodes().begin(), map.nodes().end(), [id](const auto& node) { return node.id == id; });
-}
-
-/// Whether an answer still speaks of local maps that are there.
-bool holds(const fleet::MergeAnswer& answer, const fleet::PreparedMap& a, const fleet::PreparedMap& b) {
-  return std::all_of(answer.hypotheses.begin(), answer.hypotheses.end(), [&](const fleet::MergeHypothesis& one) {
-    return std::all_of(one.pairs.begin(), one.pairs.end(), [&](const fleet::NodeRelation& pair) {
-      return has_node(a, pair.node_a) && has_node(b, pair.node_b);
-    });
-  });
+std::vector<Point2> places_of(const LineMap& map) {
+  std::vector<Point2> places;
+  places.reserve(map.nodes.size());
+  for (const MapNode& node : map.nodes) {
+    places.push_back(node.map_T_node.translation());
+  }
+  return places;
 }
 
 }  // namespace
@@ -97,6 +102,7 @@ void FleetLeader::judge(const std::string& robot_id) {
     members_.at(robot_id).trouble = compared ? "" : compared.error().message;
   }
   join_all();
+  keep_memory();
 }
 
 Status FleetLeader::prepare(std::uint8_t slot, LineMap map) {
@@ -108,32 +114,49 @@ Status FleetLeader::prepare(std::uint8_t slot, LineMap map) {
   return prepared.update(std::move(map));
 }
 
-Status FleetLeader::compare(std::uint8_t slot, LineMap map) {
-  Result<OwnMap> own = ask_own_map();
+/// The main robot's own map as it is now; as it was, while the robot has not taken it up again after a restart.
+Status FleetLeader::take_own_map(Result<OwnMap> own) {
+  const LineMap& before = prepared_[kMainSlot].map();
+  const bool new_map = own && !same_map(before, own->map);
+  const bool nothing_yet = !own || (new_map && own->map.keyframes.size() <= 1);  // it has not even moved
+  if (nothing_yet && !before.nodes.empty()) {
+    const std::lock_guard lock(mutex_);
+    remembers_own_ = true;
+    return {};
+  }
   if (!own) {
     return fail_with_context("the main robot has no map yet", own.error());
   }
   {
     const std::lock_guard lock(mutex_);
     own_map_T_base_ = own->map_T_base;
-    own_places_.clear();
-    own_places_.reserve(own->map.nodes.size());
-    for (const MapNode& node : own->map.nodes) {
-      own_places_.push_back(node.map_T_node.translation());
+    own_places_ = places_of(own->map);
+    if (new_map && remembers_own_) {
+      own_topology_.reset();  // places in a map that is no more
     }
+    remembers_own_ = false;
   }
-  if (!same_map(prepared_[kMainSlot].map(), own->map)) {
+  if (new_map) {
     std::erase_if(pairs_, [](const auto& pair) { return pair.first.first == kMainSlot; });
   }
   if (Status ready = prepare(kMainSlot, std::move(own->map)); !ready) {
     return ready;
   }
+  keep_own_pieces();
+  return {};
+}
+
+Status FleetLeader::compare(std::uint8_t slot, LineMap map) {
+  if (Status ready = take_own_map(ask_own_map()); !ready) {
+    return ready;
+  }
   if (Status ready = prepare(slot, std::move(map)); !ready) {
     return ready;
   }
-  std::erase_if(pairs_, [&](const auto& pair) {
-    return !holds(pair.second.answer, prepared_.at(pair.first.first), prepared_.at(pair.first.second));
-  });
+  for (auto& [slots, compared] : pairs_) {
+    compared.stale =
+        compared.stale || !fleet::holds(compared.answer, prepared_.at(slots.first), prepared_.at(slots.second));
+  }
   compare(kMainSlot, slot);
   compare_with_others(slot);
   return {};
@@ -142,7 +165,7 @@ Status FleetLeader::compare(std::uint8_t slot, LineMap map) {
 void FleetLeader::compare(std::uint8_t a, std::uint8_t b) {
   const std::pair versions{versions_[a], versions_[b]};
   const auto before = pairs_.find({a, b});
-  if (before != pairs_.end() && before->second.versions == versions) {
+  if (before != pairs_.end() && !before->second.stale && before->second.versions == versions) {
     return;  // nothing has changed since
   }
   fleet::MergeAnswer answer = merger_.merge(prepared_.at(a), prepared_.at(b));
@@ -168,7 +191,7 @@ void FleetLeader::compare_with_others(std::uint8_t slot) {
   for (const std::uint8_t other : others) {
     const auto [a, b] = std::minmax(slot, other);
     const auto known = pairs_.find({a, b});
-    if (known == pairs_.end() || now - known->second.at > params_.retry_period) {
+    if (known == pairs_.end() || known->second.stale || now - known->second.at > params_.retry_period) {
       compare(a, b);
     }
   }
@@ -186,7 +209,7 @@ std::vector<fleet::PairAnswer> FleetLeader::pairs_now() {
   std::vector<fleet::PairAnswer> pairs;
   for (const auto& [slots, compared] : pairs_) {
     const auto [a, b] = slots;
-    if ((a == kMainSlot || of_slot.contains(a)) && of_slot.contains(b)) {
+    if (!compared.stale && (a == kMainSlot || of_slot.contains(a)) && of_slot.contains(b)) {
       pairs.push_back({a, b, compared.answer});
       if (a == kMainSlot && of_slot.at(b)->accepted) {
         obey_operator(*of_slot.at(b), pairs.back().answer);
@@ -254,7 +277,7 @@ void FleetLeader::settle(Member& member, const Round& round) {
   });
   member.confidence = 0.0;
   if (member.split) {
-    set_state(member, api::FleetState::kSplit, "taken out by the operator; 'seeker fleet merge' takes it in again");
+    set_state(member, api::FleetState::kSplit, kSplitReason);
     return;
   }
   member.hypotheses.clear();

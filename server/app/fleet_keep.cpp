@@ -1,4 +1,4 @@
-// What the main robot keeps of the others on disk (FleetLeader).
+// What the main robot keeps of each of the others on disk (FleetLeader).
 
 #include <algorithm>
 #include <utility>
@@ -11,6 +11,7 @@
 #include "seeker/v1/fleet.pb.h"
 #include "server/app/fleet_leader.hpp"
 #include "server/store/atomic_file.hpp"
+#include "server/store/sealed_file.hpp"
 
 namespace seeker::app {
 namespace {
@@ -18,61 +19,83 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPart = "fleet";
-constexpr const char* kRecordFile = "record.pb";
+constexpr const char* kRecordFile = "record";
+constexpr const char* kRecordKind = "fleet-robot";
 constexpr const char* kPieceSuffix = ".piece";
+
+std::string piece_name(const api::PieceHash& hash) { return wire::to_hex(hash) + kPieceSuffix; }
+
+Result<v1::FleetRecord> read_record(const fs::path& folder) {
+  const Result<std::vector<std::uint8_t>> bytes =
+      store::read_sealed_file(folder / kRecordFile, kRecordKind, wire::kMaxFrameBytes);
+  if (!bytes) {
+    return tl::unexpected<Error>(bytes.error());
+  }
+  v1::FleetRecord record;
+  if (const Status parsed =
+          wire::parse_within_limits({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, record);
+      !parsed) {
+    return tl::unexpected<Error>(parsed.error());
+  }
+  return record;
+}
 
 }  // namespace
 
-void FleetLeader::load() {
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(params_.folder, error)) {
-    if (entry.is_directory()) {
-      load_member(entry.path());
+void FleetLeader::tell_damage(const std::string& what) {
+  log::warning(kPart, what);
+  host_.tell_operator("fleet-memory-damaged", what, api::Severity::kWarning);
+}
+
+Pieces FleetLeader::load_pieces(const fs::path& folder, const api::FleetManifest& manifest) const {
+  Pieces pieces;
+  for (const api::FleetNode& node : manifest.nodes) {
+    Result<std::vector<std::uint8_t>> piece =
+        store::read_file(folder / piece_name(node.hash), api::kMaxFleetPieceBytes);
+    if (piece && wire::sha256_of(*piece) == node.hash) {
+      pieces[node.hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*piece));
     }
   }
+  return pieces;
 }
 
 void FleetLeader::load_member(const fs::path& folder) {
-  const Result<std::vector<std::uint8_t>> bytes = store::read_file(folder / kRecordFile, wire::kMaxFrameBytes);
-  v1::FleetRecord record;
-  if (!bytes || !wire::parse_within_limits({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, record)) {
-    return;
+  const Result<v1::FleetRecord> record = read_record(folder);
+  if (!record && record.error().code == Errc::kNotFound) {
+    return;  // cut off before there was one
   }
-  Result<api::FleetManifest> manifest = wire::from_message<api::FleetManifest>(record.manifest());
+  Result<api::FleetManifest> manifest = record ? wire::from_message<api::FleetManifest>(record->manifest())
+                                               : Result<api::FleetManifest>(tl::unexpected<Error>(record.error()));
   if (!manifest || manifest->robot_id != folder.filename().string()) {
-    log::warning(kPart, folder.string() + " holds no robot's map; it is left alone");
+    tell_damage("what robot '" + folder.filename().string() +
+                "' had sent cannot be read again, it has to send all of it: " +
+                (manifest ? "the record is that of another robot" : manifest.error().message));
     return;
   }
   Member member;
-  for (const api::FleetNode& node : manifest->nodes) {
-    Result<std::vector<std::uint8_t>> piece =
-        store::read_file(folder / (wire::to_hex(node.hash) + kPieceSuffix), api::kMaxFleetPieceBytes);
-    if (piece && wire::sha256_of(*piece) == node.hash) {
-      member.pieces[node.hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*piece));
-    }
-  }
+  member.pieces = load_pieces(folder, *manifest);
   member.manifest = std::move(*manifest);
-  member.split = record.split();
-  if (record.has_accepted_main_t_map()) {
-    if (const Result<Pose2> accepted = wire::from_message<Pose2>(record.accepted_main_t_map())) {
+  member.split = record->split();
+  if (member.split) {
+    member.state = api::FleetState::kSplit;
+    member.reason = kSplitReason;
+  }
+  if (record->has_accepted_main_t_map()) {
+    if (const Result<Pose2> accepted = wire::from_message<Pose2>(record->accepted_main_t_map())) {
       member.accepted = *accepted;
     }
   }
-  if (record.has_topology()) {
-    if (Result<RobotTopology> topology = wire::from_message<RobotTopology>(record.topology())) {
+  if (record->has_topology()) {
+    if (Result<RobotTopology> topology = wire::from_message<RobotTopology>(record->topology())) {
       member.topology = std::move(*topology);
       member.topology->velocity.reset();
     }
   }
   const std::lock_guard lock(mutex_);
   const std::string id = member.manifest.robot_id;
-  if (members_.size() + 1 >= api::kMaxFleetRobots || members_.contains(id)) {
-    return;
-  }
-  member.slot = static_cast<std::uint8_t>(members_.size() + 1);
-  Member& kept = members_.emplace(id, std::move(member)).first->second;
-  if (missing_of(kept).empty()) {
-    ask_for_judgement(id, kept);
+  if (members_.size() + 1 < api::kMaxFleetRobots && !members_.contains(id)) {
+    member.slot = free_slot(id);
+    members_.emplace(id, std::move(member));
   }
 }
 
@@ -80,12 +103,26 @@ void FleetLeader::keep_piece(const std::string& robot_id, const api::PieceHash& 
   const fs::path folder = params_.folder / robot_id;
   std::error_code error;
   fs::create_directories(folder, error);
-  if (const Status kept = store::write_file_atomically(folder / (wire::to_hex(hash) + kPieceSuffix), *bytes); !kept) {
+  if (const Status kept = store::write_file_atomically(folder / piece_name(hash), *bytes); !kept) {
     log::warning(kPart, "a piece of '" + robot_id + "' is not kept: " + kept.error().message);
   }
 }
 
+/// What no record speaks of any more may go.
+void FleetLeader::drop_pieces(const std::string& robot_id, const Pieces& needed) const {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(params_.folder / robot_id, error)) {
+    const bool wanted = std::any_of(needed.begin(), needed.end(), [&](const auto& piece) {
+      return entry.path().filename() == piece_name(piece.first);
+    });
+    if (entry.path().extension() == kPieceSuffix && !wanted) {
+      fs::remove(entry.path(), error);
+    }
+  }
+}
+
 void FleetLeader::keep_record(const std::string& robot_id) {
+  const std::lock_guard writing(record_mutex_);
   v1::FleetRecord record;
   Pieces needed;
   {
@@ -101,22 +138,12 @@ void FleetLeader::keep_record(const std::string& robot_id) {
     }
     needed = member.pieces;
   }
-  const fs::path folder = params_.folder / robot_id;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (const Status kept = store::write_file_atomically(folder / kRecordFile, record.SerializeAsString()); !kept) {
+  const fs::path file = params_.folder / robot_id / kRecordFile;
+  if (const Status kept = store::write_sealed_file(file, kRecordKind, record.SerializeAsString()); !kept) {
     log::warning(kPart, "what '" + robot_id + "' announced is not kept: " + kept.error().message);
     return;
   }
-  // What no record speaks of any more may go.
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const bool wanted = std::any_of(needed.begin(), needed.end(), [&](const auto& piece) {
-      return entry.path().filename() == wire::to_hex(piece.first) + kPieceSuffix;
-    });
-    if (entry.path().extension() == kPieceSuffix && !wanted) {
-      fs::remove(entry.path(), error);
-    }
-  }
+  drop_pieces(robot_id, needed);
 }
 
 }  // namespace seeker::app

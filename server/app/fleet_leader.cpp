@@ -26,7 +26,7 @@ api::FleetHypothesis describe(const fleet::MergeHypothesis& from) {
 
 FleetLeader::FleetLeader(FleetLeaderParams params, FleetHost host)
     : params_(std::move(params)), host_(std::move(host)), merger_(params_.merge), worker_(kMaxWaiting, "the fleet") {
-  static_cast<void>(worker_.post([this] { load(); }));
+  load();
 }
 
 Status FleetLeader::check_namesake(const api::FleetManifest& manifest, WallTime now) const {
@@ -62,7 +62,7 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
   auto [known, is_new] = members_.try_emplace(manifest.robot_id);
   Member& member = known->second;
   if (is_new) {
-    member.slot = static_cast<std::uint8_t>(members_.size());
+    member.slot = free_slot(manifest.robot_id);
     ++revision_;
   }
   member.seen = now;
@@ -200,6 +200,14 @@ api::FleetMember FleetLeader::describe(const Member& member, WallTime now) const
 }
 
 Result<api::FleetStatus> FleetLeader::decide(const api::FleetDecision& decision) {
+  Result<api::FleetStatus> decided = take_decision(decision);
+  if (decided) {
+    keep_record(decision.robot_id);  // at once: nobody says it a second time
+  }
+  return decided;
+}
+
+Result<api::FleetStatus> FleetLeader::take_decision(const api::FleetDecision& decision) {
   const std::lock_guard lock(mutex_);
   const auto known = members_.find(decision.robot_id);
   if (known == members_.end()) {
@@ -222,8 +230,7 @@ Result<api::FleetStatus> FleetLeader::decide(const api::FleetDecision& decision)
   ask_for_judgement(decision.robot_id, member);
   ++revision_;
   member.state = member.split ? api::FleetState::kSplit : api::FleetState::kWaiting;
-  member.reason = member.split ? "taken out by the operator; 'seeker fleet merge' takes it in again"
-                               : "its map is looked at once more";
+  member.reason = member.split ? kSplitReason : "its map is looked at once more";
   return status_now();
 }
 

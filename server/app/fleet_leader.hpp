@@ -21,6 +21,11 @@
 #include "server/fleet/joint_map.hpp"
 #include "server/fleet/map_merger.hpp"
 
+namespace seeker::v1 {
+class FleetRecord;
+class KeptFleet;
+}  // namespace seeker::v1
+
 namespace seeker::app {
 
 struct FleetLeaderParams {
@@ -31,6 +36,8 @@ struct FleetLeaderParams {
   Duration retry_period = std::chrono::seconds(10);  ///< wall time until the same map is looked at again
   fleet::MergeParams merge;
 };
+
+inline constexpr const char* kSplitReason = "taken out by the operator; 'seeker fleet merge' takes it in again";
 
 /// Whether two manifests of a robot have a local map in common, at the same place: else it has begun a new map.
 [[nodiscard]] bool same_frame(const std::vector<api::FleetNode>& a, const std::vector<api::FleetNode>& b);
@@ -87,6 +94,7 @@ class FleetLeader {
     fleet::MergeAnswer answer;
     WallTime at;
     std::pair<std::uint64_t, std::uint64_t> versions;  ///< of their maps
+    bool stale = false;  ///< it speaks of local maps that are no more: a memory of how the maps lay, and no more
   };
   /// What was found when all were looked at together.
   struct Round {
@@ -95,6 +103,8 @@ class FleetLeader {
     std::map<std::uint8_t, std::string> names;
     std::string trouble;  ///< why the maps could not be joined
   };
+
+  [[nodiscard]] Result<api::FleetStatus> take_decision(const api::FleetDecision& decision);
 
   // With the lock held.
   [[nodiscard]] Status check_namesake(const api::FleetManifest& manifest, WallTime now) const;
@@ -105,17 +115,31 @@ class FleetLeader {
   [[nodiscard]] api::FleetMember describe(const Member& member, WallTime now) const;
   [[nodiscard]] std::vector<RobotTopology> others_of(const std::string& robot_id, const Pose2& main_T_map,
                                                      WallTime now) const;
+  void recall_own(const api::FleetManifest& own, const v1::KeptFleet& kept);
   [[nodiscard]] bool silent(const std::optional<WallTime>& heard, WallTime now) const;
   void set_state(Member& member, api::FleetState state, std::string reason);
   void settle(Member& member, const Round& round);
 
-  // On the worker.
+  // What is on disk (fleet_keep.cpp, fleet_memory.cpp). The first three before anybody else asks.
   void load();
+  void load_slots(const v1::KeptFleet& kept);
   void load_member(const std::filesystem::path& folder);
+  [[nodiscard]] Pieces load_pieces(const std::filesystem::path& folder, const api::FleetManifest& manifest) const;
+  [[nodiscard]] std::uint8_t free_slot(const std::string& robot_id) const;
+  void tell_damage(const std::string& what);
   void keep_piece(const std::string& robot_id, const api::PieceHash& hash, const PieceBytes& bytes) const;
+  void drop_pieces(const std::string& robot_id, const Pieces& needed) const;
   void keep_record(const std::string& robot_id);
+
+  // On the worker.
+  void recall(const v1::KeptFleet& kept);
+  [[nodiscard]] bool recall_maps(const v1::KeptFleet& kept);
+  void recall_pairs(const v1::KeptFleet& kept);
+  void keep_own_pieces();
+  void keep_memory();
   void judge(const std::string& robot_id);
   [[nodiscard]] Result<OwnMap> ask_own_map();
+  [[nodiscard]] Status take_own_map(Result<OwnMap> own);
   [[nodiscard]] Status compare(std::uint8_t slot, LineMap map);
   [[nodiscard]] Status prepare(std::uint8_t slot, LineMap map);
   void compare(std::uint8_t a, std::uint8_t b);
@@ -134,7 +158,11 @@ class FleetLeader {
   std::vector<Point2> own_places_;
   std::optional<Pose2> own_map_T_base_;
   std::optional<RobotTopology> own_topology_;
+  /// The main robot has not taken up its map again since it was started: what it was holds, not where its loop is now.
+  bool remembers_own_ = false;
+  std::map<std::string, std::uint8_t> kept_slots_;
   std::uint32_t revision_ = 0;
+  std::mutex record_mutex_;  ///< held while a robot's record is written; taken before mutex_
   // For the worker only.
   std::map<std::uint8_t, fleet::PreparedMap> prepared_;  ///< by slot, the main robot's own at 0
   std::map<std::uint8_t, std::uint64_t> versions_;       ///< of those: rise when a map has changed
@@ -142,6 +170,9 @@ class FleetLeader {
   std::map<std::uint8_t, std::vector<api::FleetNode>> judged_;  ///< by slot: what was last looked at
   std::optional<fleet::JointMap> joint_;
   std::uint32_t joint_epoch_ = 0;
+  PackedMap own_packed_;             ///< the main robot's own map as it is kept on disk
+  std::uint64_t own_packed_of_ = 0;  ///< its version
+  std::string memory_;               ///< what was written last
   DiskWorker worker_;
 };
 

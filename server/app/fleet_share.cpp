@@ -87,9 +87,11 @@ void FleetLeader::refresh() {
     const std::lock_guard lock(mutex_);
     if (own) {
       own_map_T_base_ = *own ? std::optional((*own)->map_T_base) : std::nullopt;
-      hear(*own, own_topology_);
+      hear(remembers_own_ ? std::nullopt : *own, own_topology_);
     }
-    others = others_of(params_.robot_id, Pose2{}, std::chrono::steady_clock::now());
+    if (!remembers_own_) {
+      others = others_of(params_.robot_id, Pose2{}, std::chrono::steady_clock::now());
+    }
   }
   host_.take_view(others.empty() ? std::nullopt
                                  : std::optional(FleetView{params_.robot_id, std::move(others), nullptr}));

@@ -13,6 +13,9 @@ struct SamePlaceParams {
 };
 [[nodiscard]] bool same_place(const Pose2& a_T_b, const Pose2& a_T_b_too, const SamePlaceParams& params = {});
 
+/// Whether an answer still speaks of local maps that are there.
+[[nodiscard]] bool holds(const MergeAnswer& answer, const PreparedMap& a, const PreparedMap& b);
+
 /// Two robots whose maps were merged before and still fit best in the same way stay merged although the figures are not
 /// those of a first merge any more (things have been moved, a robot stood in the way): less than `sure_...` is enough
 /// then. A rival, a contradiction or too little overlap ends it. Everybody else is judged as before.

@@ -119,8 +119,10 @@ TEST(FleetSharing, PlacesAreKeptOverRestartsOfBothButNotInANewMap) {
   const ToyHost main(west(), at_place("main", kPlace));
   FleetLeader again(same, main.host());
   static_cast<void>(until(again, "r1", placed));
-  again.refresh();
-  ASSERT_TRUE(main.view());
+  ASSERT_TRUE(main.until([&](const auto& view) {
+    again.refresh();
+    return view.has_value();
+  })) << "as soon as its own map has been looked at again";
   EXPECT_FALSE(of(main.view()->others, "r1").active) << "it has not been heard since";
   EXPECT_FALSE(of(main.view()->others, "r1").velocity);
   // The robot comes back, with its map but without a mission.

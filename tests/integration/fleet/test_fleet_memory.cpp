@@ -1,0 +1,150 @@
+// What the main robot of a fleet knows again when its program was killed.
+
+#include <algorithm>
+#include <future>
+
+#include "server/app/fleet_records.hpp"
+#include "server/store/atomic_file.hpp"
+#include "server/store/map_file.hpp"
+#include "tests/integration/fleet/fleet_world.hpp"
+#include "tests/integration/fleet/toy_robot.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace seeker::testing {
+namespace {
+
+using app::FleetLeader;
+using app::FleetLeaderParams;
+
+/// The joint map as clients get it.
+LineMap joint_map(FleetLeader& leader) {
+  std::promise<Result<std::vector<std::uint8_t>>> promise;
+  leader.map([&](auto bytes) { promise.set_value(std::move(bytes)); });
+  const auto bytes = promise.get_future().get();
+  EXPECT_TRUE(bytes) << bytes.error().message;
+  return bytes ? store::decode_map_file(*bytes)->map : LineMap{};
+}
+
+/// Started anew, it has not taken its map up again.
+app::FleetHost without_map(const ToyHost& heard) {
+  app::FleetHost host = heard.host();
+  host.give_map = [](const api::Reply<app::OwnMap>& reply) { reply(fail(Errc::kNotReady, "it waits for 'resume'")); };
+  return host;
+}
+
+bool told(const ToyHost& host, const std::string& kind) {
+  const std::vector<std::string> events = host.events();
+  return std::any_of(events.begin(), events.end(),
+                     [&](const std::string& event) { return event.compare(0, kind.size(), kind) == 0; });
+}
+
+/// As the main robot has it after its first scan.
+LineMap one_scan() {
+  LineMap map = west();
+  map.nodes.resize(1);
+  map.edges.clear();
+  map.keyframes.resize(1);
+  map.nodes[0].created += std::chrono::hours(1);
+  map.keyframes[0].stamp += std::chrono::hours(1);
+  std::erase_if(map.segments, [&](const MapSegment& segment) { return segment.node != map.nodes[0].id; });
+  return map;
+}
+
+class FleetMemory : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    FleetLeader leader(same, holds(west()));
+    join(leader, packed(east(), "r2"));
+    join(leader, packed(east(12), "stranger", 2));
+    merged = until(leader, "r2", [](const auto& m) { return m.main_T_map.has_value(); });
+    static_cast<void>(until(leader, "stranger", [](const auto& m) { return m.state != api::FleetState::kWaiting; }));
+    ASSERT_TRUE(leader.decide({"stranger", api::FleetVerb::kSplit, 0}));
+    joint = joint_map(leader);
+  }
+  FleetLeaderParams same = leader_params("fleet_memory");
+  ToyHost heard{LineMap{}};
+  api::FleetMember merged;
+  LineMap joint;
+};
+
+TEST_F(FleetMemory, TheJointMapIsThereBeforeTheMainRobotHasTakenUpItsOwn) {
+  FleetLeader again(same, without_map(heard));
+  EXPECT_EQ(again.status().members.size(), 3U);
+  const api::FleetMember member = until(again, "r2", api::FleetState::kMerged);
+  ASSERT_TRUE(member.main_T_map);
+  EXPECT_THAT(*member.main_T_map, Pose2Near(*merged.main_T_map, 1e-6, 1e-6));
+  EXPECT_EQ(until(again, "stranger", api::FleetState::kSplit).state, api::FleetState::kSplit);
+  const LineMap map = joint_map(again);
+  EXPECT_EQ(map.nodes.size(), joint.nodes.size());
+  EXPECT_GT(map.epoch, joint.epoch);
+  for (std::size_t k = 0; k < std::min(map.nodes.size(), joint.nodes.size()); ++k) {
+    EXPECT_EQ(map.nodes[k].id, joint.nodes[k].id) << "the robots keep their numbers";
+  }
+}
+
+TEST_F(FleetMemory, AMapOfOneScanDoesNotReplaceTheOneThatWasBuilt) {
+  FleetLeader again(same, holds(one_scan()));
+  join(again, packed(east(), "r2", 3));
+  EXPECT_EQ(until(again, "r2", api::FleetState::kMerged).nodes, merged.nodes);
+  EXPECT_EQ(again.status().members.front().nodes, west().nodes.size());
+}
+
+TEST_F(FleetMemory, AMapThatHasLostItsNewestPartStaysMerged) {
+  LineMap shorter = west();
+  const std::uint32_t last = shorter.nodes.back().id;
+  ASSERT_GT(shorter.nodes.size(), 2U);
+  std::erase_if(shorter.nodes, [&](const MapNode& node) { return node.id == last; });
+  std::erase_if(shorter.edges, [&](const MapEdge& edge) { return edge.from == last || edge.to == last; });
+  std::erase_if(shorter.segments, [&](const MapSegment& segment) { return segment.node == last; });
+  std::erase_if(shorter.keyframes, [&](const MapKeyframe& keyframe) { return keyframe.node == last; });
+  FleetLeader again(same, holds(shorter));
+  const api::FleetMember member = until(again, "r2", [&](const auto& m) {
+    return m.main_T_map && again.status().members.front().nodes == shorter.nodes.size();
+  });
+  EXPECT_THAT(*member.main_T_map, Pose2Near(west_T_east(), 0.15, 0.03));
+}
+
+TEST_F(FleetMemory, ADamagedMemoryIsToldAndFoundAnew) {
+  ASSERT_TRUE(store::write_file_atomically(same.folder / "memory", "garbage"));
+  const ToyHost host(west());
+  FleetLeader again(same, host.host());
+  EXPECT_THAT(*until(again, "r2", [](const auto& m) { return m.main_T_map.has_value(); }).main_T_map,
+              Pose2Near(west_T_east(), 0.15, 0.03));
+  EXPECT_TRUE(told(host, "fleet-memory-damaged"));
+}
+
+TEST_F(FleetMemory, ADamagedRecordIsToldAndTheOthersStay) {
+  ASSERT_TRUE(store::write_file_atomically(same.folder / "stranger" / "record", "garbage"));
+  const ToyHost host(west());
+  FleetLeader again(same, host.host());
+  EXPECT_EQ(again.status().members.size(), 2U);
+  EXPECT_TRUE(told(host, "fleet-memory-damaged"));
+  EXPECT_TRUE(until(again, "r2", [](const auto& m) { return m.main_T_map.has_value(); }).main_T_map);
+}
+
+TEST(FleetRecords, AnAnswerComesOutAsItWentIn) {
+  fleet::PreparedMap a;
+  fleet::PreparedMap b;
+  ASSERT_TRUE(a.update(west()));
+  ASSERT_TRUE(b.update(east()));
+  const fleet::MergeAnswer answer = fleet::MapMerger().merge(a, b);
+  v1::KeptPair message;
+  app::write(answer, &message);
+  const Result<fleet::MergeAnswer> again = app::read_answer(message);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->verdict, answer.verdict);
+  ASSERT_EQ(again->hypotheses.size(), answer.hypotheses.size());
+  EXPECT_EQ(again->hypotheses[0].a_T_b.a_T_b, answer.hypotheses[0].a_T_b.a_T_b);
+  EXPECT_EQ(again->hypotheses[0].a_T_b.covariance, answer.hypotheses[0].a_T_b.covariance);
+  ASSERT_EQ(again->hypotheses[0].pairs.size(), answer.hypotheses[0].pairs.size());
+  EXPECT_EQ(again->hypotheses[0].pairs[0].a_T_b.a_T_b, answer.hypotheses[0].pairs[0].a_T_b.a_T_b);
+  EXPECT_EQ(again->confidence(), answer.confidence());
+  message.set_verdict(9);
+  EXPECT_EQ(app::read_answer(message).error().code, Errc::kInvalidArgument);
+  message.set_verdict(4);
+  message.mutable_hypotheses(0)->mutable_pose()->clear_covariance();
+  EXPECT_EQ(app::read_answer(message).error().code, Errc::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace seeker::testing
