@@ -1,8 +1,10 @@
 // The map of a mission that builds one outlives a crash: it is kept on disk while the mission runs.
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "common/core/angle.hpp"
 #include "server/app/robot_loop.hpp"
 
 namespace seeker::app {
@@ -122,7 +124,24 @@ Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& i
   }
   memory_ = std::move(kept.topology);
   resuming_ = has_own_map_ = checkpoint_kept_ = true;
+  resuming_at_ = now();
+  looked_at_rad_.reset();
+  looked_round_rad_ = 0.0;
+  authority_.arm();  // who resumes a mission wants the robot to move
   return {};
+}
+
+/// A robot that is not found at once turns once on the spot: what is in its map may lie behind it.
+Twist2 RobotLoop::look_round() {
+  const bool soon = now() - resuming_at_ < params_.map.look_round_after;
+  const bool in_other_hands = !authority_.lease().owner.empty();
+  if (soon || in_other_hands || !odometry_ || !map_.relocalising() || looked_round_rad_ >= kTwoPi) {
+    return {};
+  }
+  const double heading_rad = odometry_->odom_T_base.theta_rad;
+  looked_round_rad_ += std::abs(wrap_angle(heading_rad - looked_at_rad_.value_or(heading_rad)));
+  looked_at_rad_ = heading_rad;
+  return {0.0, params_.map.look_round_rad_s};
 }
 
 void RobotLoop::resume_when_found() {

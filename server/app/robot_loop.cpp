@@ -270,7 +270,8 @@ Twist2 RobotLoop::decide(WallTime wall_now) {
     authority_.cancel_drive();
     return decision.command;
   }
-  return authority_.drive_velocity(now()).value_or(Twist2{});
+  const std::optional<Twist2> driven = authority_.drive_velocity(now());
+  return driven ? *driven : resuming_ ? look_round() : Twist2{};
 }
 
 void RobotLoop::look() {

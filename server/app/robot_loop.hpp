@@ -193,6 +193,7 @@ class RobotLoop {
   void keep_place(const api::MissionId& mission);
   void drop_checkpoints();
   void resume_when_found();
+  [[nodiscard]] Twist2 look_round();
   void begin_map_anew();
   void forget_places();
   void publish();
@@ -245,10 +246,13 @@ class RobotLoop {
   bool ended_ = false;
   bool republish_ = false;
   std::optional<api::MissionRequest> unfinished_;
-  bool resuming_ = false;          ///< unfinished_ goes on when the robot has found its place in its map
-  bool has_own_map_ = false;       ///< of unfinished_: it is loaded
-  bool checkpoint_kept_ = false;   ///< there may be one on disk
-  bool checkpoint_waits_ = false;  ///< one is being written
+  bool resuming_ = false;  ///< unfinished_ goes on when the robot has found its place in its map
+  RobotTime resuming_at_;
+  std::optional<double> looked_at_rad_;  ///< heading by odometry while it turns to look round,
+  double looked_round_rad_ = 0.0;        ///< and how far it has turned
+  bool has_own_map_ = false;             ///< of unfinished_: it is loaded
+  bool checkpoint_kept_ = false;         ///< there may be one on disk
+  bool checkpoint_waits_ = false;        ///< one is being written
   std::optional<std::uint64_t> checkpoint_revision_;
   RobotTime checkpoint_at_;
   std::optional<Pose2> checkpoint_map_T_base_;  ///< where the robot was then

@@ -26,6 +26,9 @@ struct RobotMapParams {
   Duration checkpoint_period = std::chrono::seconds(30);     ///< robot time between checkpoints of a mission's map,
   double checkpoint_way_m = 5.0;  ///< or so far from where the last was made: what is seen then is in it in part
   Duration place_period = std::chrono::seconds(1);  ///< robot time between notes of where the robot is in that map
+  /// A robot that resumes a mission and is not found in its map within this robot time turns once on the spot,
+  Duration look_round_after = std::chrono::seconds(3);
+  double look_round_rad_s = 0.4;  ///< so fast
 };
 
 /// Under which name the present map is kept, and since when it exists.

@@ -93,6 +93,9 @@ void describe(config::Fields& f, RobotMapParams& params) {
   f.check("checkpoint_way_m", params.checkpoint_way_m > 0.0, "must be above 0");
   f.seconds("place_period_s", params.place_period);
   f.check("place_period_s", params.place_period > Duration::zero(), "must be above 0");
+  f.seconds("look_round_after_s", params.look_round_after);
+  f.angle_deg("look_round_deg_s", params.look_round_rad_s);
+  f.check("look_round_deg_s", params.look_round_rad_s >= 0.0, "must not be below 0");
 }
 
 void describe(config::Fields& f, FleetMotionParams& params) {

@@ -78,7 +78,7 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   next_id_ = 1;
   place_.reset();
   hint_.reset();
-  kept_.reset();
+  kept_map_T_node_.reset();
   read_only_.reset();
   quality_ = LocalisationQuality::kUnknown;
   cause_ = "no odometry yet";
@@ -128,7 +128,9 @@ PoseEstimate LineSlam::estimate() const {
   estimate.map_T_base = map_T_node * node_T_now;
   estimate.covariance =
       node_a * backend_.newest_covariance() * node_a.transpose() + node_b * in_node * node_b.transpose();
-  estimate.quality = quality_;
+  // Whatever is said of the local map while the robot is looked for: its place in the whole one is not known.
+  const bool looked_for = backend_.apart() && quality_ != LocalisationQuality::kLost;
+  estimate.quality = looked_for ? LocalisationQuality::kUnknown : quality_;
   estimate.cause = cause_;
   estimate.map_epoch = backend_.epoch();
   return estimate;
@@ -385,6 +387,7 @@ void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
   last_try_ = inverse(last_T_new) * last_try_;
   last_witness_ = inverse(last_T_new) * last_witness_;
   claim_ = claim_ ? std::optional(*claim_ * last_T_new) : std::nullopt;
+  kept_map_T_node_ = kept_map_T_node_ ? std::optional(*kept_map_T_node_ * last_T_new) : std::nullopt;
   if (read_only_) {
     backend_.forget_scans_from(*read_only_);
   }

@@ -75,8 +75,8 @@ class LineSlam final : public MapTracker {
   void start_local_map();
   void look_for_robot();
   [[nodiscard]] std::vector<SeenPoints> seen_lately() const;
-  [[nodiscard]] PlaceAnswer find_place() const;
-  [[nodiscard]] bool is_confirmed(const Pose2& map_T_node);
+  [[nodiscard]] PlaceAnswer find_place(const std::vector<SeenPoints>& seen) const;
+  [[nodiscard]] bool is_confirmed(const Pose2& map_T_node, bool expected);
   void settle(const PlaceAnswer& answer);
   [[nodiscard]] std::uint32_t map_end() const;
   void append_newest(std::vector<MapSegment>& all) const;
@@ -105,9 +105,9 @@ class LineSlam final : public MapTracker {
   PlaceRecogniser recogniser_;
   std::unique_ptr<PlaceMap> place_;
   std::string search_cause_;
-  std::optional<Pose2> hint_;  ///< map_T_base that somebody has named
-  std::optional<Pose2> kept_;  ///< map_T_base where the robot stood; nothing once scans have denied it
-  Pose2 last_try_;             ///< node_T_base
+  std::optional<Pose2> hint_;             ///< map_T_base that somebody has named
+  std::optional<Pose2> kept_map_T_node_;  ///< where the newest local map lies if the robot began it where it stood
+  Pose2 last_try_;                        ///< node_T_base
   int scans_since_try_ = 0;
   int tries_ = 0;
   std::optional<Pose2> claim_;              ///< where the last unique answer puts the newest local map,

@@ -108,7 +108,7 @@ Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
     failures_ = 0;
   }
   hint_ = map_T_base;
-  kept_.reset();
+  kept_map_T_node_.reset();
   claim_.reset();
   witnesses_ = 0;
   place_.reset();
@@ -128,7 +128,8 @@ Status LineSlam::look_where_it_stood(const Pose2& map_T_base) {
   if (Status looking = relocalise(std::nullopt); !looking) {
     return looking;
   }
-  kept_ = map_T_base;
+  // What is driven from now on is known: the robot may roll out, or turn to look round.
+  kept_map_T_node_ = map_T_base * inverse(lines_->robot());
   return {};
 }
 
@@ -153,7 +154,7 @@ void LineSlam::look_for_robot() {
     }
     place_ = std::make_unique<PlaceMap>(*std::move(built));
   }
-  settle(find_place());
+  settle(find_place(seen_lately()));
 }
 
 std::vector<SeenPoints> LineSlam::seen_lately() const {
@@ -172,43 +173,44 @@ std::vector<SeenPoints> LineSlam::seen_lately() const {
   return seen;
 }
 
-PlaceAnswer LineSlam::find_place() const {
-  const std::vector<SeenPoints> seen = seen_lately();
-  if (kept_) {
-    return recogniser_.confirm(*place_, seen, *kept_);
-  }
+PlaceAnswer LineSlam::find_place(const std::vector<SeenPoints>& seen) const {
+  const RelocaliseParams& params = params_.relocalise;
   std::optional<SearchWindow> window;
-  if (hint_) {
-    window = SearchWindow{*hint_, params_.relocalise.hint_m, params_.relocalise.hint_rad};
+  if (kept_map_T_node_ && way_m_ <= params.place.kept.about_m) {
+    PlaceAnswer there = recogniser_.confirm(*place_, seen, *kept_map_T_node_ * lines_->robot());
+    if (there.verdict == PlaceVerdict::kUnique) {
+      return there;
+    }
+  } else if (hint_) {
+    window = SearchWindow{*hint_, params.hint_m, params.hint_rad};
   }
   return recogniser_.locate(*place_, seen, window);
 }
 
-bool LineSlam::is_confirmed(const Pose2& map_T_node) {
+bool LineSlam::is_confirmed(const Pose2& map_T_node, bool expected) {
   // One view may look like a place that it is not; views farther on must name the same place.
   const bool agrees = claim_ && !moved(*claim_, map_T_node, params_.relocalise.agree_m, params_.relocalise.agree_rad);
   witnesses_ = agrees ? witnesses_ + 1 : 1;
   claim_ = map_T_node;
-  return kept_ || witnesses_ >= params_.relocalise.witnesses;
+  return expected || witnesses_ >= params_.relocalise.witnesses;
 }
 
 void LineSlam::settle(const PlaceAnswer& answer) {
   const Pose2 base_T_node = inverse(lines_->robot());
   if (answer.verdict == PlaceVerdict::kUnique &&
-      is_confirmed(answer.candidates.front().match.map_T_base * base_T_node)) {
+      is_confirmed(answer.candidates.front().match.map_T_base * base_T_node, answer.expected)) {
     const MatchResult& match = answer.candidates.front().match;
     const Matrix3 to_a = compose_jacobian_a(match.map_T_base, base_T_node);
     backend_.anchor(match.map_T_base * base_T_node,
                     with_floor(to_a * match.covariance * to_a.transpose(), params_.relocalise.joint_sigma_m,
                                params_.relocalise.joint_sigma_rad));
     place_.reset();
-    kept_.reset();
+    kept_map_T_node_.reset();
     quality_ = LocalisationQuality::kLocalised;
     cause_.clear();
     ++revision_;
     return;
   }
-  kept_.reset();
   const bool lost = tries_ >= params_.relocalise.max_tries;
   search_cause_ =
       (lost ? "the robot was not found in the map: " : kLooking + std::string(": ")) + std::string(answer.reason);

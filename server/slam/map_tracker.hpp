@@ -42,7 +42,8 @@ class MapTracker : public PoseTracker {
   /// estimate is kUnknown meanwhile, and kLost with a cause when it cannot be found. kNotReady: there is no map.
   [[nodiscard]] virtual Status relocalise(const std::optional<Pose2>& map_T_base) = 0;
   /// As relocalise(), but the robot probably still stands at `map_T_base`, where it was seen last: taken at its word
-  /// where scans agree with the map there, although they fit elsewhere, too; else looked for everywhere.
+  /// where scans agree with the map there, although they fit elsewhere, too. Else it is looked for a little farther
+  /// about, for it went on, and everywhere.
   [[nodiscard]] virtual Status look_where_it_stood(const Pose2& map_T_base) = 0;
   /// The kept scans at their present poses: what occupancy is rendered from after the map has moved.
   virtual void for_each_scan(

@@ -152,33 +152,65 @@ void PlaceRecogniser::accept(PlaceCandidate candidate, PlaceAnswer& answer) cons
   const Matrix3 stood = Eigen::Vector3d(stood_m2, stood_m2, stood_rad2).asDiagonal();
   candidate.match.covariance = (candidate.match.covariance.inverse() + stood.inverse()).inverse();
   answer.verdict = PlaceVerdict::kUnique;
+  answer.expected = true;
   answer.reason = "the robot stands where it was";
   answer.candidates = {std::move(candidate)};
+}
+
+/// The places within the window, best first, with the lead of the best one.
+PlaceAnswer PlaceRecogniser::ranked(const PlaceMap& map, const Query& query, const SearchWindow& window) const {
+  PlaceAnswer answer;
+  answer.cells = query.cells.size();
+  answer.candidates = refine_all(map, query, search_.search(map.pyramid(), query.points, window));
+  std::vector<PlaceCandidate>& places = answer.candidates;
+  std::stable_sort(places.begin(), places.end(),
+                   [](const PlaceCandidate& a, const PlaceCandidate& b) { return a.support() > b.support(); });
+  answer.lead = places.size() > 1 ? places[0].support() - places[1].support() : 1.0;
+  return answer;
+}
+
+bool PlaceRecogniser::agrees_near(const PlaceAnswer& near, const Pose2& map_T_base) const {
+  return !near.candidates.empty() && agrees(near.candidates.front(), map_T_base) &&
+         near.lead >= params_.kept.min_lead && !near.candidates.front().match.degenerate_direction;
+}
+
+bool PlaceRecogniser::stands_out(const PlaceAnswer& about) const {
+  if (about.candidates.empty()) {
+    return false;
+  }
+  const PlaceCandidate& best = about.candidates.front();
+  return best.fit.all >= params_.kept.about_min_fit &&
+         best.agreement.disagreement() <= params_.kept.about_max_disagreement &&
+         about.lead >= params_.kept.about_min_lead &&
+         about.lead * static_cast<double>(about.cells) >= params_.judge.min_lead_cells &&
+         !best.match.degenerate_direction;
 }
 
 PlaceAnswer PlaceRecogniser::confirm(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
                                      const Pose2& map_T_base) const {
   const Query query(seen_base, params_);
-  PlaceAnswer answer;
-  answer.cells = query.cells.size();
+  PlaceAnswer about = ranked(map, query, {map_T_base, params_.kept.about_m, kPi});
+  const double best = about.candidates.empty() ? 0.0 : about.candidates.front().support();
+  const auto outdone = [&](const PlaceCandidate& place) { return best >= place.support() + params_.kept.min_lead; };
   PlaceCandidate here = refine(map, query, map_T_base);
-  if (agrees(here, map_T_base)) {
+  if (agrees(here, map_T_base) && !outdone(here)) {
+    PlaceAnswer answer;
+    answer.cells = query.cells.size();
     accept(std::move(here), answer);
     return answer;
   }
-  const SearchWindow window{map_T_base, params_.kept.max_m, params_.kept.max_rad};
-  std::vector<PlaceCandidate> near = refine_all(map, query, search_.search(map.pyramid(), query.points, window));
-  std::stable_sort(near.begin(), near.end(),
-                   [](const PlaceCandidate& a, const PlaceCandidate& b) { return a.support() > b.support(); });
-  answer.lead = near.size() > 1 ? near[0].support() - near[1].support() : 1.0;
-  if (!near.empty() && agrees(near.front(), map_T_base) && answer.lead >= params_.kept.min_lead &&
-      !near.front().match.degenerate_direction) {
-    accept(std::move(near.front()), answer);
-    return answer;
+  PlaceAnswer near = ranked(map, query, {map_T_base, params_.kept.max_m, params_.kept.max_rad});
+  if (agrees_near(near, map_T_base) && !outdone(near.candidates.front())) {
+    accept(PlaceCandidate(near.candidates.front()), near);
+    return near;
   }
-  answer.candidates = std::move(near);
-  answer.reason = "the robot does not stand where it was";
-  return answer;
+  if (stands_out(about)) {
+    about.verdict = PlaceVerdict::kUnique;
+    about.reason = "one place about where the robot was fits far better than any other";
+    return about;
+  }
+  about.reason = "the robot does not stand where it was";
+  return about;
 }
 
 }  // namespace seeker::slam

@@ -68,8 +68,14 @@ struct KeptPlaceParams {
   double max_disagreement = 0.15;  ///< beams through walls, and points in free space
   double max_m = 0.7;              ///< it rolled on, or was pushed
   double max_rad = 1.2;            ///< it turned on
-  double min_lead = 0.05;          ///< of the best place within that over the next one, where the robot has moved
-  double sigma_m = 0.3;            ///< of the place in the direction that scans say nothing about
+  double min_lead = 0.05;          ///< of the best place within that over the next one; no place about leads it by that
+  /// Farther about it, at any heading, for the robot may have gone on after its place was kept: no other place there
+  /// may do as well, and hardly anything may speak against it, although most of the view may be new.
+  double about_m = 2.5;
+  double about_min_fit = 0.45;
+  double about_max_disagreement = 0.05;
+  double about_min_lead = 0.2;
+  double sigma_m = 0.5;  ///< of the place in the direction that scans say nothing about: it was kept a second ago
   double sigma_rad = 0.1;
 };
 
@@ -89,6 +95,7 @@ struct PlaceAnswer {
   double lead = 0.0;                       ///< of the first over the next one
   std::size_t cells = 0;                   ///< with points: how much was seen
   bool complete = true;
+  bool expected = false;  ///< where the robot was known to be: no second view is needed
 };
 
 /// Verdict and reason from the candidates, whatever order they come in, and the number of cells with points.
@@ -112,8 +119,8 @@ class PlaceRecogniser {
   /// Scans in the frame `base` of one pose, one scan or several put together by odometry.
   [[nodiscard]] PlaceAnswer locate(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
                                    const std::optional<SearchWindow>& window = std::nullopt) const;
-  /// Whether the robot still stands at `map_T_base`, or near it. The covariance of the match says how well that is
-  /// known in every direction.
+  /// Whether the robot still stands at `map_T_base` (PlaceAnswer::expected), or farther about it. The covariance of the
+  /// match says how well that is known in every direction.
   [[nodiscard]] PlaceAnswer confirm(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
                                     const Pose2& map_T_base) const;
 
@@ -124,6 +131,9 @@ class PlaceRecogniser {
                                                        const GlobalSearchResult& found) const;
   [[nodiscard]] bool agrees(const PlaceCandidate& candidate, const Pose2& map_T_base) const;
   void accept(PlaceCandidate candidate, PlaceAnswer& answer) const;
+  [[nodiscard]] bool agrees_near(const PlaceAnswer& near, const Pose2& map_T_base) const;
+  [[nodiscard]] bool stands_out(const PlaceAnswer& about) const;
+  [[nodiscard]] PlaceAnswer ranked(const PlaceMap& map, const Query& query, const SearchWindow& window) const;
 
   PlaceParams params_;
   GlobalMatcher search_;

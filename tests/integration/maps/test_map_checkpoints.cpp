@@ -1,6 +1,7 @@
 // The map of a mission that builds one: kept while it runs, loaded again when a crash has cut the mission off.
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -150,6 +151,42 @@ TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSe
   EXPECT_EQ(dropped, 1) << "the new map is kept under the mission's name from now on";
   EXPECT_TRUE(state->map.segments.empty());
   EXPECT_FALSE(remembered) << "places of another map";
+}
+
+TEST_F(MapCheckpoints, RobotThatIsNotFoundAtOnceTurnsOnceOnTheSpotAndStands) {
+  loop->offer_unfinished(exploration());
+  state->scans_to_search = 100'000;
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+  ticks(25);
+  EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01) << "it may be found without";
+  ticks(20);
+  EXPECT_GT(loop->status().velocity.omega_rad_s, 0.1);
+  EXPECT_LT(std::abs(loop->status().velocity.v_m_s), 0.01);
+  ticks(200);
+  EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01) << "it has seen all there is";
+  EXPECT_FALSE(loop->missions().present());
+}
+
+TEST_F(MapCheckpoints, RobotThatLooksRoundIsStoppedByStopAndByEstop) {
+  for (const bool estop : {false, true}) {
+    loop->offer_unfinished(exploration());
+    state->scans_to_search = 100'000;
+    ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+    ticks(45);
+    ASSERT_GT(loop->status().velocity.omega_rad_s, 0.1);
+    estop ? loop->set_estop(true) : loop->stop();
+    ticks(10);
+    EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01);
+  }
+}
+
+TEST_F(MapCheckpoints, RobotWhoseLeaseSomebodyHoldsDoesNotLookRound) {
+  loop->offer_unfinished(exploration());
+  state->scans_to_search = 100'000;
+  ASSERT_TRUE(loop->command_lease("tester", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+  ticks(45);
+  EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01);
 }
 
 TEST_F(MapCheckpoints, MissionGoesOnFromWhereItWasWithWhatItRemembered) {

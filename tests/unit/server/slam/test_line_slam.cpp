@@ -287,6 +287,24 @@ TEST(LineSlam, IsFoundElsewhereWhenItDoesNotStandWhereItStood) {
   EXPECT_LT(distance_m(slam.estimate().map_T_base, second.truth()), 0.3);
 }
 
+TEST(LineSlam, FindsItselfByATurnOnTheSpotWhereItWentOnAndLooksAway) {
+  Trip first(15);
+  LineSlam mapper({}, first.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(first, mapper, 12.5));
+  const Pose2 kept = mapper.estimate().map_T_base;
+  Trip trip(16, first.truth() * Pose2{1.1, 0.1, 2.6});
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
+  ASSERT_TRUE(slam.look_where_it_stood(kept));
+  constexpr double kTurn_rad_s = 0.4;
+  for (double turned_rad = 0.0; turned_rad < kTwoPi; turned_rad += kTurn_rad_s * Trip::kTick_s) {
+    ASSERT_TRUE(trip.feed(slam));
+    trip.move({0.0, 0.0, kTurn_rad_s * Trip::kTick_s});
+  }
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.2);
+}
+
 TEST(LineSlam, IsLostInTheMapOfAnotherBuilding) {
   Trip trip(12);
   LineSlam mapper({}, trip.truth());
