@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <map>
 #include <set>
 #include <thread>
 #include <utility>
@@ -18,20 +19,41 @@
 
 namespace seeker::testing {
 
-/// The places of a joint map's walls, in cells: how long they are counts, not how many segments show them.
-class WallCells {
+/// Square cells of a map: how much ground counts, not how many segments or scans show it.
+class Cells {
  public:
-  explicit WallCells(const LineMap& map) {
+  /// Those that the map's walls run through.
+  static Cells of_walls(const LineMap& map) {
+    Cells cells;
     for (const MapSegment& segment : map.segments) {
-      const int steps = static_cast<int>(std::ceil(segment.length_m / kStep_m));
-      for (int k = 0; k <= steps; ++k) {
-        const double along_m = segment.length_m * (static_cast<double>(k) / std::max(steps, 1) - 0.5);
-        cells_.insert(cell_of(segment.map_T_segment * Point2(along_m, 0.0)));
+      const Point2 half(0.5 * segment.length_m, 0.0);
+      cells.add_line(segment.map_T_segment * Point2(-half), segment.map_T_segment * half);
+    }
+    return cells;
+  }
+  /// Those that beams of the kept scans have gone through.
+  static Cells of_floor(const LineMap& map) {
+    std::map<std::uint32_t, Pose2> map_T_node;
+    for (const MapNode& node : map.nodes) {
+      map_T_node[node.id] = node.map_T_node;
+    }
+    Cells cells;
+    for (const MapKeyframe& keyframe : map.keyframes) {
+      const LaserScan scan = unpack_scan(keyframe);
+      const Pose2 map_T_laser = map_T_node.at(keyframe.node) * keyframe.node_T_base * scan.base_T_laser;
+      for (std::size_t k = 0; k < scan.ranges_m.size(); ++k) {
+        if (std::isfinite(scan.ranges_m[k]) && scan.ranges_m[k] < scan.range_max_m) {
+          const double angle_rad = scan.angle_rad(k);
+          const auto range_m = static_cast<double>(scan.ranges_m[k]);
+          cells.add_line(map_T_laser.translation(),
+                         map_T_laser * Point2(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)));
+        }
       }
     }
+    return cells;
   }
   /// Share of the cells that have one of the other map's beside them or upon them.
-  [[nodiscard]] double share_in(const WallCells& other) const {
+  [[nodiscard]] double share_in(const Cells& other) const {
     const auto found = std::count_if(cells_.begin(), cells_.end(), [&](const Cell& cell) {
       for (int i = -1; i <= 1; ++i) {
         for (int j = -1; j <= 1; ++j) {
@@ -45,13 +67,18 @@ class WallCells {
     return cells_.empty() ? 0.0 : static_cast<double>(found) / static_cast<double>(cells_.size());
   }
   [[nodiscard]] double length_m() const { return kCell_m * static_cast<double>(cells_.size()); }
+  [[nodiscard]] double area_m2() const { return kCell_m * length_m(); }
 
  private:
   using Cell = std::pair<int, int>;
   static constexpr double kCell_m = 0.2;
   static constexpr double kStep_m = 0.1;
-  static Cell cell_of(const Point2& p) {
-    return {static_cast<int>(std::floor(p.x() / kCell_m)), static_cast<int>(std::floor(p.y() / kCell_m))};
+  void add_line(const Point2& from, const Point2& to) {
+    const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kStep_m)));
+    for (int k = 0; k <= steps; ++k) {
+      const Point2 p = from + (to - from) * (static_cast<double>(k) / steps);
+      cells_.insert({static_cast<int>(std::floor(p.x() / kCell_m)), static_cast<int>(std::floor(p.y() / kCell_m))});
+    }
   }
   std::set<Cell> cells_;
 };
@@ -79,6 +106,7 @@ class Team {
     const auto set = [&](const std::string& value) { options.insert(options.end(), {"--set", value}); };
     set("fleet.period_s=0.5");
     set("fleet.share_period_s=0.2");
+    set("fleet.silence_s=1");  // the world runs many times faster than life, and so does what silence means
     set("loop.map.checkpoint_period_s=10");
     if (k == 0) {
       set("fleet.lead=true");
