@@ -170,22 +170,23 @@ GoalChoice choose_goal(const ChoiceInput& input) {
   const std::optional<std::size_t> here = index_of(all, std::nullopt, input.own.current);
   SEEKER_ASSERT(here.has_value());
   const std::vector<PendingGoal> goals = pending_of(input, all, bellman_ford(all.graph, *here));
-  const bool shared = std::any_of(input.fleet.others.begin(), input.fleet.others.end(),
-                                  [](const RobotTopology& other) { return other.active; });
+  const auto any_active = [&](bool driving) {
+    return std::any_of(input.fleet.others.begin(), input.fleet.others.end(),
+                       [&](const RobotTopology& other) { return other.active && (!driving || other.target_map); });
+  };
+  const bool others_drive = any_active(true);
   GoalChoice choice;
   std::optional<std::size_t> chosen;
   std::string why = "no goal is left";
-  if (shared) {
+  if (input.patient && any_active(false)) {
     chosen = main_of_closest(goals, nearest_to_self(input, all, goals), input.map_T_base);
     why = "the closest of the goals that no other robot is nearer to";
     if (!chosen) {
       chosen = won(input, all, goals);
       why = chosen ? "its share of the goals that others are nearer to" : "other robots are nearer to what is left";
     }
-    choice.others_busy =
-        !chosen &&
-        (!goals.empty() || std::any_of(input.fleet.others.begin(), input.fleet.others.end(),
-                                       [](const RobotTopology& other) { return other.active && other.target_map; }));
+    choice.others_busy = !chosen && (!goals.empty() || others_drive);
+    choice.others_idle = choice.others_busy && !others_drive;
   } else if (!goals.empty()) {
     chosen = main_of_closest(goals, std::vector<bool>(goals.size(), true), input.map_T_base);
     const bool at_hand = !goals[*chosen].robot && goals[*chosen].node == input.own.current;

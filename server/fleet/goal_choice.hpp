@@ -37,11 +37,13 @@ struct ChoiceInput {
   std::function<bool(const Point2& p_map)> left_out;   ///< goals not to be tried now
   std::function<double(const Point2& p_map)> gain_m2;  ///< unknown floor that a place would show
   AuctionParams auction;
+  bool patient = true;  ///< leaves to others what they are nearer to
 };
 
 struct GoalChoice {
   std::optional<PendingGoal> goal;
   bool others_busy = false;  ///< of no goal: other robots are at what is left
+  bool others_idle = false;  ///< and none of them drives to any of it
   ExploreDecision decision;
 };
 

@@ -112,7 +112,7 @@ void TopologicalStrategy::pass(const Input& input, const Scene& scene, Step& out
   if (before != nullptr && distance_m(before->map_T_base, input.map_T_base) > topological_.map.node_distance_m) {
     const std::size_t nodes = map_.topology().nodes.size();
     note_place(input, scene);
-    if (goal_settled(scene)) {
+    if (settle_goal(scene)) {
       change("the goal at " + text(goal_->p_map) + " has been seen on the way", out);
       return;
     }
@@ -131,7 +131,7 @@ void TopologicalStrategy::pass(const Input& input, const Scene& scene, Step& out
 /// way back a new goal may have come into sight.
 void TopologicalStrategy::reconsider(const Input& input, const Scene& scene, Step& out) {
   map_.settle(scene.fleet.others, scene.corridors);
-  if (goal_settled(scene)) {
+  if (settle_goal(scene)) {
     change("the goal at " + text(goal_->p_map) + " has been seen meanwhile", out);
     return;
   }
@@ -177,7 +177,7 @@ void TopologicalStrategy::arrived(const Input& input, const Scene& scene, Step& 
   } else {
     create_node(input, scene);
   }
-  if (!goal_settled(scene)) {  // as near as the map leads
+  if (!settle_goal(scene)) {  // as near as the map leads
     if (short_of_goal && is_nearer(nearest_on_line(input, scene.floor->cost))) {
       failed(input, "another robot stands in the way");
       return;
@@ -189,6 +189,16 @@ void TopologicalStrategy::arrived(const Input& input, const Scene& scene, Step& 
     }
   }
   change("at the goal", out);
+}
+
+/// A goal of another robot is left out from then on: that robot may never see from its own map that it is settled, and
+/// go on to offer it.
+bool TopologicalStrategy::settle_goal(const Scene& scene) {
+  const bool settled = goal_settled(scene);
+  if (settled && goal_->robot) {
+    done_map_.push_back(goal_->p_map);
+  }
+  return settled;
 }
 
 bool TopologicalStrategy::goal_settled(const Scene& scene) const {

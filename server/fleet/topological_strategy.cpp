@@ -46,7 +46,7 @@ Status validate(const TopologicalParams& params) {
     return fail(Errc::kInvalidArgument, "the distance of nodes and the longest edge must be above 0");
   }
   if (params.max_failures < 1 || params.replan_period_s <= 0.0 || params.retry_s < 0.0 || params.scan_limit_s <= 0.0 ||
-      params.auction.lambda_1_m < 0.0 || params.auction.near_m <= 0.0) {
+      params.patience_s < 0.0 || params.auction.lambda_1_m < 0.0 || params.auction.near_m <= 0.0) {
     return fail(Errc::kInvalidArgument, "failures, periods and the auction's numbers must be above 0");
   }
   return {};
@@ -125,6 +125,11 @@ void TopologicalStrategy::choose(const Input& input, Step& out) {
   }
   map_.settle(scene->fleet.others, scene->corridors);
   GoalChoice choice = choice_of(input, *scene);
+  if (!choice.others_idle) {
+    all_idle_since_.reset();
+  } else if (!all_idle_since_) {
+    all_idle_since_ = input.now;
+  }
   out.decision = std::move(choice.decision);
   if (!choice.goal) {
     wait_or_finish(input, choice, out);
@@ -139,7 +144,12 @@ GoalChoice TopologicalStrategy::choice_of(const Input& input, const Scene& scene
                       [&](const Point2& p_map) {
                         return explore::view_gain(scene.floor->cost, p_map, params_.one_step.sensor).area_m2;
                       },
-                      topological_.auction});
+                      topological_.auction, patient(input.now)});
+}
+
+/// Each robot may leave out what the other waits for it to take: then all would wait for good.
+bool TopologicalStrategy::patient(RobotTime now) const {
+  return !all_idle_since_ || to_seconds(now - *all_idle_since_) < topological_.patience_s;
 }
 
 void TopologicalStrategy::wait_or_finish(const Input& input, const GoalChoice& choice, Step& out) {

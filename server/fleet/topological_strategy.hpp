@@ -22,6 +22,7 @@ struct TopologicalParams {
   double retry_s = 20.0;         ///< after a failed drive other goals are tried first for so long
   double replan_period_s = 2.0;  ///< goals are looked at again this often while driving
   double scan_limit_s = 5.0;     ///< without a scan for longer it gives up
+  double patience_s = 10.0;      ///< waiting for others to take what they are nearer to while none of them drives
 };
 
 /// Refuses values that make no sense.
@@ -86,9 +87,11 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   void look_again(const Input& input, const Scene& scene);
   void create_node(const Input& input, const Scene& scene);
   void note_place(const Input& input, const Scene& scene);
+  [[nodiscard]] bool settle_goal(const Scene& scene);
   [[nodiscard]] bool goal_settled(const Scene& scene) const;
   [[nodiscard]] bool left_out(const Point2& p_map, RobotTime now) const;
   [[nodiscard]] bool resting(RobotTime now) const;
+  [[nodiscard]] bool patient(RobotTime now) const;
 
   explore::ExploreParams params_;
   TopologicalParams topological_;
@@ -99,9 +102,10 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   std::optional<PendingGoal> goal_;
   Point2 aim_map_ = Point2::Zero();  ///< of kGoal: the goal, or the nearest place to it that the map leads to
   std::vector<Failure> failures_;
-  std::vector<Point2> done_map_;  ///< goals of others that were looked at from as near as the map leads
+  std::vector<Point2> done_map_;  ///< goals of others that were settled, or looked at from as near as the map leads
   RobotTime since_;               ///< of the present state
-  RobotTime considered_;          ///< when the goal was last looked at again
+  std::optional<RobotTime> all_idle_since_;  ///< of this robot and those that it waits for
+  RobotTime considered_;                     ///< when the goal was last looked at again
   std::optional<RobotTime> scan_at_;
   std::optional<std::uint64_t> turned_at_;  ///< the node (0: none) where it looked about
   double turned_rad_ = 0.0;

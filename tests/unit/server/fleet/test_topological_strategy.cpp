@@ -144,6 +144,51 @@ TEST(TopologicalStrategy, StaysOutOfTheOtherRoomWhenAnotherRobotIsThere) {
   EXPECT_LT(farthest_x_m[1], 5.5);
 }
 
+TEST(TopologicalStrategy, EndsWhenAnotherRobotGoesOnOfferingAGoalThatItSawTo) {
+  FleetView fleet{"b", {}, nullptr};
+  RobotTopology other;
+  other.robot_id = "a";
+  other.map_T_base = {9.0, 4.0, 0.0};
+  other.active = false;  // it has ended without having been there
+  TopologyNode node;
+  node.id = 1;
+  node.map_T_base = {3.0, 2.0, 0.0};
+  node.goals = {{1, {3.0, 3.5}, 1}};
+  TopologyNode far = node;
+  far.id = 2;
+  far.map_T_base = other.map_T_base;
+  far.goals.clear();
+  other.topology.nodes = {node, far};
+  other.topology.current = far.id;
+  fleet.others = {other};
+  Exploration exploration = exploration_of();
+  ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [&](double, ExploreInput& input) { input.fleet = &fleet; };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("offered goal", run, *exploration.strategy().topology());
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+}
+
+TEST(TopologicalStrategy, TakesAfterAWhileWhatARobotThatStandsIsNearerTo) {
+  FleetView fleet{"b", {}, nullptr};
+  RobotTopology other;
+  other.robot_id = "a";
+  other.map_T_base = {9.0, 4.0, 0.0};
+  other.active = true;
+  fleet.others = {other};
+  Exploration exploration = exploration_of();
+  ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [&](double, ExploreInput& input) { input.fleet = &fleet; };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("idle other", run, *exploration.strategy().topology());
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_GT(run.wall_share, kWallShare);
+}
+
 TEST(TopologicalStrategy, DrivesUpToOneInTheDoorThatMakesWay) {
   Exploration exploration = exploration_of();
   ToyExplorer robot(explore::two_rooms(), {3.3, 2.5, 0.0}, 7, 6.0);
