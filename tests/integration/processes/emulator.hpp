@@ -14,14 +14,17 @@ namespace seeker::testing {
 /// seeker-emulator; by default with two robots in the corridor world.
 class Emulator {
  public:
+  /// `speed`: at most so many seconds of the world in one of life; 0: as fast as the robots are.
   explicit Emulator(const std::filesystem::path& folder = fresh_folder("emulator"),
                     const std::filesystem::path& world = source_file("config/worlds/corridor.yaml"),
-                    const std::filesystem::path& config = source_file("config/robots/sim.yaml"), int robots = 2)
+                    const std::filesystem::path& config = source_file("config/robots/sim.yaml"), int robots = 2,
+                    double speed = 0.0)
       : truth(folder / "truth.csv") {
     const std::filesystem::path port_file = folder / "port";
     process.emplace(program("seeker-emulator"),
                     std::vector<std::string>{"--world", world, "--config", config, "--robots", std::to_string(robots),
-                                             "--lockstep", "--port", "0", "--port-file", port_file, "--truth", truth},
+                                             "--lockstep", "--set", "sim.speed=" + std::to_string(speed), "--port", "0",
+                                             "--port-file", port_file, "--truth", truth},
                     folder / "log");
     const std::optional<std::string> text = wait_for_file(port_file, kStart);
     EXPECT_TRUE(text) << process->output();
