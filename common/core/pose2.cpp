@@ -71,6 +71,17 @@ Matrix3 inverse_jacobian(const Pose2& a) {
   return j;
 }
 
+UncertainPose compose(const UncertainPose& a_T_b, const UncertainPose& b_T_c) {
+  const Matrix3 a = compose_jacobian_a(a_T_b.a_T_b, b_T_c.a_T_b);
+  const Matrix3 b = compose_jacobian_b(a_T_b.a_T_b, b_T_c.a_T_b);
+  return {a_T_b.a_T_b * b_T_c.a_T_b, a * a_T_b.covariance * a.transpose() + b * b_T_c.covariance * b.transpose()};
+}
+
+UncertainPose invert(const UncertainPose& a_T_b) {
+  const Matrix3 j = inverse_jacobian(a_T_b.a_T_b);
+  return {inverse(a_T_b.a_T_b), j * a_T_b.covariance * j.transpose()};
+}
+
 double distance_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 double bearing_to(const Pose2& a_T_b, const Point2& p_a) {

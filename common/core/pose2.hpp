@@ -49,6 +49,18 @@ struct Twist2 {
 /// d((-) a)/da (spec S0.3).
 [[nodiscard]] Matrix3 inverse_jacobian(const Pose2& a);
 
+/// A pose with the covariance of its (x, y, theta), expressed in the frame that the pose is given in.
+struct UncertainPose {
+  Pose2 a_T_b;
+  Matrix3 covariance = Matrix3::Zero();
+
+  friend bool operator==(const UncertainPose&, const UncertainPose&) = default;
+};
+
+/// a_T_b (+) b_T_c with independent errors (spec S0.3, first order).
+[[nodiscard]] UncertainPose compose(const UncertainPose& a_T_b, const UncertainPose& b_T_c);
+[[nodiscard]] UncertainPose invert(const UncertainPose& a_T_b);
+
 [[nodiscard]] double distance_m(const Pose2& a, const Pose2& b);
 /// Bearing of point p_a (in the frame the pose is given in) seen from the pose, wrapped.
 [[nodiscard]] double bearing_to(const Pose2& a_T_b, const Point2& p_a);

@@ -51,7 +51,7 @@ struct JointRobot {
   };
   std::map<std::uint32_t, Node> nodes;  ///< by the robot's own id; not empty
   Pose2 joint_T_map;                    ///< the rigid motion nearest to all of them
-  slam::UncertainPose main_T_first;     ///< its first local map in the frame of the main robot's first one
+  UncertainPose main_T_first;           ///< its first local map in the frame of the main robot's first one
 
   /// A pose in the robot's own frame `map` (of the robot, a goal, a detection), carried by the nearest local map.
   [[nodiscard]] Pose2 to_joint(const Pose2& map_T_x) const;

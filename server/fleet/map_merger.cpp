@@ -12,8 +12,6 @@
 namespace seeker::fleet {
 namespace {
 
-using slam::UncertainPose;
-
 /// Indices of nodes by their ids.
 std::map<std::uint32_t, std::size_t> indices_of(const PreparedMap& map) {
   std::map<std::uint32_t, std::size_t> indices;
@@ -139,9 +137,8 @@ UncertainPose Question::transform_of(const std::vector<NodeRelation>& pairs) con
       points_b.push_back(middle + arm);
       points_a.push_back(a_T_b * points_b.back());
     }
-    const UncertainPose out = slam::compose({node_a(pair).map_T_node, Matrix3::Zero()}, pair.a_T_b);
-    information +=
-        slam::information_of(slam::compose(out, {inverse(node_b(pair).map_T_node), Matrix3::Zero()}).covariance);
+    const UncertainPose out = compose({node_a(pair).map_T_node, Matrix3::Zero()}, pair.a_T_b);
+    information += slam::information_of(compose(out, {inverse(node_b(pair).map_T_node), Matrix3::Zero()}).covariance);
   }
   return {rigid_fit(points_a, points_b), information.inverse()};
 }

@@ -32,7 +32,7 @@ struct RejectedPair {
 
 /// One way to lay map b upon map a, with what speaks for it.
 struct MergeHypothesis {
-  slam::UncertainPose a_T_b;                ///< pose of the frame `map` of robot b in that of robot a
+  UncertainPose a_T_b;                      ///< pose of the frame `map` of robot b in that of robot a
   Point2 shared_middle_b = Point2::Zero();  ///< about where both have been, in the frame `map` of robot b
   std::vector<NodeRelation> pairs;  ///< local maps of both that show the same place, all consistent with each other
   double shared_wall_m = 0.0;       ///< length of wall that both have seen

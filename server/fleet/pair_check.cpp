@@ -49,7 +49,7 @@ std::size_t nearest_member(const PreparedMap& a, const PreparedRegion& region, c
 NodeRelation reversed(const NodeRelation& relation) {
   NodeRelation back = relation;
   std::swap(back.node_a, back.node_b);
-  back.a_T_b = slam::invert(relation.a_T_b);
+  back.a_T_b = invert(relation.a_T_b);
   return back;
 }
 
@@ -132,8 +132,8 @@ std::string_view PairCheck::examine(PreparedMap& a, std::size_t region, const Qu
   relation.node_a = a.nodes()[node_a].id;
   relation.node_b = query.node.id;
   relation.a_T_b =
-      slam::compose({a_T_region * pose, slam::with_floor(covariance, params_.sigma_floor_m, params_.sigma_floor_rad)},
-                    {inverse(query.node_T_base), Matrix3::Zero()});
+      compose({a_T_region * pose, slam::with_floor(covariance, params_.sigma_floor_m, params_.sigma_floor_rad)},
+              {inverse(query.node_T_base), Matrix3::Zero()});
   if (relation.overlap < params_.min_overlap) {
     return "too little of the node was seen in the region";
   }

@@ -18,11 +18,11 @@ namespace seeker::fleet {
 struct NodeRelation {
   std::uint32_t node_a = 0;  ///< ids
   std::uint32_t node_b = 0;
-  slam::UncertainPose a_T_b;  ///< pose of the frame of node b in that of node a
-  double overlap = 0.0;       ///< share of the points of b that lie where a has looked, 0 to 1
-  double consistency = 0.0;   ///< of those, the share that lies on surfaces of a
-  double similarity = 0.0;    ///< spec S4.7, eq (7)
-  double residual_m = 0.0;    ///< root mean square distance of the inliers
+  UncertainPose a_T_b;       ///< pose of the frame of node b in that of node a
+  double overlap = 0.0;      ///< share of the points of b that lie where a has looked, 0 to 1
+  double consistency = 0.0;  ///< of those, the share that lies on surfaces of a
+  double similarity = 0.0;   ///< spec S4.7, eq (7)
+  double residual_m = 0.0;   ///< root mean square distance of the inliers
 };
 
 /// The same seen from the other robot.

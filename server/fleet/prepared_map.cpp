@@ -259,7 +259,7 @@ std::optional<std::size_t> PreparedMap::region_at(const Point2& p_map) const {
   return best;
 }
 
-slam::UncertainPose PreparedMap::between(std::size_t from, std::size_t to) {
+UncertainPose PreparedMap::between(std::size_t from, std::size_t to) {
   constexpr double kUnknown_m2 = 100.0;
   const PreparedNode& a = nodes_.at(from);
   const PreparedNode& b = nodes_.at(to);

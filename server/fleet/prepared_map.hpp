@@ -70,7 +70,7 @@ class PreparedMap {
   /// Regions with places like those of the node, most alike first.
   [[nodiscard]] std::vector<std::size_t> regions_like(const PreparedNode& other, std::size_t at_most) const;
   /// The pose of a node in the frame of another of this map, by indices, with what the map believes it is off.
-  [[nodiscard]] slam::UncertainPose between(std::size_t from, std::size_t to);
+  [[nodiscard]] UncertainPose between(std::size_t from, std::size_t to);
 
  private:
   void prepare_nodes();

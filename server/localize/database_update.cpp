@@ -108,13 +108,18 @@ void DatabaseUpdate::tally(const LandmarkDatabase& database, const Sighting& sig
 }
 
 bool DatabaseUpdate::observe(const LandmarkDatabase& database, const Sighting& sighting, const LocaliserStep& step) {
+  if (step.relocalised) {
+    last_T_eye_.reset();  // it may have been carried
+  } else if (last_T_eye_) {
+    last_T_eye_ = compose(*last_T_eye_, step.last_T_eye);
+  }
   if (step.quality != LocalisationQuality::kLocalised || !step.corrected || !moved(sighting.map_T_eye)) {
     return false;
   }
   if (!check_pose(sighting)) {
     return false;
   }
-  recent_.push_back({sighting, step.inliers});
+  recent_.push_back({sighting, step.inliers, std::exchange(last_T_eye_, UncertainPose{})});
   if (recent_.size() >= kMostFrames && !learn(database, std::exchange(recent_, {}), dynamic_)) {
     return false;
   }
@@ -155,6 +160,7 @@ Status DatabaseUpdate::learn(const LandmarkDatabase& database, std::vector<Frame
                              SurveyBuilder& dynamic) const {
   std::vector<Sighting> sightings;
   std::vector<KnownSight> known;
+  std::vector<SightingsApart> apart;
   const double loosened = params_.database.adjustment.on ? kFramesOfALandmark : 1.0;
   for (Frame& frame : frames) {
     for (const FrameMatch& match : frame.matches) {
@@ -162,11 +168,14 @@ Status DatabaseUpdate::learn(const LandmarkDatabase& database, std::vector<Frame
         known.push_back({sightings.size(), match.feature, landmark});
       }
     }
+    if (frame.last_T_eye && !sightings.empty()) {
+      apart.push_back({sightings.size() - 1, sightings.size(), *frame.last_T_eye});
+    }
     sightings.push_back(std::move(frame.sighting));
     // Poses that lean on the same landmarks know no more together than one of them does.
     sightings.back().pose_covariance *= loosened;
   }
-  if (const auto adjusted = adjust_poses(geometry_, params_.database, sightings, known); !adjusted) {
+  if (const auto adjusted = adjust_poses(geometry_, params_.database, sightings, known, apart); !adjusted) {
     return tl::unexpected(adjusted.error());
   }
   const double most_m = params_.max_teaching_sigma_m;
@@ -262,6 +271,7 @@ void DatabaseUpdate::clear() {
   recent_.clear();
   tallies_.clear();
   last_eye_.reset();
+  last_T_eye_.reset();
   frames_ = 0;
 }
 

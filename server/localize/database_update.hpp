@@ -88,10 +88,11 @@ class DatabaseUpdate {
     double log_odds = 0.0;
   };
 
-  /// A frame, and what it showed of the database.
+  /// A frame, what it showed of the database, and how far the eye is from the frame taken before.
   struct Frame {
     Sighting sighting;
     std::vector<FrameMatch> matches;
+    std::optional<UncertainPose> last_T_eye;
   };
 
   [[nodiscard]] bool moved(const Pose2& map_T_eye) const;
@@ -109,6 +110,7 @@ class DatabaseUpdate {
   std::vector<Frame> recent_;  ///< the drive's last part, not in `dynamic_` yet
   std::unordered_map<LandmarkId, Tally> tallies_;
   std::optional<Pose2> last_eye_;
+  std::optional<UncertainPose> last_T_eye_;  ///< since the last frame taken; nothing after a leap
   int frames_ = 0;
 };
 

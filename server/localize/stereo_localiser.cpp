@@ -43,6 +43,7 @@ struct StereoLocaliser::State {
   Confidence confidence;
   EyeBelief belief;
   bool somewhere = false;                       ///< the belief means something: LOCALISED, DEGRADED or just LOST
+  EyeBelief moved;                              ///< by odometry since the last frame, in the frame of the eye then
   std::optional<EyeBelief> found;               ///< by relocalisation, to be confirmed by the next frame
   std::unordered_map<LandmarkId, int> repeats;  ///< updates that each landmark took part in
   LocaliserStep step;
@@ -248,6 +249,7 @@ void StereoLocaliser::start_anywhere() {
 void StereoLocaliser::predict(const Twist2& velocity, double tau_s) {
   State& s = *state_;
   const bool exact = s.params.mode == FilterMode::kJoint;
+  localize::predict(s.moved, velocity, tau_s, s.params.arm, s.params.motion, exact);
   if (s.somewhere) {
     localize::predict(s.belief, velocity, tau_s, s.params.arm, s.params.motion, exact);
   }
@@ -261,6 +263,8 @@ const LocaliserStep& StereoLocaliser::update(std::span<const vision::StereoFeatu
   const LocalisationQuality before = s.step.quality;
   s.step = {};
   s.step.quality = before;
+  s.step.last_T_eye = {s.moved.map_T_eye, s.moved.pose_covariance()};
+  s.moved = {};
   const std::vector<EyeFeature> lifted = lift(s.geometry, features, s.params);
   s.step.features = static_cast<int>(features.size());
   s.step.in_range = static_cast<int>(lifted.size());

@@ -37,6 +37,7 @@ struct LocaliserStep {
   double nis = 0.0;                  ///< sum of squared innovations, 2 degrees of freedom an inlier
   bool corrected = false;
   bool relocalised = false;  ///< the pose was found anew with this frame
+  UncertainPose last_T_eye;  ///< the eye seen from where it was at the frame before, by odometry alone
 };
 
 /// Not for two threads at once. Time and chance are arguments; the database is only read.

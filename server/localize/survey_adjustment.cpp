@@ -26,6 +26,12 @@ using Track = std::vector<Observation>;
 
 using Block = Eigen::Matrix<double, 2, 3>;
 constexpr double kLeastDisparity_px = 1.0;
+/// A pose told without any doubt stays where it is, to a tenth of a millimetre.
+constexpr double kLeastVariance = 1e-8;
+
+Eigen::Vector3d offset_of(const Pose2& from, const Pose2& to) {
+  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.theta_rad - from.theta_rad)};
+}
 
 /// Observations of one point at the present poses: where each puts it, what each is worth, how the poses move it.
 struct Linearised {
@@ -40,8 +46,18 @@ struct Linearised {
 class Adjustment {
  public:
   Adjustment(const StereoGeometry& geometry, const DatabaseParams& params, const std::vector<Sighting>& sightings,
-             std::span<const KnownSight> known)
-      : geometry_(geometry), params_(params), measured_(sightings), known_(known), adjusted_(sightings) {}
+             std::span<const KnownSight> known, std::span<const SightingsApart> apart)
+      : geometry_(geometry),
+        params_(params),
+        measured_(sightings),
+        known_(known),
+        apart_(apart),
+        adjusted_(sightings),
+        led_to_(sightings.size(), false) {
+    for (const SightingsApart& way : apart_) {
+      led_to_[way.to] = true;
+    }
+  }
 
   Status run(AdjustmentReport& report);
   /// With the disparities' common error taken out.
@@ -51,6 +67,7 @@ class Adjustment {
   Status find_tracks();
   [[nodiscard]] Linearised linearise(const Track& track) const;
   void add_priors();
+  void add(const SightingsApart& way);
   void add(const Track& track);
   void move();
   [[nodiscard]] double rms_m() const;
@@ -61,7 +78,9 @@ class Adjustment {
   const DatabaseParams& params_;
   const std::vector<Sighting>& measured_;
   std::span<const KnownSight> known_;
+  std::span<const SightingsApart> apart_;
   std::vector<Sighting> adjusted_;
+  std::vector<bool> led_to_;  ///< sightings that one of `apart_` leads to
   std::vector<Track> tracks_;
   double offset_px_ = 0.0;       ///< that all disparities have too much
   Eigen::MatrixXd information_;  ///< of all poses, x, y, theta each, then of the offset
@@ -154,19 +173,37 @@ Linearised Adjustment::linearise(const Track& track) const {
 }
 
 void Adjustment::add_priors() {
-  // A pose told without any doubt stays where it is, to a tenth of a millimetre.
-  constexpr double kLeastVariance = 1e-8;
   for (std::size_t s = 0; s < measured_.size(); ++s) {
+    if (led_to_[s]) {
+      continue;
+    }
     const Pose2& from = measured_[s].map_T_eye;
     const Pose2& now = adjusted_[s].map_T_eye;
-    const Eigen::Vector3d moved(now.x_m - from.x_m, now.y_m - from.y_m, wrap_angle(now.theta_rad - from.theta_rad));
     const Matrix3 weight = (measured_[s].pose_covariance + kLeastVariance * Matrix3::Identity()).inverse();
     information_.block<3, 3>(row_of(s), row_of(s)) += weight;
-    gradient_.segment<3>(row_of(s)) += weight * moved;
+    gradient_.segment<3>(row_of(s)) += weight * offset_of(from, now);
   }
   const double weight = std::pow(params_.adjustment.offset_sigma_px, -2);
   information_(offset_row(), offset_row()) += weight;
   gradient_(offset_row()) += weight * offset_px_;
+}
+
+void Adjustment::add(const SightingsApart& way) {
+  const Pose2& a = adjusted_[way.from].map_T_eye;
+  const Pose2& b = adjusted_[way.to].map_T_eye;
+  const Matrix3 by_a = compose_jacobian_a(inverse(a), b) * inverse_jacobian(a);
+  const Matrix3 by_b = compose_jacobian_b(inverse(a), b);
+  const Eigen::Vector3d off = offset_of(way.from_T_to.a_T_b, inverse(a) * b);
+  const Matrix3 weight = (way.from_T_to.covariance + kLeastVariance * Matrix3::Identity()).inverse();
+  const Eigen::Index row_a = row_of(way.from);
+  const Eigen::Index row_b = row_of(way.to);
+  gradient_.segment<3>(row_a) += by_a.transpose() * weight * off;
+  gradient_.segment<3>(row_b) += by_b.transpose() * weight * off;
+  information_.block<3, 3>(row_a, row_a) += by_a.transpose() * weight * by_a;
+  information_.block<3, 3>(row_b, row_b) += by_b.transpose() * weight * by_b;
+  const Matrix3 between = by_a.transpose() * weight * by_b;
+  information_.block<3, 3>(row_a, row_b) += between;
+  information_.block<3, 3>(row_b, row_a) += between.transpose();
 }
 
 /// The normal equations of one point after its own place has been eliminated.
@@ -245,6 +282,9 @@ Status Adjustment::run(AdjustmentReport& report) {
       information_ = Eigen::MatrixXd::Zero(size, size);
       gradient_ = Eigen::VectorXd::Zero(size);
       add_priors();
+      for (const SightingsApart& way : apart_) {
+        add(way);
+      }
       for (const Track& track : tracks_) {
         add(track);
       }
@@ -272,12 +312,13 @@ std::vector<Sighting> Adjustment::take() {
 }  // namespace
 
 Result<AdjustmentReport> adjust_poses(const StereoGeometry& geometry, const DatabaseParams& params,
-                                      std::vector<Sighting>& sightings, std::span<const KnownSight> known) {
+                                      std::vector<Sighting>& sightings, std::span<const KnownSight> known,
+                                      std::span<const SightingsApart> apart) {
   AdjustmentReport report;
   if (!params.adjustment.on) {
     return report;
   }
-  Adjustment adjustment(geometry, params, sightings, known);
+  Adjustment adjustment(geometry, params, sightings, known, apart);
   if (const Status ok = adjustment.run(report); !ok) {
     return tl::unexpected(ok.error());
   }

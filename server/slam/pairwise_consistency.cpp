@@ -139,17 +139,6 @@ std::size_t rival_size(const Agreement& agreement, const Members& members, std::
 
 }  // namespace
 
-UncertainPose compose(const UncertainPose& a_T_b, const UncertainPose& b_T_c) {
-  const Matrix3 a = compose_jacobian_a(a_T_b.a_T_b, b_T_c.a_T_b);
-  const Matrix3 b = compose_jacobian_b(a_T_b.a_T_b, b_T_c.a_T_b);
-  return {a_T_b.a_T_b * b_T_c.a_T_b, a * a_T_b.covariance * a.transpose() + b * b_T_c.covariance * b.transpose()};
-}
-
-UncertainPose invert(const UncertainPose& a_T_b) {
-  const Matrix3 j = inverse_jacobian(a_T_b.a_T_b);
-  return {inverse(a_T_b.a_T_b), j * a_T_b.covariance * j.transpose()};
-}
-
 OdometryChain::OdometryChain(const std::vector<UncertainPose>& previous_T_next) : from_start_(1) {
   from_start_.reserve(previous_T_next.size() + 1);
   for (const UncertainPose& step : previous_T_next) {

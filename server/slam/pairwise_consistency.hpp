@@ -9,16 +9,6 @@
 
 namespace seeker::slam {
 
-/// A pose with the covariance of its (x, y, theta), expressed in the frame that the pose is given in.
-struct UncertainPose {
-  Pose2 a_T_b;
-  Matrix3 covariance = Matrix3::Zero();
-};
-
-/// a_T_b (+) b_T_c with independent errors (spec S0.3, first order).
-[[nodiscard]] UncertainPose compose(const UncertainPose& a_T_b, const UncertainPose& b_T_c);
-[[nodiscard]] UncertainPose invert(const UncertainPose& a_T_b);
-
 /// Odometry between consecutive nodes of one trajectory: the pose of any node in the frame of any other in O(1).
 class OdometryChain {
  public:

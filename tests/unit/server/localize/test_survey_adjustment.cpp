@@ -133,5 +133,20 @@ TEST(SurveyAdjustment, RefusesAPoseThatIsNone) {
   EXPECT_EQ(sightings[7].map_T_eye, before) << "nothing is changed";
 }
 
+TEST(SurveyAdjustment, OdometryHoldsSightingsThatShareNothing) {
+  const std::vector<Pose2> truth = testing::survey_truth();
+  std::vector<Sighting> all = rough_survey(5);
+  std::vector<Sighting> opposite = {all[0], all[6]};  // back to back
+  opposite[0].map_T_eye = truth[0];
+  opposite[0].pose_covariance.setZero();
+  const Matrix3 little = Eigen::Vector3d(1e-6, 1e-6, 1e-6).asDiagonal();
+  const SightingsApart turn{0, 1, {inverse(truth[0]) * truth[6], little}};
+  ASSERT_TRUE(adjust_poses(kEyes, {}, opposite, {}, {&turn, 1}));
+  EXPECT_LT(distance_m(opposite[1].map_T_eye, truth[6]), 0.001);
+  EXPECT_LT(std::abs(wrap_angle(opposite[1].map_T_eye.theta_rad - truth[6].theta_rad)), 0.001);
+  EXPECT_LT(opposite[1].pose_covariance.trace(), 4e-6) << "no more certain than the odometry, and no less";
+  EXPECT_GT(opposite[1].pose_covariance.trace(), 2e-6);
+}
+
 }  // namespace
 }  // namespace seeker::localize
