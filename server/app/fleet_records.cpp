@@ -13,7 +13,7 @@ constexpr std::size_t kMaxHypotheses = 64;
 constexpr std::size_t kMaxRelations = 1024;
 constexpr int kVerdicts = static_cast<int>(fleet::MergeVerdict::kMerged) + 1;
 
-void write_pose(const slam::UncertainPose& from, v1::KeptPose* to) {
+void write_pose(const UncertainPose& from, v1::KeptPose* to) {
   wire::write(from.a_T_b, to->mutable_a_t_b());
   for (int row = 0; row < kCovarianceRows; ++row) {
     for (int column = 0; column < kCovarianceRows; ++column) {
@@ -22,7 +22,7 @@ void write_pose(const slam::UncertainPose& from, v1::KeptPose* to) {
   }
 }
 
-void read_pose(const v1::KeptPose& from, slam::UncertainPose& to, wire::Check& check) {
+void read_pose(const v1::KeptPose& from, UncertainPose& to, wire::Check& check) {
   wire::read(from.a_t_b(), to.a_T_b, check);
   if (from.covariance_size() != kCovarianceRows * kCovarianceRows) {
     check.refuse("covariance", Errc::kInvalidArgument, "does not have 9 numbers");

@@ -98,6 +98,10 @@ std::optional<UncertainPoint> triangulate_within(const StereoGeometry& geometry,
   return eye && range_m >= limits.min_m && range_m <= limits.max_m ? eye : std::nullopt;
 }
 
+double scale_of(const StereoGeometry& geometry, const vision::StereoFeature& feature, const UncertainPoint& p_eye) {
+  return feature.left.scale_px * p_eye.p.x() / geometry.focal_px;
+}
+
 std::vector<SeenPoint> see(const StereoGeometry& geometry, const Sighting& sighting, const PixelNoise& noise,
                            const RangeLimits& limits) {
   std::vector<SeenPoint> points;
@@ -116,7 +120,7 @@ std::vector<SeenPoint> see(const StereoGeometry& geometry, const Sighting& sight
                            by_pose * sighting.pose_covariance * by_pose.transpose();
     const Point3 eye_map(sighting.map_T_eye.x_m, sighting.map_T_eye.y_m, sighting.eye_height_m);
     point.to_eye = (eye_map - point.map.p).normalized();
-    point.scale_m = feature.left.scale_px * eye->p.x() / geometry.focal_px;
+    point.scale_m = scale_of(geometry, feature, *eye);
     point.range_m = eye->p.head<2>().norm();
     points.push_back(point);
   }

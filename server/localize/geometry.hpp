@@ -89,6 +89,10 @@ struct RangeLimits {
                                                                const vision::StereoFeature& feature,
                                                                const PixelNoise& noise, const RangeLimits& limits);
 
+/// Sigma of a feature's blur at its distance, in m.
+[[nodiscard]] double scale_of(const StereoGeometry& geometry, const vision::StereoFeature& feature,
+                              const UncertainPoint& p_eye);
+
 /// Features outside the limits are left out.
 [[nodiscard]] std::vector<SeenPoint> see(const StereoGeometry& geometry, const Sighting& sighting,
                                          const PixelNoise& noise, const RangeLimits& limits);

@@ -22,7 +22,8 @@ std::vector<EyeFeature> lift(const StereoGeometry& geometry, std::span<const vis
   lifted.reserve(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (const auto eye = triangulate_within(geometry, features[i], params.noise, params.range)) {
-      lifted.push_back({i, *eye, measure(*eye, features[i].disparity_px, params.measurement)});
+      lifted.push_back({i, *eye, measure(*eye, features[i].disparity_px, params.measurement),
+                        scale_of(geometry, features[i], *eye)});
     }
   }
   return lifted;
@@ -33,6 +34,10 @@ bool heights_agree(const EyeFeature& feature, const LandmarkMap& map, std::size_
   const double difference_m = feature.eye.p.z() + params.eye_height_m - map.at(landmark).p_map.z();
   const double sigma_m = std::sqrt(feature.eye.covariance(2, 2) + map.covariances[landmark](2, 2));
   return std::abs(difference_m) <= tolerance_m + params.tracking.window_sigmas * sigma_m;
+}
+
+bool scales_agree(const EyeFeature& feature, const Landmark& landmark, double ratio) {
+  return feature.scale_m <= ratio * landmark.scale_m && landmark.scale_m <= ratio * feature.scale_m;
 }
 
 RangeBearing with_landmark(const EyeFeature& feature, const LandmarkMap& map, std::size_t landmark, double repeats,

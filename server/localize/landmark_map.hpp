@@ -24,7 +24,8 @@ struct LandmarkMap {
 struct EyeFeature {
   std::size_t feature = 0;  ///< its index in the frame
   UncertainPoint eye;
-  RangeBearing seen;  ///< without a landmark yet
+  RangeBearing seen;     ///< without a landmark yet
+  double scale_m = 0.0;  ///< sigma of its blur at its distance
 };
 
 /// Features outside the range limits are left out.
@@ -35,6 +36,9 @@ struct EyeFeature {
 /// Whether feature and landmark stand at the same height, as far as both are known and within `tolerance_m`.
 [[nodiscard]] bool heights_agree(const EyeFeature& feature, const LandmarkMap& map, std::size_t landmark,
                                  double tolerance_m, const LocaliserParams& params);
+
+/// Whether feature and landmark are of one scale, each at most `ratio` times as large as the other.
+[[nodiscard]] bool scales_agree(const EyeFeature& feature, const Landmark& landmark, double ratio);
 
 /// The measurement of a feature taken for a landmark, whose covariance is counted `repeats` times.
 [[nodiscard]] RangeBearing with_landmark(const EyeFeature& feature, const LandmarkMap& map, std::size_t landmark,

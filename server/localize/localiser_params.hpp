@@ -34,21 +34,29 @@ struct TrackingParams {
 
 /// Finding the place without knowing where to look.
 struct RelocaliseParams {
-  double max_distance = 0.55;  ///< of descriptors
-  double ambiguity = 1.3;      ///< the second best landmark of a feature counts too, up to so many times the distance
-  int attempts = 6000;         ///< pairs of matches tried
+  double max_distance = 0.45;    ///< of descriptors
+  double ambiguity = 1.3;        ///< the second best landmark of a feature counts too, up to so many times the distance
+  double max_scale_ratio = 1.5;  ///< between feature and landmark, either way
+  int attempts = 6000;           ///< pairs of matches tried
   double min_separation_m = 0.3;  ///< of the two points of such a pair
   double gate_chi2 = 9.210;
   double height_tolerance_m = 0.10;
-  int min_inliers = 15;
-  int min_cells = 6;  ///< of the picture's, with an inlier
+  int min_inliers = 8;
+  /// Sum over the inliers of 1 - distance / max_distance. In rooms never surveyed up to 22 matches agreed by chance,
+  /// but were hardly alike: 5.0 at most in 1000 views (`reproduce s2`).
+  double min_likeness = 5.5;
+  /// Or so many, and beside them a share of all matches: where most of what can agree does, it need not be alike (Brown
+  /// and Lowe, Automatic Panoramic Image Stitching, 2007, eq 13).
+  int many_inliers = 12;
+  double many_share = 0.3;
+  int min_cells = 4;  ///< of the picture's, with an inlier
   int cell_columns = 8;
   int cell_rows = 6;
   double min_lead = 1.5;                ///< inliers of the best place over those of the next one
   double rival_m = 0.5;                 ///< farther apart than this, or
   double rival_rad = deg_to_rad(10.0);  ///< turned by more, places are different
   double max_sigma_m = 0.25;  ///< a place less certain than this is none, nor one that is without any one match
-  double confirm_m = 0.3;     ///< the second frame must agree with the first within
+  double confirm_m = 0.3;     ///< of a second frame that finds the place by itself: it must agree with the first within
   double confirm_rad = deg_to_rad(4.0);
 
   friend bool operator==(const RelocaliseParams&, const RelocaliseParams&) = default;

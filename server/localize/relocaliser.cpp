@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -56,6 +57,7 @@ class Search {
   }
   [[nodiscard]] int rival_of(const Pose2& best, Rng& rng) const;
   [[nodiscard]] int cells_of(const std::vector<Pairing>& inliers) const;
+  [[nodiscard]] double likeness_of(const std::vector<Pairing>& inliers) const;
   void judge(RelocaliseAnswer& answer) const;
 
   const StereoGeometry& geometry_;
@@ -94,12 +96,13 @@ void Search::find_voters() {
   }
 }
 
-/// Unless the heights, which both know, speak against it.
+/// Unless heights or scales, which both know, speak against it.
 void Search::add_voter(const Pairing& pair) {
   const EyeFeature& feature = lifted_[pair.point];
   const Matrix3& own = map_.covariances[pair.landmark];
   const Point3& p_map = map_.at(pair.landmark).p_map;
-  if (!heights_agree(feature, map_, pair.landmark, params_.relocalise.height_tolerance_m, params_)) {
+  if (!heights_agree(feature, map_, pair.landmark, params_.relocalise.height_tolerance_m, params_) ||
+      !scales_agree(feature, map_.at(pair.landmark), params_.relocalise.max_scale_ratio)) {
     return;
   }
   const double floor_m2 = params_.measurement.range_floor_m * params_.measurement.range_floor_m;
@@ -264,10 +267,17 @@ int Search::cells_of(const std::vector<Pairing>& inliers) const {
   return static_cast<int>(cells.size());
 }
 
+double Search::likeness_of(const std::vector<Pairing>& inliers) const {
+  return std::accumulate(inliers.begin(), inliers.end(), 0.0, [this](double sum, const Pairing& pair) {
+    return sum + 1.0 - pair.distance / params_.relocalise.max_distance;
+  });
+}
+
 void Search::judge(RelocaliseAnswer& answer) const {
   const RelocaliseParams& p = params_.relocalise;
   const auto found = static_cast<int>(answer.inliers.size());
   const std::string figures = std::to_string(found) + " of " + std::to_string(answer.candidates) + " matches agree";
+  const double many = p.many_inliers + p.many_share * answer.candidates;
   const Matrix2 place = answer.belief.covariance.topLeftCorner<2, 2>();
   const double sigma_m = largest_sigma(place);
   if (found < p.min_inliers) {
@@ -277,6 +287,10 @@ void Search::judge(RelocaliseAnswer& answer) const {
     answer.verdict = RelocaliseVerdict::kAmbiguous;
     answer.reason = figures + ", " + std::to_string(answer.rival_inliers) +
                     " on another place; drive on until something tells the places apart";
+  } else if (answer.likeness < p.min_likeness && found < many) {
+    answer.verdict = RelocaliseVerdict::kNothing;
+    answer.reason = figures + ", but are hardly alike (" + std::to_string(answer.likeness) + ", " +
+                    std::to_string(p.min_likeness) + " is needed); turn the robot or drive on";
   } else if (answer.cells < p.min_cells || sigma_m > p.max_sigma_m) {
     answer.verdict = RelocaliseVerdict::kVague;
     answer.reason = figures + ", but in " + std::to_string(answer.cells) + " parts of the picture, sigma " +
@@ -303,6 +317,7 @@ RelocaliseAnswer Search::run(Rng& rng) {
   }
   answer.belief = refine(places.front().map_T_eye);
   answer.inliers = inliers_at(answer.belief.map_T_eye);
+  answer.likeness = likeness_of(answer.inliers);
   answer.cells = cells_of(answer.inliers);
   answer.rival_inliers = rival_of(answer.belief.map_T_eye, rng);
   judge(answer);

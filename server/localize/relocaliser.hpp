@@ -25,6 +25,7 @@ struct RelocaliseAnswer {
   EyeBelief belief;              ///< best place; only to be used where kFound
   std::vector<Pairing> inliers;  ///< points are indices of the lifted features
   int candidates = 0;            ///< matches that were voted on
+  double likeness = 0.0;         ///< of the inliers, RelocaliseParams::min_likeness
   int cells = 0;                 ///< of the picture, with an inlier
   int rival_inliers = 0;         ///< of the best other place
 };

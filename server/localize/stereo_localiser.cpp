@@ -44,7 +44,7 @@ struct StereoLocaliser::State {
   EyeBelief belief;
   bool somewhere = false;                       ///< the belief means something: LOCALISED, DEGRADED or just LOST
   EyeBelief moved;                              ///< by odometry since the last frame, in the frame of the eye then
-  std::optional<EyeBelief> found;               ///< by relocalisation, to be confirmed by the next frame
+  std::optional<EyeBelief> found;               ///< by relocalisation, to be confirmed by another frame
   std::unordered_map<LandmarkId, int> repeats;  ///< updates that each landmark took part in
   LocaliserStep step;
 
@@ -62,6 +62,8 @@ struct StereoLocaliser::State {
                                                 std::span<const EyeFeature> lifted,
                                                 std::span<const ExpectedLandmark> expected) const;
   void correct(std::span<const Pairing> pairs, std::span<const EyeFeature> lifted);
+  void look(std::span<const vision::StereoFeature> features, std::span<const EyeFeature> lifted);
+  [[nodiscard]] bool confirm(std::span<const vision::StereoFeature> features, std::span<const EyeFeature> lifted);
   void search(std::span<const vision::StereoFeature> features, std::span<const EyeFeature> lifted, Rng& rng);
   void judge(const FrameEvidence& frame);
   void report_quality();
@@ -139,8 +141,8 @@ void StereoLocaliser::State::correct(std::span<const Pairing> pairs, std::span<c
   }
 }
 
-void StereoLocaliser::State::track(std::span<const vision::StereoFeature> features,
-                                   std::span<const EyeFeature> lifted) {
+/// What should show, what does, and the belief corrected with it.
+void StereoLocaliser::State::look(std::span<const vision::StereoFeature> features, std::span<const EyeFeature> lifted) {
   belief.covariance(3, 3) += params.disparity_offset_walk_px * params.disparity_offset_walk_px;
   const auto expected = expected_landmarks(geometry, map, belief, params);
   for (const ExpectedLandmark& one : expected) {
@@ -149,15 +151,59 @@ void StereoLocaliser::State::track(std::span<const vision::StereoFeature> featur
   const std::vector<Pairing> pairs = candidates(features, lifted, expected);
   step.matched = static_cast<int>(pairs.size());
   correct(pairs, lifted);
-  judge({true, {}, step.in_range, static_cast<int>(expected.size()), static_cast<int>(step.inliers.size()), step.nis});
+}
+
+void StereoLocaliser::State::track(std::span<const vision::StereoFeature> features,
+                                   std::span<const EyeFeature> lifted) {
+  look(features, lifted);
+  judge({true,
+         {},
+         step.in_range,
+         static_cast<int>(step.expected.size()),
+         static_cast<int>(step.inliers.size()),
+         step.nis});
+}
+
+/// Whether the frame shows what it should from the place that an earlier one found: that asks for much less than to
+/// find it once more. A frame that shows plenty, and not that, speaks against the place; one that shows little says
+/// nothing.
+bool StereoLocaliser::State::confirm(std::span<const vision::StereoFeature> features,
+                                     std::span<const EyeFeature> lifted) {
+  const EyeBelief aside = std::exchange(belief, *found);
+  const auto repeats_aside = std::exchange(repeats, {});
+  look(features, lifted);
+  const auto seen = static_cast<int>(step.inliers.size());
+  if (step.corrected && seen >= params.confidence.min_inliers) {
+    begin(EyeBelief(belief));
+    step.relocalised = true;
+    judge({true, {}, step.in_range, 0, seen, step.nis});
+    return true;
+  }
+  const int plenty = params.confidence.plenty;
+  if (step.in_range >= plenty && static_cast<int>(step.expected.size()) >= plenty) {
+    found.reset();
+  }
+  belief = aside;
+  repeats = repeats_aside;
+  step.inliers.clear();
+  step.expected.clear();
+  step.matched = 0;
+  step.nis = 0.0;
+  step.corrected = false;
+  return false;
 }
 
 /// Asks the whole database; a place that two frames agree on is where the robot is.
 void StereoLocaliser::State::search(std::span<const vision::StereoFeature> features, std::span<const EyeFeature> lifted,
                                     Rng& rng) {
+  if (found && largest_sigma(found->covariance.topLeftCorner<2, 2>()) > params.confidence.lost_sigma_m) {
+    found.reset();
+  }
+  if (found && confirm(features, lifted)) {
+    return;
+  }
   const RelocaliseAnswer answer = relocalise(geometry, map, features, lifted, params, rng);
   if (answer.verdict != RelocaliseVerdict::kFound) {
-    found.reset();
     step.cause = step.cause.empty() ? answer.reason : step.cause + "; " + answer.reason;
     return;
   }
@@ -167,7 +213,7 @@ void StereoLocaliser::State::search(std::span<const vision::StereoFeature> featu
       std::abs(wrap_angle(found->map_T_eye.theta_rad - now.theta_rad)) <= params.relocalise.confirm_rad;
   if (!confirmed) {
     found = answer.belief;
-    step.cause = "a place was found, the next frame must confirm it";
+    step.cause = "a place was found, another frame must confirm it";
     return;
   }
   begin(answer.belief);

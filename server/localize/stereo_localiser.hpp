@@ -57,7 +57,7 @@ class StereoLocaliser {
 
   /// The pose is known: LOCALISED until frames say otherwise. kInvalidArgument: not finite, or no covariance.
   [[nodiscard]] Status start_at(const Pose2& map_T_base, const Matrix3& covariance);
-  /// The pose is not known: UNKNOWN until a place is found and a second frame confirms it.
+  /// The pose is not known: UNKNOWN until a place is found and another frame confirms it.
   void start_anywhere();
 
   /// Motion of the base over `tau_s` seconds, by its encoders (spec S2.8).

@@ -278,7 +278,7 @@ Status Adjustment::run(AdjustmentReport& report) {
     if (round == 0) {
       report.rms_before_m = rms_m();
     }
-    for (int i = 0; i < params_.adjustment.iterations && !tracks_.empty(); ++i) {
+    for (int i = 0; i < params_.adjustment.iterations && !(tracks_.empty() && apart_.empty()); ++i) {
       information_ = Eigen::MatrixXd::Zero(size, size);
       gradient_ = Eigen::VectorXd::Zero(size);
       add_priors();

@@ -141,11 +141,15 @@ void describe(config::Fields& f, TrackingParams& params) {
 void describe(config::Fields& f, RelocaliseParams& params) {
   f.field("max_distance", params.max_distance);
   f.field("ambiguity", params.ambiguity);
+  f.field("max_scale_ratio", params.max_scale_ratio);
   f.field("attempts", params.attempts);
   f.field("min_separation_m", params.min_separation_m);
   f.field("gate_chi2", params.gate_chi2);
   f.field("height_tolerance_m", params.height_tolerance_m);
   f.field("min_inliers", params.min_inliers);
+  f.field("min_likeness", params.min_likeness);
+  f.field("many_inliers", params.many_inliers);
+  f.field("many_share", params.many_share);
   f.field("min_cells", params.min_cells);
   f.field("cell_columns", params.cell_columns);
   f.field("cell_rows", params.cell_rows);

@@ -98,7 +98,7 @@ class LandmarkRoom {
     vision::StereoFeature feature;
     feature.left.u_px = static_cast<float>(pixel.u_px + rng.normal(noise.sigma_px));
     feature.left.v_px = static_cast<float>(pixel.v_px + rng.normal(noise.sigma_px));
-    feature.left.scale_px = static_cast<float>(std::max(1.6, 8.0 / ahead_m));
+    feature.left.scale_px = static_cast<float>(8.0 / ahead_m);
     feature.disparity_px =
         std::max(0.5, pixel.disparity_px + noise.disparity_offset_px + rng.normal(noise.sigma_disparity_px));
     feature.descriptor = descriptor;

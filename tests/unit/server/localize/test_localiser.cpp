@@ -171,6 +171,32 @@ TEST(Localiser, WakesUpAnywhereOnTheSecondFrame) {
   EXPECT_LT(distance_m(localiser.estimate({}).map_T_base, drive.map_T_base), 0.10);
 }
 
+TEST(Localiser, APlaceWaitsForAFrameThatShowsSomething) {
+  const LandmarkRoom room(2, 500);
+  LandmarkRoom dark = room;
+  dark.points().clear();
+  StereoLocaliser localiser = localiser_of(surveyed(room, 2));
+  Drive drive(3);
+  drive.look(localiser, room, {});
+  drive.move(localiser, {0.07, 0.2});
+  EXPECT_EQ(drive.look(localiser, dark, {}).quality, LocalisationQuality::kUnknown);
+  drive.move(localiser, {0.07, 0.2});
+  EXPECT_EQ(drive.look(localiser, room, {}).quality, LocalisationQuality::kLocalised);
+  EXPECT_LT(distance_m(localiser.estimate({}).map_T_base, drive.map_T_base), 0.10);
+}
+
+TEST(Localiser, APlaceThatAFrameSpeaksAgainstIsForgotten) {
+  const LandmarkRoom room(2, 500);
+  const LandmarkRoom foreign(77, 500);
+  StereoLocaliser localiser = localiser_of(surveyed(room, 2));
+  Drive drive(3);
+  drive.look(localiser, room, {});
+  drive.move(localiser, {0.07, 0.2});
+  drive.look(localiser, foreign, {});
+  drive.move(localiser, {0.07, 0.2});
+  EXPECT_EQ(drive.look(localiser, room, {}).quality, LocalisationQuality::kUnknown) << "found once, once more";
+}
+
 TEST(Localiser, AKidnappedRobotSaysSoAndFindsItselfAgain) {
   const LandmarkRoom room(2, 500);
   StereoLocaliser localiser = localiser_of(surveyed(room, 2));
@@ -300,6 +326,39 @@ TEST(Relocalisation, APlaceThatLeansOnOneMatchIsNotFoundWrongly) {
     ++near;
   }
   EXPECT_GT(near, 10);
+}
+
+TEST(Relocalisation, AMatchOfAnotherScaleIsNone) {
+  const LandmarkRoom room(2, 900);
+  const LandmarkMap map(surveyed(room, 2), 0.01);
+  const LocaliserParams params;
+  Rng rng(6);
+  auto features = room.view({5.0, 4.5, -kPi / 2.0}, {}, {}, rng);
+  EXPECT_EQ(relocalise({}, map, features, lift({}, features, params), params, rng).verdict, RelocaliseVerdict::kFound);
+  for (vision::StereoFeature& feature : features) {
+    feature.left.scale_px *= 2.0F;
+  }
+  const auto answer = relocalise({}, map, features, lift({}, features, params), params, rng);
+  EXPECT_EQ(answer.verdict, RelocaliseVerdict::kNothing);
+  EXPECT_EQ(answer.candidates, 0);
+}
+
+TEST(Relocalisation, ManyMatchesThatAreHardlyAlikeAreNotEnough) {
+  const LandmarkRoom room(2, 900);
+  const LandmarkMap map(surveyed(room, 2), 0.01);
+  LocaliserParams params;
+  Rng rng(6);
+  const auto features = room.view({5.0, 4.5, -kPi / 2.0}, {}, {}, rng);
+  const auto lifted = lift({}, features, params);
+  const auto found = relocalise({}, map, features, lifted, params, rng);
+  ASSERT_EQ(found.verdict, RelocaliseVerdict::kFound);
+  params.relocalise.min_likeness = 1.01 * found.likeness;
+  EXPECT_EQ(relocalise({}, map, features, lifted, params, rng).verdict, RelocaliseVerdict::kFound)
+      << "most of the matches agree";
+  params.relocalise.many_share = 1.0;
+  const auto refused = relocalise({}, map, features, lifted, params, rng);
+  EXPECT_EQ(refused.verdict, RelocaliseVerdict::kNothing);
+  EXPECT_THAT(refused.reason, HasSubstr("hardly alike"));
 }
 
 TEST(Relocalisation, AnEmptyFrameIsNothing) {
