@@ -51,10 +51,9 @@ class Expedition {
   }
   /// A robot that has ended its mission lets the world go on without it: then its own time says no more.
   void mend_link() {
-    while (watchers_[kCut]->status().stamp - cut_at_ < kCutFor && !watchers_[kCut]->ends_within(seconds(0))) {
-      std::this_thread::yield();
-    }
-    EXPECT_GE(watchers_[kCut]->status().stamp - cut_at_, kCutFor);
+    const api::RobotStatus now = watchers_[kCut]->until(
+        [&](const api::MissionStatus& mission) { return mission.end || mission.updated - cut_at_ >= kCutFor; });
+    EXPECT_GE(now.stamp - cut_at_, kCutFor);
     link_->refuse(false);
   }
   void expect_complete() {

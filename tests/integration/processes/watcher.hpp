@@ -2,9 +2,11 @@
 /// What a client sees of a robot's missions.
 #pragma once
 
+#include <condition_variable>
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "common/rpc/wait.hpp"
 #include "tests/integration/processes/daemon.hpp"
@@ -18,6 +20,11 @@ class Watcher {
     Result<std::unique_ptr<api::Subscription>> subscription =
         client_->subscribe({{.topic = api::Topic::kMission}}, [this](const api::UpdatePtr& update) {
           const auto& status = std::get<api::MissionStatus>(update->payload);
+          {
+            const std::scoped_lock lock(mutex_);
+            last_ = status;
+          }
+          changed_.notify_all();
           if (status.end) {
             std::call_once(once_, [&] { ended_.set_value(status); });
           }
@@ -27,17 +34,19 @@ class Watcher {
   }
 
   [[nodiscard]] api::RobotStatus status() const {
-    return rpc::wait<api::RobotStatus>([&](auto reply) { client_->get_status(std::move(reply)); }, kCall).value();
+    const Result<api::RobotStatus> status =
+        rpc::wait<api::RobotStatus>([&](auto reply) { client_->get_status(std::move(reply)); }, kCall);
+    EXPECT_TRUE(status) << status.error().message;
+    return status.value();
   }
-  /// Asks until the mission is as wanted.
+  /// Until the mission is as wanted. Told, not asked for: a client that asks as fast as it can is refused.
   template <class Wanted>
-  api::RobotStatus until(Wanted wanted) const {
-    for (;;) {
-      api::RobotStatus now = status();
-      if (now.mission && wanted(*now.mission)) {
-        return now;
-      }
-    }
+  api::RobotStatus until(Wanted wanted, seconds limit = seconds(60)) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, limit, [&] { return last_ && wanted(*last_); }))
+        << "the mission did not come to be as wanted";
+    lock.unlock();
+    return status();
   }
   [[nodiscard]] api::MissionStatus end(seconds limit = seconds(60)) {
     EXPECT_TRUE(ends_within(limit)) << "the mission did not end";
@@ -47,6 +56,9 @@ class Watcher {
 
  private:
   std::shared_ptr<rpc::RobotClient> client_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<api::MissionStatus> last_;
   std::once_flag once_;
   std::promise<api::MissionStatus> ended_;
   std::shared_future<api::MissionStatus> end_ = ended_.get_future().share();
