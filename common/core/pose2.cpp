@@ -84,6 +84,10 @@ UncertainPose invert(const UncertainPose& a_T_b) {
 
 double distance_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
+Eigen::Vector3d offset_of(const Pose2& pose, const Pose2& from) {
+  return {pose.x_m - from.x_m, pose.y_m - from.y_m, wrap_angle(pose.theta_rad - from.theta_rad)};
+}
+
 double bearing_to(const Pose2& a_T_b, const Point2& p_a) {
   return wrap_angle(std::atan2(p_a.y() - a_T_b.y_m, p_a.x() - a_T_b.x_m) - a_T_b.theta_rad);
 }

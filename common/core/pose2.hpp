@@ -62,6 +62,8 @@ struct UncertainPose {
 [[nodiscard]] UncertainPose invert(const UncertainPose& a_T_b);
 
 [[nodiscard]] double distance_m(const Pose2& a, const Pose2& b);
+/// How far `pose` lies off `from`, both in one frame: (x, y, theta) in that frame, theta the short way round.
+[[nodiscard]] Eigen::Vector3d offset_of(const Pose2& pose, const Pose2& from);
 /// Bearing of point p_a (in the frame the pose is given in) seen from the pose, wrapped.
 [[nodiscard]] double bearing_to(const Pose2& a_T_b, const Point2& p_a);
 [[nodiscard]] bool is_finite(const Pose2& pose);

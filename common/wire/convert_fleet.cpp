@@ -9,7 +9,7 @@ namespace seeker::wire {
 namespace {
 
 constexpr std::size_t kMaxRobotIdBytes = 32;
-constexpr int kCovarianceNumbers = 9;
+constexpr int kCovarianceRows = 3;
 
 std::string bytes_of(const api::PieceHash& hash) { return {hash.begin(), hash.end()}; }
 
@@ -36,11 +36,7 @@ void write_edge(const MapEdge& from, pb::FleetEdge* to) {
   to->set_from(from.from);
   to->set_to(from.to);
   write(from.from_T_to, to->mutable_from_t_to());
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      to->add_covariance(from.covariance(row, column));
-    }
-  }
+  write_covariance(from.covariance, to->mutable_covariance());
   to->set_loop(from.loop);
   to->set_enabled(from.enabled);
 }
@@ -49,13 +45,7 @@ void read_edge(const pb::FleetEdge& from, MapEdge& to, Check& check) {
   to.from = from.from();
   to.to = from.to();
   read_required(from.has_from_t_to(), from.from_t_to(), to.from_T_to, "from_t_to", check);
-  if (from.covariance_size() != kCovarianceNumbers) {
-    check.refuse("covariance", Errc::kInvalidArgument, "does not have 9 numbers");
-    return;
-  }
-  for (int k = 0; k < kCovarianceNumbers; ++k) {
-    to.covariance(k / 3, k % 3) = check.finite("covariance", from.covariance(k));
-  }
+  read_covariance(from.covariance(), to.covariance, check);
   to.loop = from.loop();
   to.enabled = from.enabled();
 }
@@ -136,6 +126,24 @@ void read_member(const pb::FleetMember& from, api::FleetMember& to, Check& check
 }
 
 }  // namespace
+
+void write_covariance(const Matrix3& from, CovarianceField* to) {
+  for (int row = 0; row < kCovarianceRows; ++row) {
+    for (int column = 0; column < kCovarianceRows; ++column) {
+      to->Add(from(row, column));
+    }
+  }
+}
+
+void read_covariance(const CovarianceField& from, Matrix3& to, Check& check) {
+  if (from.size() != kCovarianceRows * kCovarianceRows) {
+    check.refuse("covariance", Errc::kInvalidArgument, "does not have 9 numbers");
+    return;
+  }
+  for (int k = 0; k < from.size(); ++k) {
+    to(k / kCovarianceRows, k % kCovarianceRows) = check.finite("covariance", from[k]);
+  }
+}
 
 std::string read_robot_id(const std::string& id, Check& check) {
   const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };

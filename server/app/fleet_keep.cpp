@@ -10,8 +10,8 @@
 #include "common/wire/sha256.hpp"
 #include "seeker/v1/fleet.pb.h"
 #include "server/app/fleet_leader.hpp"
+#include "server/app/kept_message.hpp"
 #include "server/store/atomic_file.hpp"
-#include "server/store/sealed_file.hpp"
 
 namespace seeker::app {
 namespace {
@@ -24,21 +24,6 @@ constexpr const char* kRecordKind = "fleet-robot";
 constexpr const char* kPieceSuffix = ".piece";
 
 std::string piece_name(const api::PieceHash& hash) { return wire::to_hex(hash) + kPieceSuffix; }
-
-Result<v1::FleetRecord> read_record(const fs::path& folder) {
-  const Result<std::vector<std::uint8_t>> bytes =
-      store::read_sealed_file(folder / kRecordFile, kRecordKind, wire::kMaxFrameBytes);
-  if (!bytes) {
-    return tl::unexpected<Error>(bytes.error());
-  }
-  v1::FleetRecord record;
-  if (const Status parsed =
-          wire::parse_within_limits({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, record);
-      !parsed) {
-    return tl::unexpected<Error>(parsed.error());
-  }
-  return record;
-}
 
 }  // namespace
 
@@ -60,7 +45,7 @@ Pieces FleetLeader::load_pieces(const fs::path& folder, const api::FleetManifest
 }
 
 void FleetLeader::load_member(const fs::path& folder) {
-  const Result<v1::FleetRecord> record = read_record(folder);
+  const auto record = read_kept_message<v1::FleetRecord>(folder / kRecordFile, kRecordKind, wire::kMaxFrameBytes);
   if (!record && record.error().code == Errc::kNotFound) {
     return;  // cut off before there was one
   }

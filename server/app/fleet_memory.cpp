@@ -7,12 +7,11 @@
 #include "common/log/log.hpp"
 #include "common/wire/convert.hpp"
 #include "common/wire/convert_fleet.hpp"
-#include "common/wire/envelope.hpp"
 #include "seeker/v1/kept.pb.h"
 #include "server/app/fleet_leader.hpp"
 #include "server/app/fleet_records.hpp"
+#include "server/app/kept_message.hpp"
 #include "server/fleet/merge_memory.hpp"
-#include "server/store/sealed_file.hpp"
 
 namespace seeker::app {
 namespace {
@@ -25,24 +24,10 @@ constexpr const char* kMemoryKind = "fleet";
 constexpr std::size_t kMaxMemoryBytes = 64UL << 20U;
 constexpr std::uint8_t kMainSlot = 0;
 
-Result<v1::KeptFleet> read_memory(const fs::path& file) {
-  const Result<std::vector<std::uint8_t>> bytes = store::read_sealed_file(file, kMemoryKind, kMaxMemoryBytes);
-  if (!bytes) {
-    return tl::unexpected<Error>(bytes.error());
-  }
-  v1::KeptFleet kept;
-  if (const Status parsed =
-          wire::parse_within_limits({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, kept);
-      !parsed) {
-    return tl::unexpected<Error>(parsed.error());
-  }
-  return kept;
-}
-
 }  // namespace
 
 void FleetLeader::load() {
-  Result<v1::KeptFleet> kept = read_memory(params_.folder / kMemoryFile);
+  auto kept = read_kept_message<v1::KeptFleet>(params_.folder / kMemoryFile, kMemoryKind, kMaxMemoryBytes);
   if (!kept && kept.error().code != Errc::kNotFound) {
     tell_damage("how the maps lie to each other has to be found anew: " + kept.error().message);
   }

@@ -1,13 +1,11 @@
 #include "server/app/fleet_records.hpp"
 
-#include <google/protobuf/repeated_field.h>
-
 #include "common/wire/convert.hpp"
+#include "common/wire/fleet_fields.hpp"
 
 namespace seeker::app {
 namespace {
 
-constexpr int kCovarianceRows = 3;
 /// More than any parameters of a merger give.
 constexpr std::size_t kMaxHypotheses = 64;
 constexpr std::size_t kMaxRelations = 1024;
@@ -15,22 +13,12 @@ constexpr int kVerdicts = static_cast<int>(fleet::MergeVerdict::kMerged) + 1;
 
 void write_pose(const UncertainPose& from, v1::KeptPose* to) {
   wire::write(from.a_T_b, to->mutable_a_t_b());
-  for (int row = 0; row < kCovarianceRows; ++row) {
-    for (int column = 0; column < kCovarianceRows; ++column) {
-      to->add_covariance(from.covariance(row, column));
-    }
-  }
+  wire::write_covariance(from.covariance, to->mutable_covariance());
 }
 
 void read_pose(const v1::KeptPose& from, UncertainPose& to, wire::Check& check) {
   wire::read(from.a_t_b(), to.a_T_b, check);
-  if (from.covariance_size() != kCovarianceRows * kCovarianceRows) {
-    check.refuse("covariance", Errc::kInvalidArgument, "does not have 9 numbers");
-    return;
-  }
-  for (int k = 0; k < from.covariance_size(); ++k) {
-    to.covariance(k / kCovarianceRows, k % kCovarianceRows) = check.finite("covariance", from.covariance(k));
-  }
+  wire::read_covariance(from.covariance(), to.covariance, check);
 }
 
 void write_relation(const fleet::NodeRelation& from, v1::KeptRelation* to) {

@@ -2,9 +2,8 @@
 
 #include "common/wire/convert.hpp"
 #include "common/wire/convert_fleet.hpp"
-#include "common/wire/envelope.hpp"
 #include "seeker/v1/kept.pb.h"
-#include "server/store/sealed_file.hpp"
+#include "server/app/kept_message.hpp"
 
 namespace seeker::app {
 namespace {
@@ -22,35 +21,24 @@ fs::path path_of(const fs::path& folder, const api::MissionId& mission, const st
   return folder / (mission + "." + kind);
 }
 
-template <class Message>
-Status read_message(const fs::path& path, const std::string& kind, Message& message) {
-  const Result<std::vector<std::uint8_t>> bytes = store::read_sealed_file(path, kind, kMaxFileBytes);
-  if (!bytes) {
-    return tl::unexpected<Error>(bytes.error());
-  }
-  return wire::parse_within_limits({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, message);
-}
-
 Result<Pose2> read_place(const fs::path& path) {
-  v1::KeptPlace message;
-  if (const Status read = read_message(path, kPlaceKind, message); !read) {
-    return tl::unexpected<Error>(read.error());
-  }
-  return wire::from_message<Pose2>(message.map_t_base());
+  const auto message = read_kept_message<v1::KeptPlace>(path, kPlaceKind, kMaxFileBytes);
+  return message ? wire::from_message<Pose2>(message->map_t_base())
+                 : Result<Pose2>(tl::unexpected<Error>(message.error()));
 }
 
 /// Nothing where it belongs to another state of the map.
 Result<std::optional<TopologyMemory>> read_topology(const fs::path& path, std::uint32_t map_epoch) {
-  v1::KeptTopology message;
-  if (const Status read = read_message(path, kTopologyKind, message); !read) {
-    return tl::unexpected<Error>(read.error());
+  const auto message = read_kept_message<v1::KeptTopology>(path, kTopologyKind, kMaxFileBytes);
+  if (!message) {
+    return tl::unexpected<Error>(message.error());
   }
-  if (message.map_epoch() != map_epoch) {
+  if (message->map_epoch() != map_epoch) {
     return std::optional<TopologyMemory>();
   }
-  Result<RobotTopology> told = wire::from_message<RobotTopology>(message.topology());
-  Result<std::vector<Point2>> closed = wire::from_message<std::vector<Point2>>(message.closed_map());
-  Result<std::vector<Point2>> looked_at = wire::from_message<std::vector<Point2>>(message.looked_at_map());
+  Result<RobotTopology> told = wire::from_message<RobotTopology>(message->topology());
+  Result<std::vector<Point2>> closed = wire::from_message<std::vector<Point2>>(message->closed_map());
+  Result<std::vector<Point2>> looked_at = wire::from_message<std::vector<Point2>>(message->looked_at_map());
   if (!told || !closed || !looked_at) {
     return tl::unexpected<Error>(!told ? told.error() : !closed ? closed.error() : looked_at.error());
   }

@@ -152,26 +152,23 @@ void RobotMap::take_new_frame() {
   segments_at_.reset();
 }
 
-Status RobotMap::relocalise(const std::optional<Pose2>& map_T_base, RobotTime now) {
+Status RobotMap::look_for_robot(const std::function<Status(slam::MapTracker&)>& look, RobotTime now) {
   if (tracker_ == nullptr) {
     return no_map();
   }
-  Status ok = tracker_->relocalise(map_T_base);
+  Status ok = look(*tracker_);
   if (ok) {
     relocalising_since_ = now;
   }
   return ok;
 }
 
+Status RobotMap::relocalise(const std::optional<Pose2>& map_T_base, RobotTime now) {
+  return look_for_robot([&](slam::MapTracker& tracker) { return tracker.relocalise(map_T_base); }, now);
+}
+
 Status RobotMap::look_where_it_stood(const Pose2& map_T_base, RobotTime now) {
-  if (tracker_ == nullptr) {
-    return no_map();
-  }
-  Status ok = tracker_->look_where_it_stood(map_T_base);
-  if (ok) {
-    relocalising_since_ = now;
-  }
-  return ok;
+  return look_for_robot([&](slam::MapTracker& tracker) { return tracker.look_where_it_stood(map_T_base); }, now);
 }
 
 }  // namespace seeker::app

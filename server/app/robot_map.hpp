@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -95,6 +96,7 @@ class RobotMap {
     Pose2 map_T_base;
   };
 
+  [[nodiscard]] Status look_for_robot(const std::function<Status(slam::MapTracker&)>& look, RobotTime now);
   void take_new_frame();
   void begin_rendering();
   void replace_occupancy(nav::OccupancyMap map);

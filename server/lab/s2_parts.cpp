@@ -8,7 +8,6 @@
 
 #include "common/core/angle.hpp"
 #include "server/localize/survey_adjustment.hpp"
-#include "server/slam/covariance.hpp"
 
 namespace seeker::lab::s2 {
 namespace {
@@ -131,7 +130,7 @@ Status Localisation::run(const Frames& frames, std::uint64_t seed, localize::Dat
 
 void Localisation::add(const DriveFrame& frame, const localize::StereoLocaliser& localiser) {
   const PoseEstimate estimate = localiser.estimate({});
-  const Eigen::Vector3d error = slam::offset_of(estimate.map_T_base, frame.world_T_base);
+  const Eigen::Vector3d error = offset_of(estimate.map_T_base, frame.world_T_base);
   const bool localised = estimate.quality == LocalisationQuality::kLocalised;
   const bool wrong = error.head<2>().norm() > kUnnoticed_m || std::abs(error(2)) > kUnnoticed_rad;
   score_.not_localised += localised ? 0 : 1;

@@ -29,10 +29,6 @@ constexpr double kLeastDisparity_px = 1.0;
 /// A pose told without any doubt stays where it is, to a tenth of a millimetre.
 constexpr double kLeastVariance = 1e-8;
 
-Eigen::Vector3d offset_of(const Pose2& from, const Pose2& to) {
-  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.theta_rad - from.theta_rad)};
-}
-
 /// Observations of one point at the present poses: where each puts it, what each is worth, how the poses move it.
 struct Linearised {
   std::vector<Point2> places;
@@ -181,7 +177,7 @@ void Adjustment::add_priors() {
     const Pose2& now = adjusted_[s].map_T_eye;
     const Matrix3 weight = (measured_[s].pose_covariance + kLeastVariance * Matrix3::Identity()).inverse();
     information_.block<3, 3>(row_of(s), row_of(s)) += weight;
-    gradient_.segment<3>(row_of(s)) += weight * offset_of(from, now);
+    gradient_.segment<3>(row_of(s)) += weight * offset_of(now, from);
   }
   const double weight = std::pow(params_.adjustment.offset_sigma_px, -2);
   information_(offset_row(), offset_row()) += weight;
@@ -193,7 +189,7 @@ void Adjustment::add(const SightingsApart& way) {
   const Pose2& b = adjusted_[way.to].map_T_eye;
   const Matrix3 by_a = compose_jacobian_a(inverse(a), b) * inverse_jacobian(a);
   const Matrix3 by_b = compose_jacobian_b(inverse(a), b);
-  const Eigen::Vector3d off = offset_of(way.from_T_to.a_T_b, inverse(a) * b);
+  const Eigen::Vector3d off = offset_of(inverse(a) * b, way.from_T_to.a_T_b);
   const Matrix3 weight = (way.from_T_to.covariance + kLeastVariance * Matrix3::Identity()).inverse();
   const Eigen::Index row_a = row_of(way.from);
   const Eigen::Index row_b = row_of(way.to);

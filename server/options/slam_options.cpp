@@ -215,11 +215,26 @@ void describe(config::Fields& f, JudgeParams& params) {
   f.field("min_certainty", params.min_certainty);
 }
 
+void describe(config::Fields& f, KeptPlaceParams& params) {
+  f.field("min_fit", params.min_fit);
+  f.field("max_disagreement", params.max_disagreement);
+  f.field("max_m", params.max_m);
+  f.angle_deg("max_deg", params.max_rad);
+  f.field("min_lead", params.min_lead);
+  f.field("about_m", params.about_m);
+  f.field("about_min_fit", params.about_min_fit);
+  f.field("about_max_disagreement", params.about_max_disagreement);
+  f.field("about_min_lead", params.about_min_lead);
+  f.field("sigma_m", params.sigma_m);
+  f.angle_deg("sigma_deg", params.sigma_rad);
+}
+
 void describe(config::Fields& f, PlaceParams& params) {
   f.section("search", params.search);
   f.section("match", params.match);
   f.section("agreement", params.agreement);
   f.section("judge", params.judge);
+  f.section("kept", params.kept);
   f.field("match_points", params.match_points);
 }
 

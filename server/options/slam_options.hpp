@@ -23,6 +23,7 @@ void describe(config::Fields& f, PlaceMapParams& params);
 void describe(config::Fields& f, GlobalSearchParams& params);
 void describe(config::Fields& f, AgreementParams& params);
 void describe(config::Fields& f, JudgeParams& params);
+void describe(config::Fields& f, KeptPlaceParams& params);
 void describe(config::Fields& f, PlaceParams& params);
 void describe(config::Fields& f, LoopParams& params);
 void describe(config::Fields& f, SpAssociationParams& params);

@@ -144,11 +144,27 @@ TEST(TopologicalStrategy, StaysOutOfTheOtherRoomWhenAnotherRobotIsThere) {
   EXPECT_LT(farthest_x_m[1], 5.5);
 }
 
-TEST(TopologicalStrategy, EndsWhenAnotherRobotGoesOnOfferingAGoalThatItSawTo) {
-  FleetView fleet{"b", {}, nullptr};
+RobotTopology other_in_the_far_corner() {
   RobotTopology other;
   other.robot_id = "a";
   other.map_T_base = {9.0, 4.0, 0.0};
+  return other;
+}
+
+/// In two rooms, while another robot goes on to say the same.
+ToyRun run_beside(const RobotTopology& other, const char* name) {
+  FleetView fleet{"b", {other}, nullptr};
+  Exploration exploration = exploration_of();
+  ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [&](double, ExploreInput& input) { input.fleet = &fleet; };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print(name, run, *exploration.strategy().topology());
+  return run;
+}
+
+TEST(TopologicalStrategy, EndsWhenAnotherRobotGoesOnOfferingAGoalThatItSawTo) {
+  RobotTopology other = other_in_the_far_corner();
   other.active = false;  // it has ended without having been there
   TopologyNode node;
   node.id = 1;
@@ -160,30 +176,15 @@ TEST(TopologicalStrategy, EndsWhenAnotherRobotGoesOnOfferingAGoalThatItSawTo) {
   far.goals.clear();
   other.topology.nodes = {node, far};
   other.topology.current = far.id;
-  fleet.others = {other};
-  Exploration exploration = exploration_of();
-  ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);
-  ToyExplorer::Hooks hooks;
-  hooks.input = [&](double, ExploreInput& input) { input.fleet = &fleet; };
-  const ToyRun run = robot.run(exploration, 900.0, hooks);
-  print("offered goal", run, *exploration.strategy().topology());
+  const ToyRun run = run_beside(other, "offered goal");
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kComplete);
 }
 
 TEST(TopologicalStrategy, TakesAfterAWhileWhatARobotThatStandsIsNearerTo) {
-  FleetView fleet{"b", {}, nullptr};
-  RobotTopology other;
-  other.robot_id = "a";
-  other.map_T_base = {9.0, 4.0, 0.0};
+  RobotTopology other = other_in_the_far_corner();
   other.active = true;
-  fleet.others = {other};
-  Exploration exploration = exploration_of();
-  ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);
-  ToyExplorer::Hooks hooks;
-  hooks.input = [&](double, ExploreInput& input) { input.fleet = &fleet; };
-  const ToyRun run = robot.run(exploration, 900.0, hooks);
-  print("idle other", run, *exploration.strategy().topology());
+  const ToyRun run = run_beside(other, "idle other");
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kComplete);
   EXPECT_GT(run.wall_share, kWallShare);

@@ -55,6 +55,16 @@ std::vector<Wall> office() {
 
 PlaceMap room_map(Rng& rng) { return *PlaceMap::build(seen_from(office(), kViews, rng)); }
 
+std::vector<Wall> corridor() { return box(0.0, 0.0, 40.0, 2.0); }
+
+PlaceMap corridor_map(Rng& rng) {
+  std::vector<Pose2> poses;
+  for (int k = 1; k < 20; ++k) {
+    poses.push_back({2.0 * k, 1.0, 0.0});
+  }
+  return *PlaceMap::build(seen_from(corridor(), poses, rng));
+}
+
 /// People: `share` of the beams end on bodies of about 0.4 m, one to two metres away.
 LaserScan with_people(LaserScan scan, double share, Rng& rng) {
   const std::size_t beams = scan.ranges_m.size();
@@ -134,15 +144,10 @@ TEST(PlaceRecogniser, OneCupboardTellsTwoRoomsApart) {
 
 TEST(PlaceRecogniser, ACorridorIsAmbiguousAlongItself) {
   Rng rng(4);
-  const auto walls = box(0.0, 0.0, 40.0, 2.0);
-  std::vector<Pose2> poses;
-  for (int k = 1; k < 20; ++k) {
-    poses.push_back({2.0 * k, 1.0, 0.0});
-  }
-  const auto map = PlaceMap::build(seen_from(walls, poses, rng));
-  ASSERT_TRUE(map);
+  const auto walls = corridor();
+  const PlaceMap map = corridor_map(rng);
   const auto scan = scan_at(walls, {20.0, 1.1, 0.1}, 1.0, rng, kTwoPi, 8.0);
-  const auto answer = PlaceRecogniser().locate(*map, {seen_points(scan)});
+  const auto answer = PlaceRecogniser().locate(map, {seen_points(scan)});
   EXPECT_EQ(answer.verdict, PlaceVerdict::kAmbiguous) << answer.reason;
   EXPECT_GT(answer.candidates.front().fit.all, 0.8);
 }
@@ -214,16 +219,11 @@ TEST(PlaceRecogniser, ARobotThatTurnedOnIsConfirmedNearby) {
 
 TEST(PlaceRecogniser, ACorridorKeepsTheRobotWhereItStoodAndSaysHowWellThatIsKnown) {
   Rng rng(13);
-  const auto walls = box(0.0, 0.0, 40.0, 2.0);
-  std::vector<Pose2> poses;
-  for (int k = 1; k < 20; ++k) {
-    poses.push_back({2.0 * k, 1.0, 0.0});
-  }
-  const auto map = PlaceMap::build(seen_from(walls, poses, rng));
-  ASSERT_TRUE(map);
+  const auto walls = corridor();
+  const PlaceMap map = corridor_map(rng);
   const Pose2 truth{20.0, 1.1, 0.1};
   const std::vector<SeenPoints> now{seen_points(scan_at(walls, truth, 1.0, rng, kTwoPi, 8.0))};
-  const auto answer = PlaceRecogniser().confirm(*map, now, truth);
+  const auto answer = PlaceRecogniser().confirm(map, now, truth);
   ASSERT_EQ(answer.verdict, PlaceVerdict::kUnique) << answer.reason;
   const MatchResult& match = answer.candidates.front().match;
   EXPECT_THAT(match.map_T_base, Pose2Near(truth, 0.3, 0.03));
