@@ -1,7 +1,10 @@
 #include "server/app/robot_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "common/core/angle.hpp"
 
 namespace seeker::app {
 namespace {
@@ -16,12 +19,15 @@ tl::unexpected<Error> no_map() {
 RobotMap::RobotMap(const RobotMapParams& params, const nav::OccupancyParams& occupancy, slam::MapTracker* tracker)
     : params_(params), occupancy_params_(occupancy), tracker_(tracker), occupancy_(occupancy) {}
 
-PoseEstimate RobotMap::follow(const PoseEstimate& estimate, RobotTime now) {
+PoseEstimate RobotMap::follow(const PoseEstimate& estimate, RobotTime now, const std::optional<Pose2>& old_map_T_base) {
   PoseEstimate out = estimate;
   out.map_epoch += epoch_offset_;
   if (out.map_epoch != epoch_) {
     epoch_ = out.map_epoch;
-    begin_rendering();
+    const bool little =
+        old_map_T_base && distance_m(*old_map_T_base, out.map_T_base) < params_.calm_move_m &&
+        std::abs(wrap_angle(out.map_T_base.theta_rad - old_map_T_base->theta_rad)) < params_.calm_turn_rad;
+    begin_rendering(little && !rendering());  // one that goes on moving would never be finished
   }
   const bool found = out.quality == LocalisationQuality::kLocalised || out.quality == LocalisationQuality::kDegraded;
   const bool given_up = out.quality == LocalisationQuality::kLost;
@@ -42,7 +48,8 @@ Status RobotMap::integrate(const SonarScan& scan, const Pose2& map_T_base) {
   return occupancy_.integrate(scan, map_T_base);
 }
 
-void RobotMap::begin_rendering() {
+void RobotMap::begin_rendering(bool calm) {
+  scans_per_tick_ = calm ? params_.calm_scans_per_tick : params_.render_scans_per_tick;
   waiting_.clear();
   fresh_.emplace(occupancy_params_);
   if (tracker_ != nullptr) {
@@ -56,7 +63,7 @@ void RobotMap::step() {
   if (!fresh_) {
     return;
   }
-  for (int k = 0; k < params_.render_scans_per_tick && !waiting_.empty(); ++k) {
+  for (int k = 0; k < scans_per_tick_ && !waiting_.empty(); ++k) {
     // A full map keeps what lies inside: the live scans report it.
     static_cast<void>(fresh_->integrate(waiting_.front().scan, waiting_.front().map_T_base));
     waiting_.pop_front();
@@ -147,7 +154,7 @@ void RobotMap::take_new_frame() {
   ++epoch_;
   epoch_offset_ = epoch_ - tracker_->estimate().map_epoch;
   replace_occupancy(nav::OccupancyMap(occupancy_params_));
-  begin_rendering();
+  begin_rendering(false);
   tracker_revision_.reset();
   segments_at_.reset();
 }

@@ -21,7 +21,10 @@
 namespace seeker::app {
 
 struct RobotMapParams {
-  int render_scans_per_tick = 40;                            ///< kept scans written anew after the map has moved
+  int render_scans_per_tick = 40;  ///< kept scans written anew after the map has moved,
+  int calm_scans_per_tick = 5;     ///< or so many where that made no more difference
+  double calm_move_m = 0.05;       ///< to where the robot is than this: a cell of the occupancy,
+  double calm_turn_rad = 0.01;     ///< and this: a cell at five metres
   Duration segment_period = std::chrono::milliseconds(500);  ///< between publications of changed segments, robot time
   Duration relocalise_limit = std::chrono::seconds(60);      ///< robot time in which a search for the place must end
   Duration checkpoint_period = std::chrono::seconds(30);     ///< robot time between checkpoints of a mission's map,
@@ -55,8 +58,10 @@ class RobotMap {
 
   [[nodiscard]] bool has_segments() const { return tracker_ != nullptr; }
 
-  /// The estimate with this run's epoch. The map has moved when the epoch differs from that of the estimate before.
-  [[nodiscard]] PoseEstimate follow(const PoseEstimate& estimate, RobotTime now);
+  /// The estimate with this run's epoch. The map has moved when the epoch differs from that of the estimate before:
+  /// by how much is told by where the robot would be in the old one, `old_map_T_base`.
+  [[nodiscard]] PoseEstimate follow(const PoseEstimate& estimate, RobotTime now,
+                                    const std::optional<Pose2>& old_map_T_base = std::nullopt);
   [[nodiscard]] Status integrate(const LaserScan& scan, const Pose2& map_T_base);
   [[nodiscard]] Status integrate(const SonarScan& scan, const Pose2& map_T_base);
   /// Once a tick: goes on with a map that is being written anew.
@@ -98,7 +103,7 @@ class RobotMap {
 
   [[nodiscard]] Status look_for_robot(const std::function<Status(slam::MapTracker&)>& look, RobotTime now);
   void take_new_frame();
-  void begin_rendering();
+  void begin_rendering(bool calm);
   void replace_occupancy(nav::OccupancyMap map);
 
   RobotMapParams params_;
@@ -111,7 +116,8 @@ class RobotMap {
   std::uint32_t epoch_ = 0;         ///< of the estimates handed out
   std::uint32_t epoch_offset_ = 0;  ///< added to the tracker's own
   std::optional<nav::OccupancyMap> fresh_;
-  std::deque<KeptScan> waiting_;  ///< to be written into fresh_
+  std::deque<KeptScan> waiting_;  ///< to be written into fresh_,
+  int scans_per_tick_ = 0;        ///< so many in a tick
 
   SegmentLog segments_;
   std::optional<std::uint64_t> tracker_revision_;  ///< of the segments taken last

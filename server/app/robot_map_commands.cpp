@@ -84,7 +84,7 @@ Status RobotLoop::relocalise(const std::optional<Pose2>& map_T_base) {
 
 void RobotLoop::follow_map(const std::optional<Pose2>& old_map_T_base) {
   const std::uint32_t before = pose_.map_epoch;
-  pose_ = map_.follow(parts_.estimator->estimate(), now());
+  pose_ = map_.follow(parts_.estimator->estimate(), now(), old_map_T_base);
   if (pose_.map_epoch == before || !old_map_T_base) {
     return;
   }

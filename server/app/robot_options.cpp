@@ -85,6 +85,10 @@ void describe(config::Fields& f, MissionParams& params) {
 void describe(config::Fields& f, RobotMapParams& params) {
   f.field("render_scans_per_tick", params.render_scans_per_tick);
   f.check("render_scans_per_tick", params.render_scans_per_tick > 0, "must be above 0");
+  f.field("calm_scans_per_tick", params.calm_scans_per_tick);
+  f.check("calm_scans_per_tick", params.calm_scans_per_tick > 0, "must be above 0");
+  f.field("calm_move_m", params.calm_move_m);
+  f.angle_deg("calm_turn_deg", params.calm_turn_rad);
   f.seconds("segment_period_s", params.segment_period);
   f.seconds("relocalise_limit_s", params.relocalise_limit);
   f.seconds("checkpoint_period_s", params.checkpoint_period);

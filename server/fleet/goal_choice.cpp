@@ -23,26 +23,76 @@ std::optional<std::size_t> index_of(const UnionGraph& all, std::optional<std::si
   return std::nullopt;
 }
 
-/// Another robot drives there, or near.
-bool taken(const Point2& p_map, const ChoiceInput& input) {
-  return std::any_of(input.fleet.others.begin(), input.fleet.others.end(), [&](const RobotTopology& other) {
-    return other.active && other.target_map && (*other.target_map - p_map).norm() < input.node_distance_m &&
-           !input.corridors.walled_off(*other.target_map, p_map);
-  });
-}
-
 UnionGraph graph_of(const ChoiceInput& input) {
   return union_of(input.own, input.fleet.others, input.corridors, input.max_edge_m);
 }
 
-std::vector<PendingGoal> pending_of(const ChoiceInput& input, const UnionGraph& all, const ShortestWays& ways) {
+/// How far it is to places for this robot and the others, along the union's edges from the node that each is at.
+class Ways {
+ public:
+  explicit Ways(const ChoiceInput& input) : all_(graph_of(input)), start_(input.map_T_base.translation()) {
+    const std::optional<std::size_t> here = index_of(all_, std::nullopt, input.own.current);
+    SEEKER_ASSERT(here.has_value());
+    own_ = bellman_ford(all_.graph, *here);
+    for (std::size_t k = 0; k < input.fleet.others.size(); ++k) {
+      const std::optional<std::size_t> source = index_of(all_, k, input.fleet.others[k].topology.current);
+      others_.push_back(source ? std::optional(bellman_ford(all_.graph, *source)) : std::nullopt);
+      starts_.push_back(input.fleet.others[k].map_T_base.translation());
+    }
+  }
+
+  [[nodiscard]] const UnionGraph& all() const { return all_; }
+  [[nodiscard]] const ShortestWays& own() const { return own_; }
+  /// To a place near node `member` of the union, which there must be a way to.
+  [[nodiscard]] double own_m(std::size_t member, const Point2& p_map) const {
+    return own_.distance_m[member] + (p_map - all_.graph.places[member]).norm();
+  }
+  [[nodiscard]] double other_m(std::size_t robot, std::size_t member, const Point2& p_map) const {
+    const std::optional<ShortestWays>& ways = others_[robot];
+    return ways && ways->reaches(member) ? ways->distance_m[member] + (p_map - all_.graph.places[member]).norm()
+                                         : kDetour * (starts_[robot] - p_map).norm();
+  }
+
+  /// By how much the way of another robot is longer than this one's. Edges lead by way of the node, where a robot that
+  /// comes from elsewhere need not go: a way is not taken to be longer than straight with a detour.
+  [[nodiscard]] double lead_m(std::size_t robot, std::size_t member, const Point2& p_map) const {
+    const double own = std::min(own_m(member, p_map), kDetour * (start_ - p_map).norm());
+    return std::min(other_m(robot, member, p_map), kDetour * (starts_[robot] - p_map).norm()) - own;
+  }
+
+ private:
+  UnionGraph all_;
+  ShortestWays own_;
+  Point2 start_;
+  std::vector<std::optional<ShortestWays>> others_;
+  std::vector<Point2> starts_;
+};
+
+/// Another robot drives there, or near.
+bool drives_to(const RobotTopology& other, const Point2& p_map, const ChoiceInput& input) {
+  return other.active && other.target_map && (*other.target_map - p_map).norm() < input.node_distance_m &&
+         !input.corridors.walled_off(*other.target_map, p_map);
+}
+
+/// Another robot drives there, and is not much farther from it.
+bool taken(const ChoiceInput& input, const Ways& ways, std::size_t member, const Point2& p_map) {
+  for (std::size_t k = 0; k < input.fleet.others.size(); ++k) {
+    if (drives_to(input.fleet.others[k], p_map, input) && ways.lead_m(k, member, p_map) <= input.takeover_m) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<PendingGoal> pending_of(const ChoiceInput& input, const Ways& ways) {
+  const UnionGraph& all = ways.all();
   std::vector<PendingGoal> goals;
   for (std::size_t k = 0; k < all.members.size(); ++k) {
-    if (!ways.reaches(k)) {
+    if (!ways.own().reaches(k)) {
       continue;
     }
     for (const TopologyGoal& goal : all.members[k].node->goals) {
-      if (input.left_out(goal.p_map) || taken(goal.p_map, input)) {
+      if (input.left_out(goal.p_map) || taken(input, ways, k, goal.p_map)) {
         continue;
       }
       PendingGoal pending;
@@ -52,9 +102,9 @@ std::vector<PendingGoal> pending_of(const ChoiceInput& input, const UnionGraph& 
       pending.id = goal.id;
       pending.p_map = goal.p_map;
       pending.layer = goal.layer;
-      pending.node_way_m = ways.distance_m[k];
-      pending.way_m = ways.distance_m[k] + (goal.p_map - all.graph.places[k]).norm();
-      for (const std::size_t step : ways.way_to(k)) {
+      pending.node_way_m = ways.own().distance_m[k];
+      pending.way_m = ways.own_m(k, goal.p_map);
+      for (const std::size_t step : ways.own().way_to(k)) {
         pending.way_map.push_back(all.graph.places[step]);
       }
       pending.way_map.erase(pending.way_map.begin());
@@ -84,36 +134,25 @@ std::optional<std::size_t> main_of_closest(const std::vector<PendingGoal>& goals
   return main ? std::optional(of_closest[*main]) : std::nullopt;
 }
 
-/// Ways of another robot to the goals: along the edges from the node it is at.
-std::vector<double> ways_of(const RobotTopology& robot, std::size_t index, const UnionGraph& all,
-                            const std::vector<PendingGoal>& goals) {
-  const std::optional<std::size_t> source = index_of(all, index, robot.topology.current);
-  std::optional<ShortestWays> ways;
-  if (source) {
-    ways = bellman_ford(all.graph, *source);
-  }
+/// Ways of another robot to the goals.
+std::vector<double> ways_of(std::size_t robot, const Ways& ways, const std::vector<PendingGoal>& goals) {
   std::vector<double> lengths;
   lengths.reserve(goals.size());
   for (const PendingGoal& goal : goals) {
-    double way_m = kDetour * (robot.map_T_base.translation() - goal.p_map).norm();
-    if (ways && ways->reaches(goal.member)) {
-      way_m = ways->distance_m[goal.member] + (all.graph.places[goal.member] - goal.p_map).norm();
-    }
-    lengths.push_back(way_m);
+    lengths.push_back(ways.other_m(robot, goal.member, goal.p_map));
   }
   return lengths;
 }
 
 /// Which goals no other active robot has a shorter way to. Of equally long ones the first robot by name has it.
-std::vector<bool> nearest_to_self(const ChoiceInput& input, const UnionGraph& all,
-                                  const std::vector<PendingGoal>& goals) {
+std::vector<bool> nearest_to_self(const ChoiceInput& input, const Ways& ways, const std::vector<PendingGoal>& goals) {
   std::vector<bool> own(goals.size(), true);
   for (std::size_t k = 0; k < input.fleet.others.size(); ++k) {
     const RobotTopology& other = input.fleet.others[k];
     if (!other.active) {
       continue;
     }
-    const std::vector<double> ways_m = ways_of(other, k, all, goals);
+    const std::vector<double> ways_m = ways_of(k, ways, goals);
     for (std::size_t goal = 0; goal < goals.size(); ++goal) {
       const bool nearer = ways_m[goal] < goals[goal].way_m ||
                           (ways_m[goal] <= goals[goal].way_m && other.robot_id < input.fleet.robot_id);
@@ -124,7 +163,7 @@ std::vector<bool> nearest_to_self(const ChoiceInput& input, const UnionGraph& al
 }
 
 /// Robots that have a target do not bid: it is theirs already.
-std::optional<std::size_t> won(const ChoiceInput& input, const UnionGraph& all, const std::vector<PendingGoal>& goals) {
+std::optional<std::size_t> won(const ChoiceInput& input, const Ways& ways, const std::vector<PendingGoal>& goals) {
   std::vector<AuctionTask> tasks;
   Bidder self{input.fleet.robot_id, {}};
   for (const PendingGoal& goal : goals) {
@@ -135,7 +174,7 @@ std::optional<std::size_t> won(const ChoiceInput& input, const UnionGraph& all, 
   for (std::size_t k = 0; k < input.fleet.others.size(); ++k) {
     const RobotTopology& other = input.fleet.others[k];
     if (other.active && !other.target_map) {
-      bidders.push_back({other.robot_id, ways_of(other, k, all, goals)});
+      bidders.push_back({other.robot_id, ways_of(k, ways, goals)});
     }
   }
   return auction(bidders, std::move(tasks), input.auction).front();
@@ -166,10 +205,8 @@ ExploreDecision decision_of(const std::vector<PendingGoal>& goals, std::optional
 }  // namespace
 
 GoalChoice choose_goal(const ChoiceInput& input) {
-  const UnionGraph all = graph_of(input);
-  const std::optional<std::size_t> here = index_of(all, std::nullopt, input.own.current);
-  SEEKER_ASSERT(here.has_value());
-  const std::vector<PendingGoal> goals = pending_of(input, all, bellman_ford(all.graph, *here));
+  const Ways ways(input);
+  const std::vector<PendingGoal> goals = pending_of(input, ways);
   const auto any_active = [&](bool driving) {
     return std::any_of(input.fleet.others.begin(), input.fleet.others.end(),
                        [&](const RobotTopology& other) { return other.active && (!driving || other.target_map); });
@@ -179,10 +216,10 @@ GoalChoice choose_goal(const ChoiceInput& input) {
   std::optional<std::size_t> chosen;
   std::string why = "no goal is left";
   if (input.patient && any_active(false)) {
-    chosen = main_of_closest(goals, nearest_to_self(input, all, goals), input.map_T_base);
+    chosen = main_of_closest(goals, nearest_to_self(input, ways, goals), input.map_T_base);
     why = "the closest of the goals that no other robot is nearer to";
     if (!chosen) {
-      chosen = won(input, all, goals);
+      chosen = won(input, ways, goals);
       why = chosen ? "its share of the goals that others are nearer to" : "other robots are nearer to what is left";
     }
     choice.others_busy = !chosen && (!goals.empty() || others_drive);
@@ -197,6 +234,27 @@ GoalChoice choose_goal(const ChoiceInput& input) {
     choice.goal = goals[*chosen];
   }
   return choice;
+}
+
+bool yields(const ChoiceInput& input, const PendingGoal& goal) {
+  const auto wants = [&](const RobotTopology& other) { return drives_to(other, goal.p_map, input); };
+  if (std::none_of(input.fleet.others.begin(), input.fleet.others.end(), wants)) {
+    return false;
+  }
+  const Ways ways(input);
+  const std::optional<std::size_t> node = index_of(ways.all(), goal.robot, goal.node);
+  if (!node || !ways.own().reaches(*node)) {
+    return true;
+  }
+  for (std::size_t k = 0; k < input.fleet.others.size(); ++k) {
+    const RobotTopology& other = input.fleet.others[k];
+    const double lead_m = ways.lead_m(k, *node, goal.p_map);
+    const bool first = other.robot_id < input.fleet.robot_id;
+    if (wants(other) && (lead_m < -input.takeover_m || (first && lead_m <= input.takeover_m))) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace seeker::fleet

@@ -37,7 +37,8 @@ struct ChoiceInput {
   std::function<bool(const Point2& p_map)> left_out;   ///< goals not to be tried now
   std::function<double(const Point2& p_map)> gain_m2;  ///< unknown floor that a place would show
   AuctionParams auction;
-  bool patient = true;  ///< leaves to others what they are nearer to
+  bool patient = true;      ///< leaves to others what they are nearer to
+  double takeover_m = 3.0;  ///< a goal that another robot drives to is taken over where the way is so much shorter
 };
 
 struct GoalChoice {
@@ -50,5 +51,9 @@ struct GoalChoice {
 /// Among the goals of all robots that a way along the union's edges leads to, those near another active robot's target
 /// left out. The robot must be at a node.
 [[nodiscard]] GoalChoice choose_goal(const ChoiceInput& input);
+
+/// Whether a robot that drives to a goal leaves it to another one that does, too: to one with a much shorter way, and
+/// of those with about the same to the first by name. The robot must be at a node.
+[[nodiscard]] bool yields(const ChoiceInput& input, const PendingGoal& goal);
 
 }  // namespace seeker::fleet

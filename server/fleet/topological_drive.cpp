@@ -135,12 +135,7 @@ void TopologicalStrategy::reconsider(const Input& input, const Scene& scene, Ste
     change("the goal at " + text(goal_->p_map) + " has been seen meanwhile", out);
     return;
   }
-  const bool yields = std::any_of(scene.fleet.others.begin(), scene.fleet.others.end(), [&](const auto& other) {
-    return other.active && other.target_map && other.robot_id < scene.fleet.robot_id &&
-           (*other.target_map - goal_->p_map).norm() < topological_.map.node_distance_m &&
-           !scene.corridors.walled_off(*other.target_map, goal_->p_map);
-  });
-  if (yields) {
+  if (yields(question(input, scene), *goal_)) {
     change("another robot drives to the goal at " + text(goal_->p_map), out);
     return;
   }

@@ -46,7 +46,8 @@ Status validate(const TopologicalParams& params) {
     return fail(Errc::kInvalidArgument, "the distance of nodes and the longest edge must be above 0");
   }
   if (params.max_failures < 1 || params.replan_period_s <= 0.0 || params.retry_s < 0.0 || params.scan_limit_s <= 0.0 ||
-      params.patience_s < 0.0 || params.auction.lambda_1_m < 0.0 || params.auction.near_m <= 0.0) {
+      params.patience_s < 0.0 || params.takeover_m < 0.0 || params.auction.lambda_1_m < 0.0 ||
+      params.auction.near_m <= 0.0) {
     return fail(Errc::kInvalidArgument, "failures, periods and the auction's numbers must be above 0");
   }
   return {};
@@ -124,7 +125,7 @@ void TopologicalStrategy::choose(const Input& input, Step& out) {
     return;
   }
   map_.settle(scene->fleet.others, scene->corridors);
-  GoalChoice choice = choice_of(input, *scene);
+  GoalChoice choice = choose_goal(question(input, *scene));
   if (!choice.others_idle) {
     all_idle_since_.reset();
   } else if (!all_idle_since_) {
@@ -138,13 +139,20 @@ void TopologicalStrategy::choose(const Input& input, Step& out) {
   go(input, *scene, *std::move(choice.goal));
 }
 
-GoalChoice TopologicalStrategy::choice_of(const Input& input, const Scene& scene) const {
-  return choose_goal({map_.topology(), scene.fleet, input.map_T_base, scene.corridors, topological_.map.max_edge_m,
-                      topological_.map.node_distance_m, [&](const Point2& p_map) { return left_out(p_map, input.now); },
-                      [&](const Point2& p_map) {
-                        return explore::view_gain(scene.floor->cost, p_map, params_.one_step.sensor).area_m2;
-                      },
-                      topological_.auction, patient(input.now)});
+ChoiceInput TopologicalStrategy::question(const Input& input, const Scene& scene) const {
+  return {map_.topology(),
+          scene.fleet,
+          input.map_T_base,
+          scene.corridors,
+          topological_.map.max_edge_m,
+          topological_.map.node_distance_m,
+          [&](const Point2& p_map) { return left_out(p_map, input.now); },
+          [&](const Point2& p_map) {
+            return explore::view_gain(scene.floor->cost, p_map, params_.one_step.sensor).area_m2;
+          },
+          topological_.auction,
+          patient(input.now),
+          topological_.takeover_m};
 }
 
 /// Each robot may leave out what the other waits for it to take: then all would wait for good.
@@ -155,10 +163,11 @@ bool TopologicalStrategy::patient(RobotTime now) const {
 void TopologicalStrategy::wait_or_finish(const Input& input, const GoalChoice& choice, Step& out) {
   if (resting(input.now)) {
     wait(input, "waiting to try again what could not be reached");
+  } else if (turned_at_ != map_.topology().current && field_of_view_rad(*input.laser) < kTwoPi - kLookStep_rad) {
+    begin_turn(input, choice.others_busy ? "looking about while other robots are at what is left to explore"
+                                         : "looking about, for no node has a goal left");
   } else if (choice.others_busy) {
     wait(input, "other robots are at what is left to explore");
-  } else if (turned_at_ != map_.topology().current && field_of_view_rad(*input.laser) < kTwoPi - kLookStep_rad) {
-    begin_turn(input, "looking about, for no node has a goal left");
   } else {
     finish("no node has a goal left", out);
   }

@@ -22,6 +22,7 @@ struct TopologicalParams {
   double retry_s = 20.0;         ///< after a failed drive other goals are tried first for so long
   double replan_period_s = 2.0;  ///< goals are looked at again this often while driving
   double scan_limit_s = 5.0;     ///< without a scan for longer it gives up
+  double takeover_m = 3.0;       ///< of a goal that another robot drives to, by one with so much shorter a way
   double patience_s = 10.0;      ///< waiting for others to take what they are nearer to while none of them drives
 };
 
@@ -63,7 +64,7 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
 
   [[nodiscard]] std::optional<Scene> look(const Input& input) const;
   void choose(const Input& input, Step& out);
-  [[nodiscard]] GoalChoice choice_of(const Input& input, const Scene& scene) const;
+  [[nodiscard]] ChoiceInput question(const Input& input, const Scene& scene) const;
   void wait_or_finish(const Input& input, const GoalChoice& choice, Step& out);
   void wait(const Input& input, std::string why);
   void finish(std::string why, Step& out);

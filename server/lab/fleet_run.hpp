@@ -13,8 +13,8 @@
 namespace seeker::lab {
 
 struct FleetSpec : SimSpec {
-  int robots = 2;                ///< at the first starts of the world
-  double merge_period_s = 20.0;  ///< robot time between two attempts to merge
+  int robots = 2;               ///< at the first starts of the world
+  double merge_period_s = 5.0;  ///< robot time between two attempts to merge, as between announcements of a map
 };
 
 struct FleetResult {

@@ -117,6 +117,25 @@ Check check_merges(const std::vector<FleetResult>& runs) {
                       {"seeds", print_seeds(seeds)}}};
 }
 
+Check check_trap(const std::vector<FleetResult>& runs) {
+  int merged = 0;
+  int wrong = 0;
+  double error_m = 0.0;
+  std::vector<std::uint64_t> seeds;
+  for (const FleetResult& run : runs) {
+    merged += run.merged == run.pairs ? 1 : 0;
+    wrong += run.wrong;
+    error_m = std::max(error_m, run.error_m);
+    seeds.push_back(run.seed);
+  }
+  return {.id = "S4-TRAP",
+          .passed = !runs.empty() && wrong == 0,
+          .figures = {{"wrong", std::to_string(wrong)},
+                      {"merged", std::to_string(merged) + "/" + std::to_string(runs.size())},
+                      {"error_max_m", fixed(error_m, 3)},
+                      {"seeds", print_seeds(seeds)}}};
+}
+
 Check check_sharing(const std::vector<FleetResult>& runs, const std::vector<ExploreResult>& single) {
   std::vector<double> ratios;
   int contacts = 0;

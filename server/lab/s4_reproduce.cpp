@@ -16,14 +16,15 @@ namespace seeker::lab {
 namespace {
 
 constexpr const char* kWorld = "arena-20";
+constexpr const char* kTrapWorld = "twin-corridors";
 constexpr const char* kRobot = "arena";
 constexpr double kTimeLimit_s = 3600.0;
 constexpr double kLoadPeriod_s = 1.0;
 
-ExploreSpec spec_of(const ReproduceParams& params, std::uint64_t seed) {
+ExploreSpec spec_of(const ReproduceParams& params, std::uint64_t seed, const std::string& world = kWorld) {
   ExploreSpec spec;
   spec.robot_file = params.config / "robots" / (std::string(kRobot) + ".yaml");
-  spec.world_file = params.config / "worlds" / (std::string(kWorld) + ".yaml");
+  spec.world_file = params.config / "worlds" / (world + ".yaml");
   spec.strategy = api::ExploreStrategy::kTopological;
   spec.time_limit_s = kTimeLimit_s;
   spec.overrides = params.overrides;
@@ -31,12 +32,12 @@ ExploreSpec spec_of(const ReproduceParams& params, std::uint64_t seed) {
   return spec;
 }
 
-std::vector<FleetSpec> fleet_specs(const ReproduceParams& params) {
+std::vector<FleetSpec> fleet_specs(const ReproduceParams& params, const std::string& world) {
   std::vector<FleetSpec> specs;
   specs.reserve(params.seeds.size());
   for (const std::uint64_t seed : params.seeds) {
     FleetSpec spec;
-    static_cast<SimSpec&>(spec) = spec_of(params, seed);
+    static_cast<SimSpec&>(spec) = spec_of(params, seed, world);
     specs.push_back(std::move(spec));
   }
   return specs;
@@ -141,13 +142,21 @@ Status reproduce_s4(const ReproduceParams& params, Report& report) {
   if (Status ok = draw_single(params, report); !ok) {
     return ok;
   }
-  const Result<std::vector<FleetResult>> fleets = fleet_missing(fleet_specs(params), params.out, params.show_progress);
+  const auto fleets = fleet_missing(fleet_specs(params, kWorld), params.out, params.show_progress);
   if (!fleets) {
     return tl::unexpected<Error>(fleets.error());
   }
   report.add(check_merges(*fleets));
   report.add(check_sharing(*fleets, *runs));
-  return image::write_file(params.out / "fleet.csv", fleet_table(*fleets).csv());
+  if (Status ok = image::write_file(params.out / "fleet.csv", fleet_table(*fleets).csv()); !ok) {
+    return ok;
+  }
+  const auto trapped = fleet_missing(fleet_specs(params, kTrapWorld), params.out, params.show_progress);
+  if (!trapped) {
+    return tl::unexpected<Error>(trapped.error());
+  }
+  report.add(check_trap(*trapped));
+  return image::write_file(params.out / "trap.csv", fleet_table(*trapped).csv());
 }
 
 }  // namespace seeker::lab

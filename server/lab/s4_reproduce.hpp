@@ -40,6 +40,8 @@ struct LoadSample {
 
 /// R8: two robots that do not know where the other began merge their maps, near the truth, and never wrongly.
 [[nodiscard]] Check check_merges(const std::vector<FleetResult>& runs);
+/// Two robots at the ends of two corridors that are alike are never merged wrongly, however long they see the same.
+[[nodiscard]] Check check_trap(const std::vector<FleetResult>& runs);
 /// Several robots need less time than one; runs of the same seeds.
 [[nodiscard]] Check check_sharing(const std::vector<FleetResult>& runs, const std::vector<ExploreResult>& single);
 
@@ -52,7 +54,7 @@ inline constexpr double kArenaWallShare = 0.90;
 inline constexpr double kPeaksAtNodes = 0.9;
 
 /// Fig 3 (tree), Fig 6 (map of one robot with its nodes), Fig 11 (load), the merges of two robots (of Fig 10a);
-/// runs.csv, table.csv, fleet.csv; PASS and FAIL lines.
+/// runs.csv, table.csv, fleet.csv, trap.csv; PASS and FAIL lines.
 [[nodiscard]] Status reproduce_s4(const ReproduceParams& params, Report& report);
 
 }  // namespace seeker::lab

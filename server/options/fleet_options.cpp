@@ -43,6 +43,7 @@ void describe(config::Fields& f, TopologicalParams& params) {
   f.field("retry_s", params.retry_s);
   f.field("replan_period_s", params.replan_period_s);
   f.field("scan_limit_s", params.scan_limit_s);
+  f.field("takeover_m", params.takeover_m);
   f.field("patience_s", params.patience_s);
 }
 

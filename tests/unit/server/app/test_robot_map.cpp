@@ -55,6 +55,28 @@ TEST_F(RobotMapTest, RisingEpochWritesTheKeptScansAnewOverSomeTicks) {
   EXPECT_LT(map.occupancy().probability_at(Point2(1.0, 0.5)).value_or(1.0), 0.5);
 }
 
+TEST_F(RobotMapTest, AMapThatHardlyMovedIsWrittenAnewWithoutHurryUnlessItGoesOnMoving) {
+  state->map.keyframes.resize(12, state->map.keyframes.front());
+  RobotMap calm({.render_scans_per_tick = 12, .calm_scans_per_tick = 4}, {}, &tracker);
+  const auto ticks_after_move = [&](const Pose2& old_map_T_base) {
+    ++state->estimate.map_epoch;
+    static_cast<void>(calm.follow(tracker.estimate(), now, old_map_T_base));
+    int ticks = 0;
+    for (; calm.rendering(); ++ticks) {
+      calm.step();
+    }
+    return ticks;
+  };
+  const Pose2 here = tracker.estimate().map_T_base;
+  EXPECT_EQ(ticks_after_move(here * Pose2{0.02, 0.0, 0.0}), 3);
+  EXPECT_EQ(ticks_after_move(here * Pose2{0.2, 0.0, 0.0}), 1);
+  EXPECT_EQ(ticks_after_move(here * Pose2{0.0, 0.0, 0.05}), 1);
+  ++state->estimate.map_epoch;
+  static_cast<void>(calm.follow(tracker.estimate(), now, here));
+  ASSERT_TRUE(calm.rendering());
+  EXPECT_EQ(ticks_after_move(here), 1) << "it has moved once more before it was finished";
+}
+
 TEST_F(RobotMapTest, ClientsGetTheNewMapWhateverRevisionTheyHad) {
   const LaserScan live = unpack_scan(state->map.keyframes.front());
   for (int k = 0; k < 20; ++k) {

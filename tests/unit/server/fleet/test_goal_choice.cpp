@@ -37,18 +37,20 @@ struct Scene {
   std::vector<Point2> left_out = {};
   std::function<double(const Point2&)> gain_m2 = [](const Point2&) { return 5.0; };
 
-  [[nodiscard]] GoalChoice choose() const {
-    return choose_goal(
-        {own,
-         fleet,
-         {0.0, 0.0, 0.0},
-         kOpen,
-         8.0,
-         2.0,
-         [this](const Point2& p) { return std::find(left_out.begin(), left_out.end(), p) != left_out.end(); },
-         gain_m2,
-         {}});
+  [[nodiscard]] ChoiceInput input() const {
+    return {own,
+            fleet,
+            {0.0, 0.0, 0.0},
+            kOpen,
+            8.0,
+            2.0,
+            [this](const Point2& p) { return std::find(left_out.begin(), left_out.end(), p) != left_out.end(); },
+            gain_m2,
+            {}};
   }
+  [[nodiscard]] GoalChoice choose() const { return choose_goal(input()); }
+  /// Whether the robot gives up its first goal, `p_other` being where robot "a" is, who drives there as well.
+  [[nodiscard]] bool yields_to(const Point2& p_other);
 };
 
 RobotTopology other_at(const Point2& p, std::vector<TopologyGoal> goals = {}) {
@@ -58,6 +60,13 @@ RobotTopology other_at(const Point2& p, std::vector<TopologyGoal> goals = {}) {
   other.topology.nodes = {node(1, p, std::move(goals))};
   other.topology.current = 1;
   return other;
+}
+
+bool Scene::yields_to(const Point2& p_other) {
+  const std::optional<PendingGoal> goal = choose().goal;
+  fleet.others = {other_at(p_other)};
+  fleet.others.front().target_map = goal->p_map;
+  return yields(input(), *goal);
 }
 
 TEST(GoalChoice, IsTheMainGoalOfThePresentNode) {
@@ -107,6 +116,31 @@ TEST(GoalChoice, LeavesAloneWhatAnotherRobotDrivesTo) {
   scene.own.nodes[1].goals.clear();
   EXPECT_FALSE(scene.choose().goal.has_value());
   EXPECT_TRUE(scene.choose().others_busy);
+}
+
+TEST(GoalChoice, TakesOverWhatAnotherRobotHasAMuchLongerWayTo) {
+  Scene scene{row({{{1, {3.0, 0.0}, 8}}})};
+  scene.fleet.others = {other_at({5.0, 0.0})};
+  scene.fleet.others.front().target_map = Point2(3.0, 0.0);
+  EXPECT_FALSE(scene.choose().goal.has_value());
+  scene.fleet.others = {other_at({12.0, 0.0})};
+  scene.fleet.others.front().target_map = Point2(3.0, 0.0);
+  ASSERT_TRUE(scene.choose().goal.has_value());
+  EXPECT_EQ(scene.choose().goal->id, 1U);
+}
+
+TEST(GoalChoice, OfTwoThatDriveToOneGoalTheOneWithTheMuchLongerWayYieldsElseTheLastByName) {
+  const Topology own = row({{{1, {9.0, 0.0}, 8}}});
+  for (const char* name : {"b", "0"}) {  // after the other one, "a", and before it
+    const auto yields_to = [&](const Point2& p_other) {
+      Scene scene{own};
+      scene.fleet.robot_id = name;
+      return scene.yields_to(p_other);
+    };
+    EXPECT_TRUE(yields_to({8.0, 0.0})) << name;
+    EXPECT_FALSE(yields_to({30.0, 0.0})) << name;
+    EXPECT_EQ(yields_to({17.0, 0.0}), std::string(name) == "b");
+  }
 }
 
 TEST(GoalChoice, DoesNotWaitForARobotThatIsGone) {

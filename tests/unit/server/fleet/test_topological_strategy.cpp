@@ -190,6 +190,28 @@ TEST(TopologicalStrategy, TakesAfterAWhileWhatARobotThatStandsIsNearerTo) {
   EXPECT_GT(run.wall_share, kWallShare);
 }
 
+TEST(TopologicalStrategy, LooksAboutBeforeItWaitsForOthers) {
+  RobotTopology other;
+  other.robot_id = "a";
+  other.map_T_base = {5.6, 2.5, 0.0};
+  other.active = true;
+  other.target_map = Point2(6.0, 2.5);
+  FleetView fleet{"b", {other}, nullptr};
+  Exploration exploration = exploration_of();
+  ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [&](double t_s, ExploreInput& input) {
+    fleet.others.front().active = t_s < 300.0;
+    input.fleet = &fleet;
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("looks about", run, *exploration.strategy().topology());
+  ASSERT_TRUE(run.end.has_value());
+  const auto waits = std::find(run.phases.begin(), run.phases.end(), "wait");
+  ASSERT_NE(waits, run.phases.end());
+  EXPECT_EQ(*std::prev(waits), "turn");
+}
+
 TEST(TopologicalStrategy, DrivesUpToOneInTheDoorThatMakesWay) {
   Exploration exploration = exploration_of();
   ToyExplorer robot(explore::two_rooms(), {3.3, 2.5, 0.0}, 7, 6.0);
