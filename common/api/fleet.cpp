@@ -41,6 +41,20 @@ RobotTopology within_limits(RobotTopology robot) {
   return robot;
 }
 
+std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const Point2& p_map) {
+  const CellIndex here = GridFrame{Point2::Zero(), kTileSide_cells * kTileResolution_m}.cell_of(p_map);
+  const auto off = [&](const OccupancyTile& tile) {
+    return std::max(std::abs(tile.index.i - here.i), std::abs(tile.index.j - here.j));
+  };
+  std::erase_if(tiles, [&](const OccupancyTile& tile) { return off(tile) >= kMaxFleetFloorSide_tiles / 2; });
+  if (tiles.size() > kMaxFleetTiles) {
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [&](const OccupancyTile& a, const OccupancyTile& b) { return off(a) < off(b); });
+    tiles.resize(kMaxFleetTiles);
+  }
+  return tiles;
+}
+
 std::string_view to_string(FleetState state) {
   switch (state) {
     case FleetState::kWaiting: return "WAITING";

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/core/line_map.hpp"
+#include "common/core/occupancy_tile.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/topology.hpp"
 
@@ -30,6 +31,8 @@ inline constexpr std::size_t kMaxFleetGoals = 4'000;
 inline constexpr std::size_t kMaxFleetSectors = 20'000;
 inline constexpr std::size_t kMaxFleetWays = 10'000;
 inline constexpr int kMaxFleetLayer = 64;
+inline constexpr std::size_t kMaxFleetTiles = 1'024;  ///< of a floor,
+inline constexpr int kMaxFleetFloorSide_tiles = 64;   ///< that is at most so wide and so high: 205 m
 inline constexpr double kMaxFleetReach_m = 10'000.0;  ///< a place is not farther from the origin of any map
 inline constexpr double kMaxFleetGoal_m = 200.0;      ///< nor a goal from its place
 
@@ -130,6 +133,24 @@ struct FleetShared {
   std::vector<RobotTopology> others;        ///< where it is merged: all that are, in its own frame `map`
   friend bool operator==(const FleetShared&, const FleetShared&) = default;
 };
+
+/// What a robot has seen of the floor, in its own frame `map`. Said now and then.
+struct FleetFloor {
+  std::string robot_id;
+  std::uint64_t instance = 0;        ///< as in FleetManifest
+  std::vector<OccupancyTile> tiles;  ///< all of them; empty where it does not know its place
+  friend bool operator==(const FleetFloor&, const FleetFloor&) = default;
+};
+
+/// What all other robots that are merged have seen of it, in the frame `map` of the one that has told; empty where that
+/// one is not merged.
+struct FleetFloors {
+  std::vector<OccupancyTile> others;
+  friend bool operator==(const FleetFloors&, const FleetFloors&) = default;
+};
+
+/// Those next to `p_map`, as many as the limits above let through.
+[[nodiscard]] std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const Point2& p_map);
 
 /// The same topology within the limits above: places beyond them are left out with what speaks of them, of sectors the
 /// newest of each place stay.

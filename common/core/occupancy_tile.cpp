@@ -1,8 +1,19 @@
 #include "common/core/occupancy_tile.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "common/core/assert.hpp"
 
 namespace seeker {
+namespace {
+
+/// Of a cell, along one axis.
+int tile_of(int cell) { return cell >= 0 ? cell / kTileSide_cells : (cell + 1) / kTileSide_cells - 1; }
+
+}  // namespace
 
 std::optional<Grid<std::uint8_t>> assemble(const std::vector<OccupancyTile>& tiles) {
   if (tiles.empty()) {
@@ -25,6 +36,35 @@ std::optional<Grid<std::uint8_t>> assemble(const std::vector<OccupancyTile>& til
     }
   }
   return grid;
+}
+
+std::vector<OccupancyTile> cut(const Grid<std::uint8_t>& grid) {
+  SEEKER_ASSERT(grid.frame().resolution_m == kTileResolution_m);
+  const Point2 first = grid.frame().origin / kTileResolution_m;
+  const CellIndex low{static_cast<int>(std::lround(first.x())), static_cast<int>(std::lround(first.y()))};
+  std::map<std::pair<int, int>, OccupancyTile> tiles;
+  for (CellIndex c{0, 0}; c.j < grid.height(); ++c.j) {
+    for (c.i = 0; c.i < grid.width(); ++c.i) {
+      if (grid[c] == kUnknownCell) {
+        continue;
+      }
+      const CellIndex cell{low.i + c.i, low.j + c.j};
+      const CellIndex index{tile_of(cell.i), tile_of(cell.j)};
+      auto [tile, is_new] = tiles.try_emplace({index.i, index.j});
+      if (is_new) {
+        tile->second.index = index;
+        tile->second.cells.fill(kUnknownCell);
+      }
+      const CellIndex local{cell.i - index.i * kTileSide_cells, cell.j - index.j * kTileSide_cells};
+      tile->second.cells[static_cast<std::size_t>(local.j * kTileSide_cells + local.i)] = grid[c];
+    }
+  }
+  std::vector<OccupancyTile> all;
+  all.reserve(tiles.size());
+  for (const auto& [index, tile] : tiles) {
+    all.push_back(tile);
+  }
+  return all;
 }
 
 }  // namespace seeker

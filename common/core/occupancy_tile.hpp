@@ -29,4 +29,8 @@ struct OccupancyTile {
 /// The tiles pasted into one grid that just holds them; nothing for an empty list.
 [[nodiscard]] std::optional<Grid<std::uint8_t>> assemble(const std::vector<OccupancyTile>& tiles);
 
+/// The grid cut into tiles, without those that nothing is known of. Its resolution must be that of tiles, and its cells
+/// must lie on multiples of it.
+[[nodiscard]] std::vector<OccupancyTile> cut(const Grid<std::uint8_t>& grid);
+
 }  // namespace seeker

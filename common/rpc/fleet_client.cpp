@@ -74,6 +74,13 @@ Result<api::FleetShared> FleetClient::share(const api::FleetShare& share) {
   return reply ? wire::from_message<api::FleetShared>(*reply) : tl::unexpected<Error>(reply.error());
 }
 
+Result<api::FleetFloors> FleetClient::floor(const api::FleetFloor& floor) {
+  pb::FleetRequest request;
+  wire::write(floor, request.mutable_floor());
+  const Result<pb::FleetReply> reply = link_->ask(std::move(request));
+  return reply ? wire::from_message<api::FleetFloors>(*reply) : tl::unexpected<Error>(reply.error());
+}
+
 Result<std::uint64_t> FleetClient::send(const api::FleetChunk& chunk) {
   pb::FleetRequest request;
   wire::write(chunk, request.mutable_chunk());

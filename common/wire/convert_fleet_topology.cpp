@@ -138,6 +138,39 @@ void read_ways(const pb::FleetTopology& from, Topology& to, Check& check) {
   }
 }
 
+using TileField = google::protobuf::RepeatedPtrField<pb::Tile>;
+
+void write_tiles(const std::vector<OccupancyTile>& from, TileField* to) {
+  for (const OccupancyTile& tile : from) {
+    write(tile, to->Add());
+  }
+}
+
+/// A few tiles far apart would make a grid larger than all memory.
+bool close_together(const std::vector<OccupancyTile>& tiles) {
+  const auto spread = [&](auto coordinate) {
+    const auto [low, high] = std::minmax_element(
+        tiles.begin(), tiles.end(), [&](const auto& a, const auto& b) { return coordinate(a) < coordinate(b); });
+    return coordinate(*high) - coordinate(*low);
+  };
+  return tiles.empty() ||
+         (spread([](const OccupancyTile& tile) { return tile.index.i; }) < api::kMaxFleetFloorSide_tiles &&
+          spread([](const OccupancyTile& tile) { return tile.index.j; }) < api::kMaxFleetFloorSide_tiles);
+}
+
+void read_tiles(const TileField& from, std::vector<OccupancyTile>& to, Check& check) {
+  if (!check.count("tiles", static_cast<std::size_t>(from.size()), api::kMaxFleetTiles)) {
+    return;
+  }
+  for (int k = 0; k < from.size() && check.ok(); ++k) {
+    const auto scope = check.in("tiles", static_cast<std::size_t>(k));
+    read(from[k], to.emplace_back(), check);
+  }
+  if (!close_together(to)) {
+    check.refuse("tiles", Errc::kTooLarge, "are too far apart");
+  }
+}
+
 }  // namespace
 
 void write(const RobotTopology& from, pb::FleetTopology* to) {
@@ -221,6 +254,24 @@ void read(const pb::FleetReply& from, api::FleetShared& to, Check& check) {
     const auto scope = check.in("others", static_cast<std::size_t>(k));
     read(from.others(k), to.others.emplace_back(), check);
   }
+}
+
+void write(const api::FleetFloor& from, pb::FleetFloor* to) {
+  to->set_robot_id(from.robot_id);
+  to->set_instance(from.instance);
+  write_tiles(from.tiles, to->mutable_tiles());
+}
+
+void read(const pb::FleetFloor& from, api::FleetFloor& to, Check& check) {
+  to.robot_id = read_robot_id(from.robot_id(), check);
+  to.instance = from.instance();
+  read_tiles(from.tiles(), to.tiles, check);
+}
+
+void write(const api::FleetFloors& from, pb::FleetReply* to) { write_tiles(from.others, to->mutable_floor()); }
+
+void read(const pb::FleetReply& from, api::FleetFloors& to, Check& check) {
+  read_tiles(from.floor(), to.others, check);
 }
 
 }  // namespace seeker::wire

@@ -79,7 +79,27 @@ Status FleetFollower::once() {
     }
     announce_at_ = std::chrono::steady_clock::now() + params_.period;
   }
+  if (std::chrono::steady_clock::now() >= floor_at_) {
+    if (Status exchanged = exchange_floors(); !exchanged) {
+      return exchanged;
+    }
+    floor_at_ = std::chrono::steady_clock::now() + params_.floor_period;
+  }
   return share();
+}
+
+/// What the others have seen goes to the robot with the next share.
+Status FleetFollower::exchange_floors() {
+  Result<OwnFloor> own = rpc::wait<OwnFloor>(host_.give_floor, params_.call_timeout);
+  if (!own) {
+    return tl::unexpected<Error>(own.error());
+  }
+  const Result<api::FleetFloors> floors = main_.floor({params_.robot_id, instance_, std::move(*own)});
+  if (floors) {
+    floor_ = floor_of(floors->others);
+    return {};
+  }
+  return floors.error().code == Errc::kNotFound ? Status() : Status(tl::unexpected<Error>(floors.error()));
 }
 
 Status FleetFollower::announce() {
@@ -135,7 +155,7 @@ void FleetFollower::hear(const Result<api::FleetShared>& shared) {
   std::optional<FleetView> view = view_;
   const api::FleetState state = shared ? shared->state : api::FleetState::kWaiting;
   switch (state) {
-    case api::FleetState::kMerged: view = FleetView{params_.robot_id, shared->others, nullptr}; break;
+    case api::FleetState::kMerged: view = FleetView{params_.robot_id, shared->others, floor_}; break;
     case api::FleetState::kWaiting:
     case api::FleetState::kInsufficientOverlap:
       for (std::size_t k = 0; view && k < view->others.size(); ++k) {
@@ -145,7 +165,10 @@ void FleetFollower::hear(const Result<api::FleetShared>& shared) {
       break;
     case api::FleetState::kAmbiguous:
     case api::FleetState::kContradicted:
-    case api::FleetState::kSplit: view.reset(); break;
+    case api::FleetState::kSplit:
+      view.reset();
+      floor_.reset();
+      break;
   }
   if (view != view_) {
     view_ = view;

@@ -25,6 +25,7 @@ struct FleetFollowerParams {
   std::string robot_id;
   Duration period = std::chrono::seconds(5);         ///< wall time between announcements of the map
   Duration share_period = std::chrono::seconds(1);   ///< wall time between those of where the robot goes
+  Duration floor_period = std::chrono::seconds(5);   ///< wall time between those of the floor that it has seen
   Duration call_timeout = std::chrono::seconds(10);  ///< wall time
 };
 
@@ -45,6 +46,7 @@ class FleetFollower {
   [[nodiscard]] Status announce();
   [[nodiscard]] Status send(const PackedMap& packed, const api::FleetMissing& missing);
   [[nodiscard]] Status share();
+  [[nodiscard]] Status exchange_floors();
   void hear(const Result<api::FleetShared>& shared);
   void note(const Status& outcome);
   [[nodiscard]] bool stopping() const;
@@ -58,6 +60,8 @@ class FleetFollower {
   // For the thread only.
   WallTime announce_at_;
   WallTime share_at_;
+  WallTime floor_at_;
+  nav::SharedFloor floor_;         ///< what the others have seen, as last heard
   std::optional<FleetView> view_;  ///< what the robot was last told of the others
   mutable std::mutex mutex_;       ///< guards what follows
   std::condition_variable wake_;

@@ -69,6 +69,7 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
   const bool changed = is_new || member.manifest.nodes != manifest.nodes || member.manifest.edges != manifest.edges;
   if (!same_frame(member.manifest.nodes, manifest.nodes)) {
     member.topology.reset();  // places in a map that is no more; those of the new one are told soon
+    member.floor.reset();
   }
   take(member, manifest);
   api::FleetAnswer answer{missing_of(member), {}};

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/api/fleet.hpp"
@@ -20,6 +21,7 @@
 #include "server/fleet/fleet_links.hpp"
 #include "server/fleet/joint_map.hpp"
 #include "server/fleet/map_merger.hpp"
+#include "server/nav/shared_floor.hpp"
 
 namespace seeker::v1 {
 class FleetRecord;
@@ -34,6 +36,7 @@ struct FleetLeaderParams {
   std::string software_version;
   Duration silence_limit = std::chrono::seconds(5);  ///< see FleetSettings
   Duration retry_period = std::chrono::seconds(10);  ///< wall time until the same map is looked at again
+  Duration floor_period = std::chrono::seconds(5);  ///< wall time between what its own robot hears of the others' floor
   fleet::MergeParams merge;
 };
 
@@ -54,6 +57,8 @@ class FleetLeader {
   [[nodiscard]] Result<std::uint64_t> receive(const api::FleetChunk& chunk);
   /// Where a robot goes, and the answer: where the others go. kNotFound: it has to announce itself first.
   [[nodiscard]] Result<api::FleetShared> share(const api::FleetShare& share);
+  /// What a robot has seen of the floor, and the answer: what the others have. kNotFound: as above.
+  [[nodiscard]] Result<api::FleetFloors> floor(const api::FleetFloor& floor);
   /// Asks the main robot itself where it goes, and tells it of the others; to be called every now and then.
   void refresh();
   [[nodiscard]] api::FleetStatus status() const;
@@ -72,6 +77,7 @@ class FleetLeader {
     std::uint8_t slot = 1;  ///< in the joint map
     std::optional<WallTime> seen;
     std::optional<RobotTopology> topology;  ///< last told, in its own frame `map`
+    nav::SharedFloor floor;                 ///< so, too; null: nothing yet
     std::optional<WallTime> shared;         ///< when it was told
     std::optional<WallTime> judged;
     bool waits = false;   ///< to be judged by the worker
@@ -85,9 +91,28 @@ class FleetLeader {
     std::optional<Pose2> main_T_map;
   };
   /// What a loop tells when it comes to it; this may be gone by then.
-  struct Inbox {
-    std::mutex mutex;
-    std::optional<OwnTopology> own;
+  template <class T>
+  class Inbox {
+   public:
+    [[nodiscard]] api::Reply<T> reply() const {
+      return [kept = kept_](Result<T> told) {
+        if (told) {
+          const std::lock_guard lock(kept->mutex);
+          kept->told = std::move(*told);
+        }
+      };
+    }
+    [[nodiscard]] std::optional<T> take() {
+      const std::lock_guard lock(kept_->mutex);
+      return std::exchange(kept_->told, std::nullopt);
+    }
+
+   private:
+    struct Kept {
+      std::mutex mutex;
+      std::optional<T> told;
+    };
+    std::shared_ptr<Kept> kept_ = std::make_shared<Kept>();
   };
   /// Of two robots, by slot, the lower first: what the merger last said, and when.
   struct Compared {
@@ -104,6 +129,7 @@ class FleetLeader {
     std::string trouble;  ///< why the maps could not be joined
   };
 
+  void refresh_floor();
   [[nodiscard]] Result<api::FleetStatus> take_decision(const api::FleetDecision& decision);
 
   // With the lock held.
@@ -115,6 +141,8 @@ class FleetLeader {
   [[nodiscard]] api::FleetMember describe(const Member& member, WallTime now) const;
   [[nodiscard]] std::vector<RobotTopology> others_of(const std::string& robot_id, const Pose2& main_T_map,
                                                      WallTime now) const;
+  [[nodiscard]] std::vector<std::pair<Pose2, nav::SharedFloor>> floors_of_others(const std::string& robot_id,
+                                                                                 const Pose2& main_T_map) const;
   void recall_own(const api::FleetManifest& own, const v1::KeptFleet& kept);
   [[nodiscard]] bool silent(const std::optional<WallTime>& heard, WallTime now) const;
   void set_state(Member& member, api::FleetState state, std::string reason);
@@ -151,18 +179,23 @@ class FleetLeader {
 
   FleetLeaderParams params_;
   FleetHost host_;
-  std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
+  Inbox<OwnTopology> topology_inbox_;
+  Inbox<OwnFloor> floor_inbox_;
   fleet::MapMerger merger_;
   mutable std::mutex mutex_;  ///< guards what follows
   std::map<std::string, Member> members_;
   std::vector<Point2> own_places_;
   std::optional<Pose2> own_map_T_base_;
   std::optional<RobotTopology> own_topology_;
+  nav::SharedFloor own_floor_;
   /// The main robot has not taken up its map again since it was started: what it was holds, not where its loop is now.
   bool remembers_own_ = false;
   std::map<std::string, std::uint8_t> kept_slots_;
   std::uint32_t revision_ = 0;
   std::mutex record_mutex_;  ///< held while a robot's record is written; taken before mutex_
+  // For refresh() only.
+  WallTime floor_at_;
+  nav::SharedFloor others_floor_;  ///< what the main robot was told last
   // For the worker only.
   std::map<std::uint8_t, fleet::PreparedMap> prepared_;  ///< by slot, the main robot's own at 0
   std::map<std::uint8_t, std::uint64_t> versions_;       ///< of those: rise when a map has changed

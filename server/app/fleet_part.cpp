@@ -35,6 +35,7 @@ Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& 
     params.robot_id = robot_id;
     params.software_version = software_version;
     params.silence_limit = settings.silence_limit;
+    params.floor_period = settings.floor_period;
     params.merge = settings.merge;
     part.leader = std::make_unique<FleetLeader>(std::move(params), host);
     if (const Status started = lead(settings, folder, part); !started) {
@@ -50,6 +51,7 @@ Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& 
     params.robot_id = robot_id;
     params.period = settings.period;
     params.share_period = settings.share_period;
+    params.floor_period = settings.floor_period;
     part.follower = std::make_unique<FleetFollower>(std::move(params), host);
   }
   return part;

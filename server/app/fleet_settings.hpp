@@ -17,6 +17,7 @@ struct FleetSettings {
   std::string join;                                 ///< host:port of the main robot's fleet; empty: joins none
   Duration period = std::chrono::seconds(5);        ///< wall time between announcements of the map
   Duration share_period = std::chrono::seconds(1);  ///< wall time between those of where the robot goes
+  Duration floor_period = std::chrono::seconds(5);  ///< wall time between those of the floor that it has seen
   /// Wall time of silence after which a robot counts as gone: its goals are anybody's, and its id may be taken over.
   Duration silence_limit = std::chrono::seconds(5);
   fleet::MergeParams merge;

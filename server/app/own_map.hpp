@@ -5,10 +5,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/api/robot_api.hpp"
 #include "common/core/line_map.hpp"
 #include "common/core/topology.hpp"
+#include "server/nav/shared_floor.hpp"
 
 namespace seeker::app {
 
@@ -20,11 +22,17 @@ struct OwnMap {
 /// What it tells of where it has been and means to go, frame `map`; nothing where it does not know its place.
 using OwnTopology = std::optional<RobotTopology>;
 
-/// The robot as its fleet sees it. None is empty; all may be called from any thread. The first two answer on the loop's
-/// thread, or at once where the loop has ended.
+/// What it has seen of the floor, frame `map`, within the limits of a fleet; empty where it does not know its place.
+using OwnFloor = std::vector<OccupancyTile>;
+/// Null where nothing has been seen.
+[[nodiscard]] nav::SharedFloor floor_of(const std::vector<OccupancyTile>& tiles);
+
+/// The robot as its fleet sees it. None is empty; all may be called from any thread. The first three answer on the
+/// loop's thread, or at once where the loop has ended.
 struct FleetHost {
   std::function<void(const api::Reply<OwnMap>&)> give_map;
   std::function<void(const api::Reply<OwnTopology>&)> give_topology;
+  std::function<void(const api::Reply<OwnFloor>&)> give_floor;
   /// What the robot knows of the others from now on, frame `map`; nothing: it is alone.
   std::function<void(std::optional<FleetView>)> take_view;
   /// An event of the robot; returns at once and calls nobody back.

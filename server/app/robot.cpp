@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/api/fleet.hpp"
+
 namespace seeker::app {
 namespace {
 
@@ -197,6 +199,7 @@ FleetHost Robot::fleet_host() {
   FleetHost host;
   host.give_map = [this](const api::Reply<OwnMap>& reply) { give_own_map(reply); };
   host.give_topology = [this](const api::Reply<OwnTopology>& reply) { give_own_topology(reply); };
+  host.give_floor = [this](const api::Reply<OwnFloor>& reply) { give_own_floor(reply); };
   // A full mailbox only delays what is said again soon.
   host.take_view = [this](std::optional<FleetView> view) {
     static_cast<void>(mailbox_.post([this, view = std::move(view)]() mutable { loop_.set_fleet(std::move(view)); }));
@@ -230,6 +233,17 @@ void Robot::give_own_topology(const api::Reply<OwnTopology>& reply) {
       own->robot_id = identity_.robot_id;
     }
     reply(std::move(own));
+  });
+  if (!posted) {
+    reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));
+  }
+}
+
+void Robot::give_own_floor(const api::Reply<OwnFloor>& reply) {
+  const bool posted = mailbox_.post([this, reply] {
+    const std::optional<Pose2> place = known_place(loop_);
+    const bool told = place && !loop_.map_waits_for_resume();
+    reply(told ? api::within_limits(loop_.robot_map().tiles_since(0).tiles, place->translation()) : OwnFloor{});
   });
   if (!posted) {
     reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));

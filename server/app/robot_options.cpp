@@ -159,6 +159,8 @@ void describe(config::Fields& f, FleetSettings& settings) {
   f.check("period_s", settings.period > Duration::zero(), "must be above 0");
   f.seconds("share_period_s", settings.share_period);
   f.check("share_period_s", settings.share_period > Duration::zero(), "must be above 0");
+  f.seconds("floor_period_s", settings.floor_period);
+  f.check("floor_period_s", settings.floor_period > Duration::zero(), "must be above 0");
   f.seconds("silence_s", settings.silence_limit);
   f.check("silence_s", settings.silence_limit > settings.share_period, "must be above share_period_s");
   f.section("merge", settings.merge);

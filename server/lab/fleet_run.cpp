@@ -125,18 +125,17 @@ class Exchange {
   /// To each robot what the others that are merged with it have seen.
   void carry_floors() {
     for (std::size_t to = 0; to < members_.size(); ++to) {
-      std::optional<Grid<std::uint8_t>> floor;
+      std::vector<std::pair<Pose2, nav::SharedFloor>> floors;
       for (const Relation& relation : relations_) {
         if (relation.a_T_b && (relation.a == to || relation.b == to)) {
           const Pose2 to_T_from = relation.a == to ? *relation.a_T_b : inverse(*relation.a_T_b);
           const Member& from = *members_[relation.a == to ? relation.b : relation.a];
-          if (const auto seen = from.loop->map().snapshot()) {
-            const Grid<std::uint8_t> here = nav::carried(*seen, to_T_from);
-            floor = floor ? nav::with_known(*floor, here) : here;
+          if (auto seen = from.loop->map().snapshot()) {
+            floors.emplace_back(to_T_from, std::make_shared<const Grid<std::uint8_t>>(*std::move(seen)));
           }
         }
       }
-      floors_[to] = floor ? std::make_shared<const Grid<std::uint8_t>>(*std::move(floor)) : nullptr;
+      floors_[to] = nav::carried(floors);
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/core/assert.hpp"
 #include "common/core/occupancy_tile.hpp"
@@ -79,6 +80,15 @@ Grid<std::uint8_t> with_known(const Grid<std::uint8_t>& own, const Grid<std::uin
   paste(own, both.low, out);
   paste(other, both.low, out);
   return out;
+}
+
+SharedFloor carried(const std::vector<std::pair<Pose2, SharedFloor>>& floors) {
+  std::optional<Grid<std::uint8_t>> all;
+  for (const auto& [here_T_map, floor] : floors) {
+    Grid<std::uint8_t> here = carried(*floor, here_T_map);
+    all = all ? with_known(*all, here) : std::move(here);
+  }
+  return all ? std::make_shared<const Grid<std::uint8_t>>(*std::move(all)) : nullptr;
 }
 
 }  // namespace seeker::nav

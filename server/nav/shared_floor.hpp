@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "common/core/grid.hpp"
 #include "common/core/pose2.hpp"
@@ -16,5 +19,10 @@ namespace seeker::nav {
 /// `own`, with what `other` knows where `own` knows nothing; as large as both together. Both must have the resolution
 /// of tiles and cells that line up, as snapshots and carried() have.
 [[nodiscard]] Grid<std::uint8_t> with_known(const Grid<std::uint8_t>& own, const Grid<std::uint8_t>& other);
+
+/// Several floors in one frame, that which their poses lead to; of cells that more than one knows the first counts.
+/// Null for an empty list.
+using SharedFloor = std::shared_ptr<const Grid<std::uint8_t>>;
+[[nodiscard]] SharedFloor carried(const std::vector<std::pair<Pose2, SharedFloor>>& floors);
 
 }  // namespace seeker::nav

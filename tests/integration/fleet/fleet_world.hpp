@@ -57,8 +57,8 @@ inline app::FleetLeaderParams leader_params(const std::string& folder) {
 /// A robot with a toy map, which remembers what its fleet tells it.
 class ToyHost {
  public:
-  explicit ToyHost(LineMap map, app::OwnTopology topology = std::nullopt)
-      : map_(std::move(map)), topology_(std::move(topology)) {}
+  explicit ToyHost(LineMap map, app::OwnTopology topology = std::nullopt, app::OwnFloor floor = {})
+      : map_(std::move(map)), topology_(std::move(topology)), floor_(std::move(floor)) {}
 
   [[nodiscard]] app::FleetHost host() const {
     app::FleetHost host;
@@ -68,6 +68,7 @@ class ToyHost {
     host.give_topology = [topology = topology_](const api::Reply<app::OwnTopology>& reply) {
       reply(app::OwnTopology(topology));
     };
+    host.give_floor = [floor = floor_](const api::Reply<app::OwnFloor>& reply) { reply(app::OwnFloor(floor)); };
     host.take_view = [heard = heard_](std::optional<FleetView> view) {
       const std::lock_guard lock(heard->mutex);
       heard->view = std::move(view);
@@ -108,6 +109,7 @@ class ToyHost {
   };
   LineMap map_;
   app::OwnTopology topology_;
+  app::OwnFloor floor_;
   std::shared_ptr<Heard> heard_ = std::make_shared<Heard>();
 };
 
@@ -151,6 +153,26 @@ inline api::FleetMember until(const app::FleetLeader& leader, const std::string&
 
 inline api::FleetMember until(const app::FleetLeader& leader, const std::string& robot_id, api::FleetState state) {
   return until(leader, robot_id, [state](const api::FleetMember& member) { return member.state == state; });
+}
+
+/// One occupied cell of 5 cm, with its middle near `p_map`.
+inline std::vector<OccupancyTile> floor_with(const Point2& p_map) {
+  const GridFrame all{Point2::Zero(), kTileResolution_m};
+  const CellIndex cell = all.cell_of(p_map);
+  Grid<std::uint8_t> grid({kTileResolution_m * Point2(cell.i, cell.j), kTileResolution_m}, 1, 1, kOccupiedCell);
+  return cut(grid);
+}
+
+/// Where the only occupied cell is.
+inline std::optional<Point2> occupied_in(const Grid<std::uint8_t>& floor) {
+  for (CellIndex c{0, 0}; c.j < floor.height(); ++c.j) {
+    for (c.i = 0; c.i < floor.width(); ++c.i) {
+      if (floor[c] == kOccupiedCell) {
+        return floor.frame().centre_of(c);
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace seeker::testing

@@ -1,6 +1,7 @@
 // Robots that join a main one over loopback.
 
 #include "common/net/exchange.hpp"
+#include "common/wire/convert_fleet.hpp"
 #include "common/wire/envelope.hpp"
 #include "common/wire/outcome.hpp"
 #include "tests/integration/fleet/fleet_world.hpp"
@@ -18,7 +19,7 @@ struct Main {
     app::FleetSettings settings;
     settings.lead = true;
     settings.port = 0;
-    settings.share_period = 20ms;
+    settings.share_period = settings.floor_period = 20ms;
     const std::filesystem::path folder = fresh_folder(name);
     auto started = app::start_fleet(settings, "main", "test", folder, host.host());
     EXPECT_TRUE(started) << started.error().message;
@@ -33,7 +34,7 @@ app::FleetPart robot_at(std::uint16_t port, const std::string& robot_id, const a
   app::FleetSettings settings;
   settings.join = "127.0.0.1:" + std::to_string(port);
   settings.period = 20ms;
-  settings.share_period = 20ms;
+  settings.share_period = settings.floor_period = 20ms;
   auto started = app::start_fleet(settings, robot_id, "test", {}, host);
   EXPECT_TRUE(started) << started.error().message;
   return std::move(*started);
@@ -94,6 +95,21 @@ TEST(FleetLink, ARobotKeepsThePlacesOfTheOthersWhenTheLinkDropsAndTakesUpTheirGo
   EXPECT_EQ(alone->others.front().topology.nodes.size(), heard->others.front().topology.nodes.size());
 }
 
+TEST(FleetLink, RobotsHearOfTheFloorThatTheOthersHaveSeen) {
+  const Point2 seen_by_main(4.0, 0.5);
+  const ToyHost first(west(), at_place("main", {2.0, 1.0}), floor_with(seen_by_main));
+  const ToyHost second(east(), at_place("r1", {1.0, 0.0}), floor_with({2.0, -0.5}));
+  const Main main("link_floor", first);
+  const app::FleetPart robot = robot_at(main.port, "r1", second.host());
+  const auto has_floor = [](const std::optional<FleetView>& view) { return view && view->floor; };
+  const auto heard = second.until(has_floor);
+  ASSERT_TRUE(heard);
+  const auto there = occupied_in(*heard->floor);
+  ASSERT_TRUE(there);
+  EXPECT_THAT(*there, Point2Near(inverse(west_T_east()) * seen_by_main, 0.3));
+  EXPECT_TRUE(first.until(has_floor));
+}
+
 TEST(FleetLink, ARobotThatIsTakenOutForgetsTheOthers) {
   const ToyHost first(west(), at_place("main", {2.0, 1.0}));
   const ToyHost second(east(), at_place("r1", {1.0, 0.0}));
@@ -136,7 +152,7 @@ TEST(FleetServer, RefusesAnotherProtocolAndNonsense) {
   request.set_protocol(9);
   request.set_status(true);
   EXPECT_EQ(wire::status_of(ask(main.port, request).error()).error().code, Errc::kUnsupportedVersion);
-  request.set_protocol(1);
+  request.set_protocol(wire::kFleetProtocol);
   EXPECT_TRUE(wire::status_of(ask(main.port, request).error()));
   request.mutable_announce()->set_robot_id("../../etc");
   EXPECT_EQ(wire::status_of(ask(main.port, request).error()).error().code, Errc::kInvalidArgument);

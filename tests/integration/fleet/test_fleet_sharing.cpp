@@ -67,6 +67,51 @@ TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
       << "where r1 lies was found anew with r2's map";
 }
 
+TEST(FleetSharing, EveryRobotIsToldTheFloorOfTheOthersInItsOwnFrame) {
+  const Point2 seen_by_main(4.0, 0.5);
+  const Point2 seen_by_r1(2.0, -0.5);
+  const ToyHost main(west(), at_place("main", kPlace), floor_with(seen_by_main));
+  FleetLeaderParams params = patient_params("share_floor");
+  params.floor_period = Duration::zero();
+  FleetLeader leader(params, main.host());
+  EXPECT_EQ(leader.floor({"r1", 1, {}}).error().code, Errc::kNotFound) << "it has to announce itself first";
+  join(leader, packed(east(), "r1"));
+  const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
+  EXPECT_EQ(told(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
+  leader.refresh();
+  leader.refresh();
+
+  const auto r1_hears = leader.floor({"r1", 1, floor_with(seen_by_r1)});
+  ASSERT_TRUE(r1_hears) << r1_hears.error().message;
+  const auto of_main = assemble(r1_hears->others);
+  ASSERT_TRUE(of_main);
+  const auto there = occupied_in(*of_main);
+  ASSERT_TRUE(there);
+  EXPECT_THAT(*there, Point2Near(inverse(west_T_r1) * seen_by_main, 2.0 * kTileResolution_m));
+
+  leader.refresh();
+  const auto main_hears = main.view();
+  ASSERT_TRUE(main_hears && main_hears->floor);
+  const auto here = occupied_in(*main_hears->floor);
+  ASSERT_TRUE(here);
+  EXPECT_THAT(*here, Point2Near(west_T_r1 * seen_by_r1, 2.0 * kTileResolution_m));
+}
+
+TEST(FleetSharing, ARobotOfAnotherBuildingIsToldNoFloor) {
+  const ToyHost main(west(), at_place("main", kPlace), floor_with(kPlace));
+  FleetLeader leader(patient_params("share_floor_apart"), main.host());
+  join(leader, packed(east(7), "r1"));
+  static_cast<void>(
+      until(leader, "r1", [](const api::FleetMember& member) { return member.state != api::FleetState::kWaiting; }));
+  leader.refresh();
+  leader.refresh();
+  const auto heard = leader.floor({"r1", 1, floor_with(kPlace)});
+  ASSERT_TRUE(heard) << heard.error().message;
+  EXPECT_TRUE(heard->others.empty());
+  leader.refresh();
+  EXPECT_FALSE(main.view().has_value());
+}
+
 TEST(FleetSharing, ASilentRobotsGoalsAreAnybodys) {
   FleetLeaderParams impatient = patient_params("share_silent");
   impatient.silence_limit = Duration::zero();

@@ -70,6 +70,50 @@ TEST(ConvertFleet, WhereTheOthersGoComesBackUnchanged) {
   EXPECT_EQ(from_message<api::FleetShared>(again).error().code, Errc::kInvalidArgument);
 }
 
+OccupancyTile tile(int i, int j) {
+  OccupancyTile made;
+  made.index = {i, j};
+  made.cells.fill(kUnknownCell);
+  made.cells[5] = kOccupiedCell;
+  return made;
+}
+
+Result<api::FleetFloor> through_bytes(const api::FleetFloor& floor) {
+  pb::FleetFloor message;
+  write(floor, &message);
+  pb::FleetFloor again;
+  EXPECT_TRUE(again.ParseFromString(message.SerializeAsString()));
+  return from_message<api::FleetFloor>(again);
+}
+
+TEST(ConvertFleet, FloorComesBackUnchangedAndIsNeverLargerThanItMayBe) {
+  const api::FleetFloor floor{"r1", 77, {tile(-3, 0), tile(2, 9)}};
+  EXPECT_EQ(through_bytes(floor).value(), floor);
+  const api::FleetFloors others{floor.tiles};
+  pb::FleetReply reply;
+  write(others, &reply);
+  EXPECT_EQ(from_message<api::FleetFloors>(reply).value(), others);
+  EXPECT_EQ(through_bytes({"r1", 77, {tile(0, 0), tile(0, api::kMaxFleetFloorSide_tiles)}}).error().code,
+            Errc::kTooLarge);
+  const api::FleetFloor many{"r1", 77, std::vector<OccupancyTile>(api::kMaxFleetTiles + 1, tile(0, 0))};
+  EXPECT_EQ(through_bytes(many).error().code, Errc::kTooLarge);
+}
+
+TEST(ConvertFleet, OfALargeFloorTheTilesNextToTheRobotAreTold) {
+  std::vector<OccupancyTile> tiles;
+  for (int i = -50; i < 50; ++i) {
+    for (int j = -50; j < 50; ++j) {
+      tiles.push_back(tile(i, j));
+    }
+  }
+  const api::FleetFloor told{"r1", 77, api::within_limits(tiles, Point2(64.0, 0.0))};
+  EXPECT_TRUE(through_bytes(told));
+  ASSERT_EQ(told.tiles.size(), api::kMaxFleetTiles);
+  EXPECT_TRUE(std::all_of(told.tiles.begin(), told.tiles.end(), [](const OccupancyTile& one) {
+    return std::abs(one.index.i - 20) <= 16 && std::abs(one.index.j) <= 16;
+  }));
+}
+
 TEST(ConvertFleet, ATopologyThatMakesNoSenseIsRefused) {
   using T = pb::FleetTopology;
   EXPECT_EQ(refusal_of([](T& t) { t.set_robot_id("r2"); }), Errc::kInvalidArgument) << "speaks of another robot";

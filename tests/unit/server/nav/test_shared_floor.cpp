@@ -1,6 +1,9 @@
 #include "server/nav/shared_floor.hpp"
 
+#include <algorithm>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -73,6 +76,29 @@ TEST(SharedFloor, AWayLeadsOverFloorThatOnlyAnotherRobotHasSeen) {
   EXPECT_FALSE(plan((*free_floors.view())->cost, {0, 0}, beyond));
   free_floors.attend(open, {}, RobotTime{}, {}, other);
   EXPECT_TRUE(plan((*free_floors.view())->cost, {0, 0}, beyond));
+}
+
+TEST(SharedFloor, FloorsOfSeveralRobotsComeTogetherInOneFrame) {
+  const auto shared = [](Grid<std::uint8_t> grid) {
+    return std::make_shared<const Grid<std::uint8_t>>(std::move(grid));
+  };
+  const SharedFloor all = carried({{Pose2{0.5, 0.0, 0.0}, shared(patch({0, 0}, 4, 2, kOccupiedCell))},
+                                   {Pose2{0.0, 0.0, 0.0}, shared(patch({0, 0}, 12, 2, kFreeCell))}});
+  ASSERT_NE(all, nullptr);
+  EXPECT_EQ(at(*all, {0.525, 0.025}), kOccupiedCell) << "the first of two that know a cell counts";
+  EXPECT_EQ(at(*all, {0.025, 0.025}), kFreeCell);
+  EXPECT_EQ(carried(std::vector<std::pair<Pose2, SharedFloor>>()), nullptr);
+}
+
+TEST(SharedFloor, CutIntoTilesItIsTheSameFloor) {
+  const Grid<std::uint8_t> floor = patch({-70, 60}, 100, 30, kOccupiedCell);
+  const std::vector<OccupancyTile> tiles = cut(floor);
+  EXPECT_EQ(tiles.size(), 6U);
+  const auto whole = assemble(tiles);
+  ASSERT_TRUE(whole);
+  const Grid<std::uint8_t> both = with_known(*whole, floor);
+  EXPECT_EQ(both.cells(), whole->cells()) << "nothing is missing";
+  EXPECT_EQ(std::count(whole->cells().begin(), whole->cells().end(), kOccupiedCell), 3000);
 }
 
 }  // namespace
