@@ -57,8 +57,28 @@ Result<SlamRun> run_log(const MergeOptions& o, const std::filesystem::path& log,
   return run;
 }
 
+bool is_map(const std::filesystem::path& path) { return path.extension() == store::kMapFileEnding; }
+
+Result<MergedLog> take_map(const MergeOptions& o, const std::filesystem::path& path) {
+  if (!o.spans.empty()) {
+    return fail(Errc::kInvalidArgument,
+                path.string() + " is a map: it has no time to take a part of; leave --span out or name its log");
+  }
+  Result<store::MapFile> file = store::read_map_file(path);
+  if (!file) {
+    return tl::unexpected<Error>(file.error());
+  }
+  MergedLog taken;
+  taken.name = path.filename().string();
+  taken.run.map = std::move(file->map);
+  return taken;
+}
+
 Result<MergedLog> take_log(const MergeOptions& o, std::size_t index) {
   const std::filesystem::path& log = o.logs[index];
+  if (is_map(log)) {
+    return take_map(o, log);
+  }
   LogSpan span;
   std::string name = log.filename().string();
   if (!o.spans.empty()) {
@@ -108,7 +128,7 @@ Status write_results(const MergeOptions& o, const MergeRun& run) {
   file.origin.name = "merged";
   file.origin.robot_id = "fleet";
   file.map = run.joint.map;
-  return store::write_map_file(o.out / "merged.seekermap", file);
+  return store::write_map_file(o.out / ("merged" + std::string(store::kMapFileEnding)), file);
 }
 
 }  // namespace
@@ -130,7 +150,8 @@ Result<LogSpan> parse_span(const std::string& text) {
 
 Result<MergeRun> merge_logs(const MergeOptions& o) {
   if (o.logs.size() < 2 || o.logs.size() > kMaxLogs || (!o.spans.empty() && o.spans.size() != o.logs.size())) {
-    return fail(Errc::kInvalidArgument, "merging needs 2 to 16 logs, and with --span one span for each of them");
+    return fail(Errc::kInvalidArgument,
+                "merging needs 2 to 16 logs or maps, and with --span one span for each of them");
   }
   MergeRun run;
   for (std::size_t k = 0; k < o.logs.size(); ++k) {

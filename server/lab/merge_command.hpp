@@ -1,5 +1,5 @@
 /// \file
-/// seeker-lab merge: the maps of recorded runs laid upon each other, from the command line.
+/// seeker-lab merge: the maps of recorded runs, or maps that robots saved, laid upon each other from the command line.
 #pragma once
 
 #include <filesystem>
@@ -15,20 +15,20 @@
 namespace seeker::lab {
 
 struct MergeOptions {
-  std::vector<std::filesystem::path> logs;
-  std::vector<std::string> spans;  ///< one a log, in per cent of its duration, e.g. 0-50; none: whole logs
-  std::filesystem::path out;       ///< folder; empty: nothing is written
-  std::filesystem::path robot;     ///< robot file for all logs; empty: chosen by each log
+  std::vector<std::filesystem::path> logs;  ///< or map files (*.seekermap), taken as they are
+  std::vector<std::string> spans;           ///< one a log, in per cent of its duration, e.g. 0-50; none: whole logs
+  std::filesystem::path out;                ///< folder; empty: nothing is written
+  std::filesystem::path robot;              ///< robot file for all logs; empty: chosen by each log
   std::filesystem::path config;
   std::vector<std::string> overrides;
   bool json = false;
   bool show_progress = false;
 };
 
-/// One log as a robot of its own.
+/// One log or map as a robot of its own.
 struct MergedLog {
   std::string name;
-  SlamRun run;
+  SlamRun run;  ///< of a map file: the map alone
   double prepare_s = 0.0;
 };
 
@@ -43,7 +43,8 @@ struct MergeRun {
 
 /// "0-50" in per cent. kInvalidArgument: something else, or nothing between them.
 [[nodiscard]] Result<LogSpan> parse_span(const std::string& text);
-/// Line SLAM over each log, then the merger over each pair of them. Errors of the files and options.
+/// Line SLAM over each log, then the merger over each pair of them and of the maps. Errors of the files and options;
+/// kInvalidArgument: a span where a map is among them.
 [[nodiscard]] Result<MergeRun> merge_logs(const MergeOptions& options);
 [[nodiscard]] std::string merge_text(const MergeRun& run);
 [[nodiscard]] std::string merge_json(const MergeRun& run);

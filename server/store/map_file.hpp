@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/core/line_map.hpp"
@@ -21,6 +22,7 @@
 namespace seeker::store {
 
 inline constexpr std::uint32_t kMapFileVersion = 1;
+inline constexpr std::string_view kMapFileEnding = ".seekermap";
 
 /// Who made a map, when and with what. Times are wall time, seconds since 1970 (UTC); nobody computes with them.
 struct MapOrigin {

@@ -27,7 +27,7 @@ MapListing listing_of(const fs::path& path, const std::string& name) {
 }  // namespace
 
 MapFiles::MapFiles(fs::path folder)
-    : files_(std::move(folder), {.ending = ".seekermap",
+    : files_(std::move(folder), {.ending = std::string(kMapFileEnding),
                                  .name = "map",
                                  .folder = "folder of maps",
                                  .none = "none has been saved yet ('seeker map save NAME')"}) {}

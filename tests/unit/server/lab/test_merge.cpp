@@ -7,7 +7,9 @@
 #include "common/core/angle.hpp"
 #include "server/lab/log_poses.hpp"
 #include "server/lab/score_reference.hpp"
+#include "server/store/map_file.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/maps/random_map.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/unit/server/lab/files.hpp"
 
@@ -42,6 +44,26 @@ TEST_F(MergeOf, OneLogOrTooFewSpansIsRefused) {
   EXPECT_EQ(merge_logs(o).error().code, Errc::kInvalidArgument);
   o.spans = {};
   EXPECT_EQ(merge_logs(o).error().code, Errc::kNotFound);
+}
+
+TEST_F(MergeOf, SavedMapsAreTakenAsTheyAre) {
+  Rng rng(7);
+  store::MapFile file;
+  file.origin.name = "room";
+  file.map = testing::random_map(rng);
+  for (const char* name : {"a.seekermap", "b.seekermap"}) {
+    ASSERT_TRUE(store::write_map_file(folder() / name, file));
+  }
+  MergeOptions o = options({folder() / "a.seekermap", folder() / "b.seekermap"});
+  const auto run = merge_logs(o);
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->logs[1].name, "b.seekermap");
+  EXPECT_EQ(run->logs[1].run.map, file.map);
+  o.spans = {"0-50", "50-100"};
+  EXPECT_EQ(merge_logs(o).error().code, Errc::kInvalidArgument);
+  std::ofstream(folder() / "b.seekermap") << "no map";
+  o.spans = {};
+  EXPECT_EQ(merge_logs(o).error().code, Errc::kParse);
 }
 
 /// How the map of a run lies in the localiser's common frame: by its trajectory.
