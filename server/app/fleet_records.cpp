@@ -52,6 +52,7 @@ void write_hypothesis(const fleet::MergeHypothesis& from, v1::KeptHypothesis* to
   to->set_contradiction(from.contradiction);
   to->set_residual_m(from.residual_m);
   to->set_confidence(from.confidence);
+  to->set_denied_piece_m(from.denied_piece_m);
 }
 
 void read_hypothesis(const v1::KeptHypothesis& from, fleet::MergeHypothesis& to, wire::Check& check) {
@@ -69,6 +70,7 @@ void read_hypothesis(const v1::KeptHypothesis& from, fleet::MergeHypothesis& to,
   to.contradiction = check.finite("contradiction", from.contradiction());
   to.residual_m = check.finite("residual_m", from.residual_m());
   to.confidence = check.finite("confidence", from.confidence());
+  to.denied_piece_m = check.finite("denied_piece_m", from.denied_piece_m());
 }
 
 }  // namespace

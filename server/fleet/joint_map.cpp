@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "server/fleet/icp.hpp"
+#include "server/fleet/pair_fusion.hpp"
 #include "server/slam/covariance.hpp"
 #include "server/slam/pose_graph.hpp"
 
@@ -108,9 +109,14 @@ Status Joiner::check() const {
 }
 
 Pose2 Joiner::guess_of(const MapRelation& relation) const {
-  const NodeRelation& pair = relation.pairs.front();
-  return find_node(*map_of(relation.slot_a), pair.node_a)->map_T_node * pair.a_T_b.a_T_b *
-         inverse(find_node(*map_of(relation.slot_b), pair.node_b)->map_T_node);
+  std::vector<PairPlace> places;
+  places.reserve(relation.pairs.size());
+  for (const NodeRelation& pair : relation.pairs) {
+    const Pose2& map_a_T_node_a = find_node(*map_of(relation.slot_a), pair.node_a)->map_T_node;
+    places.push_back({compose({map_a_T_node_a, Matrix3::Zero()}, pair.a_T_b),
+                      find_node(*map_of(relation.slot_b), pair.node_b)->map_T_node});
+  }
+  return fuse(places, {}).a_T_b;  // to begin with; the graph decides
 }
 
 void Joiner::spread() {

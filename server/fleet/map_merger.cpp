@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/core/angle.hpp"
-#include "server/fleet/icp.hpp"
 #include "server/slam/covariance.hpp"
 
 namespace seeker::fleet {
@@ -39,8 +38,9 @@ class Question {
   [[nodiscard]] Pose2 map_a_T_map_b(const NodeRelation& pair) const;
   [[nodiscard]] std::vector<NodeRelation> largest_set(const std::vector<NodeRelation>& among);
   [[nodiscard]] MergeHypothesis hypothesis_of(std::vector<NodeRelation> pairs);
-  [[nodiscard]] UncertainPose transform_of(const std::vector<NodeRelation>& pairs) const;
-  [[nodiscard]] Pose2 place_of(const std::vector<NodeRelation>& pairs, std::size_t node_b) const;
+  [[nodiscard]] std::vector<PairPlace> places_of(const std::vector<NodeRelation>& pairs) const;
+  /// What the nodes of b find in a when the pairs are believed.
+  [[nodiscard]] MapOverlap overlap_by(const std::vector<PairPlace>& places, const UncertainPose& a_T_b);
   [[nodiscard]] const PreparedNode& node_a(const NodeRelation& pair) const {
     return a_.nodes()[index_a_.at(pair.node_a)];
   }
@@ -115,7 +115,7 @@ std::vector<NodeRelation> Question::largest_set(const std::vector<NodeRelation>&
       return UncertainPose{};
     }
     UncertainPose between = from < first_b ? a_.between(from, to) : b_.between(from - first_b, to - first_b);
-    between.covariance = slam::with_floor(between.covariance, params_.bend_sigma_m, params_.bend_sigma_rad);
+    between.covariance = slam::with_floor(between.covariance, params_.bend.sigma_m, params_.bend.sigma_rad);
     return between;
   };
   std::vector<NodeRelation> members;
@@ -125,53 +125,42 @@ std::vector<NodeRelation> Question::largest_set(const std::vector<NodeRelation>&
   return members;
 }
 
-UncertainPose Question::transform_of(const std::vector<NodeRelation>& pairs) const {
-  constexpr double kArm_m = 5.0;  // what a node's own heading counts against its place
-  std::vector<Point2> points_a;
-  std::vector<Point2> points_b;
-  Matrix3 information = Matrix3::Zero();
+std::vector<PairPlace> Question::places_of(const std::vector<NodeRelation>& pairs) const {
+  std::vector<PairPlace> places;
+  places.reserve(pairs.size());
   for (const NodeRelation& pair : pairs) {
-    const Pose2 a_T_b = map_a_T_map_b(pair);
-    const Point2 middle = node_b(pair).map_T_node * node_b(pair).middle;
-    for (const Point2& arm : {Point2(0.0, 0.0), Point2(kArm_m, 0.0), Point2(0.0, kArm_m)}) {
-      points_b.push_back(middle + arm);
-      points_a.push_back(a_T_b * points_b.back());
-    }
-    const UncertainPose out = compose({node_a(pair).map_T_node, Matrix3::Zero()}, pair.a_T_b);
-    information += slam::information_of(compose(out, {inverse(node_b(pair).map_T_node), Matrix3::Zero()}).covariance);
+    const UncertainPose map_a_T_node = compose({node_a(pair).map_T_node, Matrix3::Zero()}, pair.a_T_b);
+    places.push_back({map_a_T_node, node_b(pair).map_T_node});
   }
-  return {rigid_fit(points_a, points_b), information.inverse()};
+  return places;
 }
 
-Pose2 Question::place_of(const std::vector<NodeRelation>& pairs, std::size_t node) const {
-  const PreparedNode& wanted = b_.nodes()[node];
-  const Point2 middle = wanted.map_T_node * wanted.middle;
-  const auto nearest = std::min_element(pairs.begin(), pairs.end(), [&](const NodeRelation& p, const NodeRelation& q) {
-    return (node_b(p).map_T_node * node_b(p).middle - middle).squaredNorm() <
-           (node_b(q).map_T_node * node_b(q).middle - middle).squaredNorm();
-  });
-  return map_a_T_map_b(*nearest) * wanted.map_T_node;
+MapOverlap Question::overlap_by(const std::vector<PairPlace>& places, const UncertainPose& a_T_b) {
+  const auto place_of = [&](std::size_t node) {
+    return carried(places, a_T_b, b_.nodes()[node].map_T_node, params_.bend);
+  };
+  return overlap_of(a_, b_, place_of, params_.overlap);
 }
 
 MergeHypothesis Question::hypothesis_of(std::vector<NodeRelation> pairs) {
   MergeHypothesis made;
-  made.a_T_b = transform_of(pairs);
-  const MapOverlap there = overlap_of(
-      a_, b_, [&](std::size_t node) { return place_of(pairs, node); }, params_.overlap);
+  const std::vector<PairPlace> places = places_of(pairs);
+  made.a_T_b = fuse(places, params_.bend);
+  const MapOverlap there = overlap_by(places, made.a_T_b);
   std::vector<NodeRelation> back;
   back.reserve(pairs.size());
   for (const NodeRelation& pair : pairs) {
     back.push_back(reversed(pair));
   }
   Question other(b_, a_, params_);
-  const MapOverlap here = overlap_of(
-      b_, a_, [&](std::size_t node) { return other.place_of(back, node); }, params_.overlap);
+  const MapOverlap here = other.overlap_by(other.places_of(back), invert(made.a_T_b));
   for (const NodeRelation& pair : pairs) {
     made.shared_middle_b += node_b(pair).map_T_node * node_b(pair).middle / static_cast<double>(pairs.size());
   }
   made.shared_wall_m = std::min(there.shared_wall_m, here.shared_wall_m);
   made.weak_wall_m = std::min(there.weak_wall_m, here.weak_wall_m);
   made.contradiction = std::max(there.contradiction, here.contradiction);
+  made.denied_piece_m = std::max(there.denied_piece_m, here.denied_piece_m);
   made.residual_m = std::max(there.residual_m, here.residual_m);
   made.confidence = confidence_of(made, params_);
   made.pairs = std::move(pairs);
@@ -203,6 +192,20 @@ std::vector<MergeHypothesis> Question::hypotheses() {
   std::stable_sort(made.begin(), made.end(),
                    [](const MergeHypothesis& p, const MergeHypothesis& q) { return p.support() > q.support(); });
   return made;
+}
+
+/// Whether a second hypothesis is good enough to doubt the best one.
+bool rivals(const MergeHypothesis& best, const MergeHypothesis& other, const MergeParams& params) {
+  return other.contradiction <= params.max_rival_contradiction &&
+         other.denied_piece_m <= params.max_rival_denied_piece_m &&
+         other.support() > params.rival_ratio * best.support();
+}
+
+bool speaks_enough(const MergeHypothesis& best, const MergeParams& params) {
+  return best.pairs.size() >= params.min_pairs && best.shared_wall_m >= params.sure_shared_wall_m &&
+         best.weak_wall_m >= params.sure_weak_wall_m &&
+         best.weak_wall_m >= params.sure_weak_share * best.shared_wall_m &&
+         best.contradiction <= params.sure_contradiction;
 }
 
 }  // namespace
@@ -241,11 +244,8 @@ void judge(MergeAnswer& answer, const MergeParams& params) {
     return;
   }
   const MergeHypothesis& best = answer.hypotheses.front();
-  const bool rival =
-      std::any_of(answer.hypotheses.begin() + 1, answer.hypotheses.end(), [&](const MergeHypothesis& other) {
-        return other.contradiction <= params.max_rival_contradiction &&
-               other.support() > params.rival_ratio * best.support();
-      });
+  const bool rival = std::any_of(answer.hypotheses.begin() + 1, answer.hypotheses.end(),
+                                 [&](const MergeHypothesis& other) { return rivals(best, other, params); });
   if (best.contradiction > params.max_contradiction) {
     answer.verdict = MergeVerdict::kContradicted;
     answer.reason = "places look alike, but laid upon each other the maps deny what the other has seen";
@@ -254,8 +254,11 @@ void judge(MergeAnswer& answer, const MergeParams& params) {
   } else if (rival) {
     answer.verdict = MergeVerdict::kAmbiguous;
     answer.reason = "the maps fit in more than one way; choose one or drive on until they differ";
-  } else if (best.pairs.size() < params.min_pairs || best.shared_wall_m < params.sure_shared_wall_m ||
-             best.weak_wall_m < params.sure_weak_wall_m || best.contradiction > params.sure_contradiction) {
+  } else if (best.denied_piece_m > params.sure_denied_piece_m) {
+    answer.verdict = MergeVerdict::kAmbiguous;
+    answer.reason =
+        "the maps fit in one way, but one robot has looked through a wall of the other; confirm or drive on";
+  } else if (!speaks_enough(best, params)) {
     answer.verdict = MergeVerdict::kAmbiguous;
     answer.reason = "the maps fit in one way, but too little speaks for it; confirm it or drive on";
   } else {

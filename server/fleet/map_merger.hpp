@@ -10,6 +10,7 @@
 
 #include "server/fleet/map_overlap.hpp"
 #include "server/fleet/pair_check.hpp"
+#include "server/fleet/pair_fusion.hpp"
 #include "server/fleet/prepared_map.hpp"
 #include "server/slam/pairwise_consistency.hpp"
 
@@ -37,9 +38,10 @@ struct MergeHypothesis {
   std::vector<NodeRelation> pairs;  ///< local maps of both that show the same place, all consistent with each other
   double shared_wall_m = 0.0;       ///< length of wall that both have seen
   double weak_wall_m = 0.0;         ///< of it, what tells the place along the direction told worst
-  double contradiction = 0.0;  ///< share of what both have looked at that one of them denies, 0 to 1; worse direction
-  double residual_m = 0.0;     ///< root mean square distance of the shared walls
-  double confidence = 0.0;     ///< 0 to 1: grows with the shared wall, falls with the contradiction
+  double contradiction = 0.0;   ///< share of what both have looked at that one of them denies, 0 to 1; worse direction
+  double denied_piece_m = 0.0;  ///< the longest piece of wall of one that the other has looked through
+  double residual_m = 0.0;      ///< root mean square distance of the shared walls
+  double confidence = 0.0;      ///< 0 to 1: grows with the shared wall, falls with the contradiction
 
   /// What hypotheses are ranked by.
   [[nodiscard]] double support() const { return shared_wall_m * (1.0 - 2.0 * contradiction); }
@@ -65,19 +67,22 @@ struct MergeParams {
   std::size_t max_relations = 64;    ///< the best ones between nodes, that are held against each other
   slam::ConsistencyParams consistency;
   OverlapParams overlap;
-  double bend_sigma_m = 0.05;  ///< what a map may be bent between two of its nodes beside its own covariance,
-  double bend_sigma_rad = 0.02;
+  BendParams bend;
   std::size_t max_hypotheses = 4;
   std::size_t min_pairs = 2;         ///< node pairs that must speak for a merge
   double min_shared_wall_m = 12.0;   ///< less is insufficient overlap
   double sure_shared_wall_m = 30.0;  ///< less is not certain
   double min_weak_wall_m = 4.0;      ///< of it, what tells the place along the direction told worst,
-  double sure_weak_wall_m = 10.0;    ///< and again: two corridors of one building are alike but for their doors
+  double sure_weak_wall_m = 10.0;    ///< and again: two corridors of one building are alike but for their doors;
+  double sure_weak_share = 0.25;     ///< as a share of the shared wall: long corridors have many doors
   double max_contradiction = 0.25;   ///< more is a contradiction
   double sure_contradiction = 0.18;  ///< more is not certain
+  /// Noise denies walls here and there; where one has looked through a wall of the other this long, it is not certain.
+  double sure_denied_piece_m = 1.5;
   /// Another hypothesis with this share of the best one's support, denied by no more than this, makes it ambiguous.
   double rival_ratio = 0.35;
   double max_rival_contradiction = 0.4;
+  double max_rival_denied_piece_m = 1.5;
 };
 
 [[nodiscard]] double confidence_of(const MergeHypothesis& hypothesis, const MergeParams& params);

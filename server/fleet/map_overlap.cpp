@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
@@ -100,6 +102,44 @@ void count(const slam::PlaceMap& place, const PreparedNode& node, const Pose2& r
   tally.nodes += shared > 0 ? 1 : 0;
 }
 
+using Square = std::pair<long, long>;
+
+/// Takes what is joined to `start` out of `open`; how many squares that were.
+std::size_t take_piece(std::set<Square>& open, const Square& start, long reach) {
+  std::vector<Square> edge{start};
+  open.erase(start);
+  std::size_t taken = 0;
+  while (!edge.empty()) {
+    const Square from = edge.back();
+    edge.pop_back();
+    ++taken;
+    for (long dx = -reach; dx <= reach; ++dx) {
+      for (long dy = -reach; dy <= reach; ++dy) {
+        const Square next{from.first + dx, from.second + dy};
+        if (open.erase(next) > 0) {
+          edge.push_back(next);
+        }
+      }
+    }
+  }
+  return taken;
+}
+
+double longest_denied_m(const Tally& tally, const OverlapParams& params) {
+  std::set<Square> open;
+  for (const auto& [key, cell] : tally.cells) {
+    if (cell.first == Say::kDenied) {
+      open.emplace(std::get<0>(key), std::get<1>(key));
+    }
+  }
+  const long reach = std::max(1L, std::lround(params.piece_gap_m / params.cell_m));
+  std::size_t longest = 0;
+  while (!open.empty()) {
+    longest = std::max(longest, take_piece(open, *open.begin(), reach));
+  }
+  return params.cell_m * static_cast<double>(longest);
+}
+
 MapOverlap summary_of(const Tally& tally, const OverlapParams& params) {
   MapOverlap overlap;
   Matrix2 scatter = Matrix2::Zero();
@@ -115,6 +155,7 @@ MapOverlap summary_of(const Tally& tally, const OverlapParams& params) {
   overlap.weak_wall_m = params.cell_m * eigen.eigenvalues()[0];
   const double known = static_cast<double>(tally.cells.size()) + tally.through;
   overlap.contradiction = known > 0.0 ? (known - shared) / known : 0.0;
+  overlap.denied_piece_m = longest_denied_m(tally, params);
   overlap.residual_m = tally.pairs > 0 ? std::sqrt(tally.squares_m2 / static_cast<double>(tally.pairs)) : 0.0;
   overlap.nodes = tally.nodes;
   return overlap;

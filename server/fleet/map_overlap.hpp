@@ -13,6 +13,7 @@ struct OverlapParams {
   double cell_m = 0.15;            ///< walls are counted by cells
   double partner_m = 0.15;         ///< a wall of one map has its partner in the other within this
   double min_normal_cosine = 0.7;  ///< and looks the same way
+  double piece_gap_m = 0.3;        ///< cells of denied wall no farther apart are one piece
   /// Maps bend: a node may settle by so much before it is counted.
   double settle_m = 0.3;
   double settle_rad = 0.05;
@@ -22,11 +23,12 @@ struct OverlapParams {
 };
 
 struct MapOverlap {
-  double shared_wall_m = 0.0;  ///< that both have seen
-  double weak_wall_m = 0.0;    ///< of it, what tells the place along the direction told worst: little in a corridor
-  double contradiction = 0.0;  ///< 0 to 1: walls where the other looked through, and beams through its walls
-  double residual_m = 0.0;     ///< root mean square distance of the shared walls
-  std::size_t nodes = 0;       ///< of b that share something with a
+  double shared_wall_m = 0.0;   ///< that both have seen
+  double weak_wall_m = 0.0;     ///< of it, what tells the place along the direction told worst: little in a corridor
+  double contradiction = 0.0;   ///< 0 to 1: walls where the other looked through, and beams through its walls
+  double denied_piece_m = 0.0;  ///< the longest piece of wall of b that a has looked through
+  double residual_m = 0.0;      ///< root mean square distance of the shared walls
+  std::size_t nodes = 0;        ///< of b that share something with a
 };
 
 /// What the nodes of b find in a. `map_a_T_node`: pose of a node of b, by index, in the frame `map` of a. The other

@@ -27,6 +27,7 @@ void describe(config::Fields& f, ReportHypothesis& h) {
   f.field("shared_wall_m", h.figures.shared_wall_m);
   f.field("weak_wall_m", h.figures.weak_wall_m);
   f.field("contradiction", h.figures.contradiction);
+  f.field("denied_piece_m", h.figures.denied_piece_m);
   f.field("residual_m", h.figures.residual_m);
   f.field("confidence", h.figures.confidence);
 }
@@ -143,7 +144,7 @@ std::string hypothesis_text(const fleet::MergeHypothesis& h) {
          fixed(std::sqrt(c(1, 1)), 3) + ", " + fixed(rad_to_deg(std::sqrt(c(2, 2))), 2) + "), confidence " +
          fixed(h.confidence, 2) + ": " + std::to_string(h.pairs.size()) + " node pairs, " + fixed(h.shared_wall_m, 1) +
          " m of shared wall (" + fixed(h.weak_wall_m, 1) + " m across), " + fixed(100.0 * h.contradiction, 1) +
-         " % denied, residual " + fixed(h.residual_m, 3) + " m\n";
+         " % denied (" + fixed(h.denied_piece_m, 1) + " m in one piece), residual " + fixed(h.residual_m, 3) + " m\n";
 }
 
 }  // namespace

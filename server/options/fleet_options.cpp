@@ -81,11 +81,20 @@ void describe(config::Fields& f, OverlapParams& params) {
   f.check("cell_m", params.cell_m > 0.0, "must be above 0");
   f.field("partner_m", params.partner_m);
   f.field("min_normal_cosine", params.min_normal_cosine);
+  f.field("piece_gap_m", params.piece_gap_m);
   f.field("settle_m", params.settle_m);
   f.angle_deg("settle_deg", params.settle_rad);
   f.section("match", params.match);
   f.section("agreement", params.agreement);
   f.field("match_points", params.match_points);
+}
+
+void describe(config::Fields& f, BendParams& params) {
+  f.field("sigma_m", params.sigma_m);
+  f.angle_deg("sigma_deg", params.sigma_rad);
+  f.check("sigma", params.sigma_m > 0.0 && params.sigma_rad > 0.0, "must be above 0");
+  f.field("whole_sigma_m", params.whole_sigma_m);
+  f.angle_deg("whole_sigma_deg", params.whole_sigma_rad);
 }
 
 void describe(config::Fields& f, MergeParams& params) {
@@ -95,8 +104,7 @@ void describe(config::Fields& f, MergeParams& params) {
   f.field("max_relations", params.max_relations);
   f.section("consistency", params.consistency);
   f.section("overlap", params.overlap);
-  f.field("bend_sigma_m", params.bend_sigma_m);
-  f.angle_deg("bend_sigma_deg", params.bend_sigma_rad);
+  f.section("bend", params.bend);
   f.field("max_hypotheses", params.max_hypotheses);
   f.check("max_hypotheses", params.max_hypotheses >= 1 && params.max_hypotheses <= 16, "must be from 1 to 16");
   f.field("min_pairs", params.min_pairs);
@@ -104,10 +112,13 @@ void describe(config::Fields& f, MergeParams& params) {
   f.field("sure_shared_wall_m", params.sure_shared_wall_m);
   f.field("min_weak_wall_m", params.min_weak_wall_m);
   f.field("sure_weak_wall_m", params.sure_weak_wall_m);
+  f.field("sure_weak_share", params.sure_weak_share);
   f.field("max_contradiction", params.max_contradiction);
   f.field("sure_contradiction", params.sure_contradiction);
+  f.field("sure_denied_piece_m", params.sure_denied_piece_m);
   f.field("rival_ratio", params.rival_ratio);
   f.field("max_rival_contradiction", params.max_rival_contradiction);
+  f.field("max_rival_denied_piece_m", params.max_rival_denied_piece_m);
 }
 
 }  // namespace seeker::fleet

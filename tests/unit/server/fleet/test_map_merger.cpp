@@ -16,7 +16,7 @@ std::string figures_of(const MergeAnswer& answer) {
   std::ostringstream text;
   for (const MergeHypothesis& h : answer.hypotheses) {
     text << h.a_T_b.a_T_b << ": " << h.pairs.size() << " pairs, " << h.shared_wall_m << " m shared, " << h.weak_wall_m
-         << " m across, " << h.contradiction << " denied\n";
+         << " m across, " << h.contradiction << " denied, " << h.denied_piece_m << " m in one piece\n";
   }
   return text.str();
 }
@@ -85,6 +85,28 @@ TEST(MapMerger, TwoRobotsInTwoEqualCorridorsAreNotTakenForNeighbours) {
   EXPECT_NE(answer.verdict, MergeVerdict::kMerged) << figures_of(answer);
 }
 
+TEST(MapMerger, RobotsThatBeganInTwoEqualCorridorsMeetInTheHallAndNowhereElse) {
+  const auto walls = twin_corridors_with_a_hall();
+  const std::vector<Point2> first{{15.0, 1.0}, {3.0, 1.0}, {-4.0, 1.0}, {-7.0, 4.0}, {-7.0, 9.0}, {-4.0, 10.5}};
+  const std::vector<Point2> second{{15.0, 11.0}, {3.0, 11.0}, {-4.0, 11.0}, {-8.0, 8.0}, {-6.0, 3.0}, {-3.0, 1.5}};
+  const auto way = [](const std::vector<Point2>& corners, std::size_t so_far) {
+    return drive({corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(so_far)});
+  };
+  for (std::size_t so_far = 2; so_far <= first.size(); ++so_far) {
+    const auto ways = std::pair(way(first, so_far), way(second, so_far));
+    PreparedMap a = prepared(toy_map(walls, ways.first, 11));
+    PreparedMap b = prepared(toy_map(walls, ways.second, 12));
+    const MergeAnswer answer = MapMerger().merge(a, b);
+    const Pose2 truth = inverse(ways.first.front()) * ways.second.front();
+    if (answer.merged()) {
+      EXPECT_THAT(answer.hypotheses.front().a_T_b.a_T_b, Pose2Near(truth, 0.3, 0.03)) << figures_of(answer);
+    }
+    if (so_far == first.size()) {
+      EXPECT_TRUE(answer.merged()) << answer.reason << "\n" << figures_of(answer);
+    }
+  }
+}
+
 TEST(MapMerger, MapsWithoutScansHaveNothingToCompare) {
   PreparedMap nothing;
   PreparedMap a = prepared(toy_map(office(1), drive(kWest), 11));
@@ -120,6 +142,18 @@ TEST(MergeJudge, WeighsSharedWallsContradictionAndRivals) {
   EXPECT_EQ(verdict_of({hypothesis(60.0, 5.0, 0.05)}), MergeVerdict::kAmbiguous);
   EXPECT_EQ(verdict_of({hypothesis(60.0, 1.0, 0.05)}), MergeVerdict::kInsufficientOverlap);
   EXPECT_EQ(verdict_of({hypothesis(8.0, 5.0, 0.0)}), MergeVerdict::kInsufficientOverlap);
+}
+
+TEST(MergeJudge, AWallThatTheOtherLookedThroughDeniesWhatManyOthersAffirm) {
+  MergeHypothesis looked_through = hypothesis(60.0, 20.0, 0.05);
+  looked_through.denied_piece_m = 2.0;
+  EXPECT_EQ(verdict_of({looked_through}), MergeVerdict::kAmbiguous);
+  // Nor is it a rival to one that nothing denies.
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05), looked_through}), MergeVerdict::kMerged);
+}
+
+TEST(MergeJudge, LongCorridorsWithManyDoorsAreNotSure) {
+  EXPECT_EQ(verdict_of({hypothesis(90.0, 12.0, 0.05)}), MergeVerdict::kAmbiguous);
 }
 
 TEST(MergeConfidence, GrowsWithSharedWallsAndFallsWithContradiction) {

@@ -34,6 +34,15 @@ TEST(MergeMemory, WhatIsLessSureThanAtFirstStaysMerged) {
   EXPECT_EQ(after_merge({at(5.1, 20.0, 0.05)}), MergeVerdict::kMerged);
 }
 
+TEST(MergeMemory, ADoorThatWasShutMeanwhileEndsNothingButALongWallDoes) {
+  MergeHypothesis door = at(5.1, 80.0, 0.1);
+  door.denied_piece_m = 2.0;
+  ASSERT_EQ(judged({door}).verdict, MergeVerdict::kAmbiguous);
+  EXPECT_EQ(after_merge({door}), MergeVerdict::kMerged);
+  door.denied_piece_m = 5.0;
+  EXPECT_EQ(after_merge({door}), MergeVerdict::kAmbiguous);
+}
+
 TEST(MergeMemory, ContradictionRivalsAndTooLittleOverlapEndIt) {
   EXPECT_EQ(after_merge({at(5.1, 80.0, 0.3)}), MergeVerdict::kContradicted);
   EXPECT_EQ(after_merge({at(5.1, 80.0, 0.1), at(20.0, 70.0, 0.1)}), MergeVerdict::kAmbiguous);

@@ -145,4 +145,17 @@ inline std::vector<Wall> twin_corridors() {
   return walls;
 }
 
+/// The same corridors, open at their left ends to a hall of 10 x 12 m in which no place is like another.
+inline std::vector<Wall> twin_corridors_with_a_hall() {
+  std::vector<Wall> walls = twin_corridors();
+  walls.front() = {{-12.0, 0.0}, {-12.0, 12.0}};
+  add(walls, {{{-12.0, 0.0}, {-2.0, 0.0}}, {{-12.0, 12.0}, {-2.0, 12.0}}});
+  add(walls, box(-10.0, 1.0, -8.8, 2.4));
+  add(walls, box(-5.2, 5.4, -4.4, 7.6));
+  add(walls, box(-11.5, 7.0, -10.0, 7.6));
+  add(walls, box(-3.0, 3.6, -2.2, 4.4));
+  add(walls, box(-9.6, 10.2, -9.0, 11.4));
+  return walls;
+}
+
 }  // namespace seeker::fleet
