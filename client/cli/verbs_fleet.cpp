@@ -49,6 +49,10 @@ void write_json(Json& json, const api::FleetMember& member) {
   for (const api::FleetHypothesis& hypothesis : member.hypotheses) {
     write_json(json, hypothesis);
   }
+  json.end_array().key("detections").begin_array();
+  for (const api::Detection& detection : member.detections) {
+    write_json(json, detection);
+  }
   json.end_array().end_object();
 }
 
@@ -72,6 +76,9 @@ void print(const Context& context, const api::FleetMember& member) {
     std::snprintf(text, sizeof text, ", confidence %.2f, %.1f m of wall shared, %u pairs", hypothesis.confidence,
                   hypothesis.shared_wall_m, hypothesis.pairs);
     out << "    hypothesis " << k << ": map at " << place_of(hypothesis.main_T_map) << text << '\n';
+  }
+  for (const api::Detection& detection : member.detections) {
+    out << "    found: " << text_of(detection) << '\n';
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/api/robot_api.hpp"
+#include "common/core/angle.hpp"
 #include "common/core/line_map.hpp"
 
 namespace seeker::api {
@@ -180,6 +181,17 @@ Status validate_task(const RecogniseMission& recognise) {
 }
 
 }  // namespace
+
+Detection moved(Detection detection, const Pose2& new_T_old) {
+  detection.map_T_base = new_T_old * detection.map_T_base;
+  detection.bearing_map_rad = wrap_angle(detection.bearing_map_rad + new_T_old.theta_rad);
+  if (detection.position) {
+    detection.position = new_T_old * *detection.position;
+  }
+  const Matrix2 turn = Eigen::Rotation2Dd(new_T_old.theta_rad).toRotationMatrix();
+  detection.position_covariance = turn * detection.position_covariance * turn.transpose();
+  return detection;
+}
 
 TargetSpec solid_target(SolidKind solid) {
   TargetSpec target;

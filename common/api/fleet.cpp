@@ -55,6 +55,16 @@ std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const
   return tiles;
 }
 
+std::vector<Detection> within_limits(std::vector<Detection> detections) {
+  std::erase_if(detections, [](const Detection& one) {
+    return !in_reach(one.map_T_base.translation()) || (one.position && !in_reach(*one.position));
+  });
+  std::stable_sort(detections.begin(), detections.end(),
+                   [](const Detection& a, const Detection& b) { return a.stamp < b.stamp; });
+  keep_newest(detections, kMaxFleetDetections);
+  return detections;
+}
+
 std::string_view to_string(FleetState state) {
   switch (state) {
     case FleetState::kWaiting: return "WAITING";

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/api/perception.hpp"
 #include "common/core/line_map.hpp"
 #include "common/core/occupancy_tile.hpp"
 #include "common/core/pose2.hpp"
@@ -31,10 +32,11 @@ inline constexpr std::size_t kMaxFleetGoals = 4'000;
 inline constexpr std::size_t kMaxFleetSectors = 20'000;
 inline constexpr std::size_t kMaxFleetWays = 10'000;
 inline constexpr int kMaxFleetLayer = 64;
-inline constexpr std::size_t kMaxFleetTiles = 1'024;  ///< of a floor,
-inline constexpr int kMaxFleetFloorSide_tiles = 64;   ///< that is at most so wide and so high: 205 m
-inline constexpr double kMaxFleetReach_m = 10'000.0;  ///< a place is not farther from the origin of any map
-inline constexpr double kMaxFleetGoal_m = 200.0;      ///< nor a goal from its place
+inline constexpr std::size_t kMaxFleetTiles = 1'024;    ///< of a floor,
+inline constexpr int kMaxFleetFloorSide_tiles = 64;     ///< that is at most so wide and so high: 205 m
+inline constexpr std::size_t kMaxFleetDetections = 64;  ///< of one robot
+inline constexpr double kMaxFleetReach_m = 10'000.0;    ///< a place is not farther from the origin of any map
+inline constexpr double kMaxFleetGoal_m = 200.0;        ///< nor a goal from its place
 
 /// A local map by its piece: segments and scans in its own frame, so that it stays the same when the map around moves.
 struct FleetNode {
@@ -103,6 +105,7 @@ struct FleetMember {
   std::optional<Pose2> main_T_map;          ///< where it is merged
   std::optional<Pose2> main_T_base;         ///< where it is merged and knows its place
   std::vector<Point2> places;               ///< its local maps, in its own frame `map`
+  std::vector<Detection> detections;  ///< where it is merged: what it has found, in the frame `map` of the main one
   friend bool operator==(const FleetMember&, const FleetMember&) = default;
 };
 
@@ -134,23 +137,35 @@ struct FleetShared {
   friend bool operator==(const FleetShared&, const FleetShared&) = default;
 };
 
-/// What a robot has seen of the floor, in its own frame `map`. Said now and then.
-struct FleetFloor {
+/// What a robot has seen, in its own frame `map`. Said now and then; empty where it does not know its place.
+struct FleetSeen {
   std::string robot_id;
-  std::uint64_t instance = 0;        ///< as in FleetManifest
-  std::vector<OccupancyTile> tiles;  ///< all of them; empty where it does not know its place
-  friend bool operator==(const FleetFloor&, const FleetFloor&) = default;
+  std::uint64_t instance = 0;         ///< as in FleetManifest
+  std::vector<OccupancyTile> tiles;   ///< of the floor, all of them
+  std::vector<Detection> detections;  ///< of its missions since it was started
+  friend bool operator==(const FleetSeen&, const FleetSeen&) = default;
 };
 
-/// What all other robots that are merged have seen of it, in the frame `map` of the one that has told; empty where that
-/// one is not merged.
-struct FleetFloors {
-  std::vector<OccupancyTile> others;
-  friend bool operator==(const FleetFloors&, const FleetFloors&) = default;
+/// What another robot has found.
+struct FleetFinding {
+  std::string robot_id;
+  Detection detection;  ///< its id is that robot's own
+  friend bool operator==(const FleetFinding&, const FleetFinding&) = default;
+};
+
+/// What all other robots that are merged have seen, in the frame `map` of the one that has told; empty where that one
+/// is not merged.
+struct FleetSightings {
+  std::vector<OccupancyTile> floor;
+  std::vector<FleetFinding> findings;
+  friend bool operator==(const FleetSightings&, const FleetSightings&) = default;
 };
 
 /// Those next to `p_map`, as many as the limits above let through.
 [[nodiscard]] std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const Point2& p_map);
+
+/// The newest.
+[[nodiscard]] std::vector<Detection> within_limits(std::vector<Detection> detections);
 
 /// The same topology within the limits above: places beyond them are left out with what speaks of them, of sectors the
 /// newest of each place stay.

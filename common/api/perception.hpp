@@ -44,6 +44,10 @@ struct Detection {
   friend bool operator==(const Detection&, const Detection&) = default;
 };
 
+/// The same after its map has moved: `new_T_old` is the old frame `map` in the new one, or that of one robot in the
+/// frame of another. The epoch stays.
+[[nodiscard]] Detection moved(Detection detection, const Pose2& new_T_old);
+
 /// The two lists of spec S3.3, and what could not be reached.
 struct GridLists {
   double cell_size_m = 0.8;

@@ -74,11 +74,11 @@ Result<api::FleetShared> FleetClient::share(const api::FleetShare& share) {
   return reply ? wire::from_message<api::FleetShared>(*reply) : tl::unexpected<Error>(reply.error());
 }
 
-Result<api::FleetFloors> FleetClient::floor(const api::FleetFloor& floor) {
+Result<api::FleetSightings> FleetClient::seen(const api::FleetSeen& seen) {
   pb::FleetRequest request;
-  wire::write(floor, request.mutable_floor());
+  wire::write(seen, request.mutable_seen());
   const Result<pb::FleetReply> reply = link_->ask(std::move(request));
-  return reply ? wire::from_message<api::FleetFloors>(*reply) : tl::unexpected<Error>(reply.error());
+  return reply ? wire::from_message<api::FleetSightings>(*reply) : tl::unexpected<Error>(reply.error());
 }
 
 Result<std::uint64_t> FleetClient::send(const api::FleetChunk& chunk) {

@@ -27,8 +27,8 @@ class FleetClient {
   /// Tells where a robot has been and means to go, and hears of the others. kNotFound: it has to announce itself first;
   /// kRefused: another robot has this id.
   [[nodiscard]] Result<api::FleetShared> share(const api::FleetShare& share);
-  /// Tells what a robot has seen of the floor, and hears what the others have. kNotFound: as above.
-  [[nodiscard]] Result<api::FleetFloors> floor(const api::FleetFloor& floor);
+  /// Tells what a robot has seen, and hears what the others have. kNotFound: as above.
+  [[nodiscard]] Result<api::FleetSightings> seen(const api::FleetSeen& seen);
   /// Bytes of the piece that are there afterwards. kCorrupt, kNotFound, kTooLarge.
   [[nodiscard]] Result<std::uint64_t> send(const api::FleetChunk& chunk);
   [[nodiscard]] Result<api::FleetStatus> status();

@@ -98,6 +98,7 @@ void write_member(const api::FleetMember& from, pb::FleetMember* to) {
   for (const Point2& place : from.places) {
     write(place, to->add_places());
   }
+  write_detections(from.detections, to->mutable_detections());
 }
 
 void read_member(const pb::FleetMember& from, api::FleetMember& to, Check& check) {
@@ -123,6 +124,7 @@ void read_member(const pb::FleetMember& from, api::FleetMember& to, Check& check
     read(place, p, check);
     to.places.push_back(p);
   }
+  read_detections(from.detections(), to.detections, check);
 }
 
 }  // namespace
@@ -142,6 +144,30 @@ void read_covariance(const CovarianceField& from, Matrix3& to, Check& check) {
   }
   for (int k = 0; k < from.size(); ++k) {
     to(k / kCovarianceRows, k % kCovarianceRows) = check.finite("covariance", from[k]);
+  }
+}
+
+void check_reach(const api::Detection& detection, Check& check) {
+  const auto far = [](const Point2& p) { return p.cwiseAbs().maxCoeff() > api::kMaxFleetReach_m; };
+  if (check.ok() && (far(detection.map_T_base.translation()) || (detection.position && far(*detection.position)))) {
+    check.refuse("position", Errc::kInvalidArgument, "is out of reach");
+  }
+}
+
+void write_detections(const std::vector<api::Detection>& from, DetectionField* to) {
+  for (const api::Detection& detection : from) {
+    write(detection, to->Add());
+  }
+}
+
+void read_detections(const DetectionField& from, std::vector<api::Detection>& to, Check& check) {
+  if (!check.count("detections", static_cast<std::size_t>(from.size()), api::kMaxFleetDetections)) {
+    return;
+  }
+  for (int k = 0; k < from.size(); ++k) {
+    const auto scope = check.in("detections", static_cast<std::size_t>(k));
+    read(from[k], to.emplace_back(), check);
+    check_reach(to.back(), check);
   }
 }
 

@@ -18,9 +18,9 @@ void write(const RobotTopology& from, v1::FleetTopology* to);
 void write(const api::FleetShare& from, v1::FleetShare* to);
 /// Into the fields of a reply that answer a share.
 void write(const api::FleetShared& from, v1::FleetReply* to);
-void write(const api::FleetFloor& from, v1::FleetFloor* to);
-/// Into the field of a reply that answers a floor.
-void write(const api::FleetFloors& from, v1::FleetReply* to);
+void write(const api::FleetSeen& from, v1::FleetSeen* to);
+/// Into the fields of a reply that answers what was seen.
+void write(const api::FleetSightings& from, v1::FleetReply* to);
 void write(const api::FleetStatus& from, v1::FleetStatus* to);
 void write(const api::FleetDecision& from, v1::FleetDecision* to);
 void read(const v1::FleetManifest& from, api::FleetManifest& to, Check& check);
@@ -30,8 +30,8 @@ void read(const v1::FleetChunk& from, api::FleetChunk& to, Check& check);
 void read(const v1::FleetTopology& from, RobotTopology& to, Check& check);
 void read(const v1::FleetShare& from, api::FleetShare& to, Check& check);
 void read(const v1::FleetReply& from, api::FleetShared& to, Check& check);
-void read(const v1::FleetFloor& from, api::FleetFloor& to, Check& check);
-void read(const v1::FleetReply& from, api::FleetFloors& to, Check& check);
+void read(const v1::FleetSeen& from, api::FleetSeen& to, Check& check);
+void read(const v1::FleetReply& from, api::FleetSightings& to, Check& check);
 void read(const v1::FleetStatus& from, api::FleetStatus& to, Check& check);
 void read(const v1::FleetDecision& from, api::FleetDecision& to, Check& check);
 

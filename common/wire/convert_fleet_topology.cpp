@@ -256,22 +256,43 @@ void read(const pb::FleetReply& from, api::FleetShared& to, Check& check) {
   }
 }
 
-void write(const api::FleetFloor& from, pb::FleetFloor* to) {
+void write(const api::FleetSeen& from, pb::FleetSeen* to) {
   to->set_robot_id(from.robot_id);
   to->set_instance(from.instance);
   write_tiles(from.tiles, to->mutable_tiles());
+  write_detections(from.detections, to->mutable_detections());
 }
 
-void read(const pb::FleetFloor& from, api::FleetFloor& to, Check& check) {
+void read(const pb::FleetSeen& from, api::FleetSeen& to, Check& check) {
   to.robot_id = read_robot_id(from.robot_id(), check);
   to.instance = from.instance();
   read_tiles(from.tiles(), to.tiles, check);
+  read_detections(from.detections(), to.detections, check);
 }
 
-void write(const api::FleetFloors& from, pb::FleetReply* to) { write_tiles(from.others, to->mutable_floor()); }
+void write(const api::FleetSightings& from, pb::FleetReply* to) {
+  write_tiles(from.floor, to->mutable_floor());
+  for (const api::FleetFinding& finding : from.findings) {
+    pb::FleetFinding* one = to->add_findings();
+    one->set_robot_id(finding.robot_id);
+    write(finding.detection, one->mutable_detection());
+  }
+}
 
-void read(const pb::FleetReply& from, api::FleetFloors& to, Check& check) {
-  read_tiles(from.floor(), to.others, check);
+void read(const pb::FleetReply& from, api::FleetSightings& to, Check& check) {
+  constexpr std::size_t kMaxFindings = api::kMaxFleetDetections * (api::kMaxFleetRobots - 1);
+  read_tiles(from.floor(), to.floor, check);
+  if (!check.count("findings", static_cast<std::size_t>(from.findings_size()), kMaxFindings)) {
+    return;
+  }
+  for (int k = 0; k < from.findings_size(); ++k) {
+    const auto scope = check.in("findings", static_cast<std::size_t>(k));
+    api::FleetFinding& finding = to.findings.emplace_back();
+    finding.robot_id = read_robot_id(from.findings(k).robot_id(), check);
+    read_required(from.findings(k).has_detection(), from.findings(k).detection(), finding.detection, "detection",
+                  check);
+    check_reach(finding.detection, check);
+  }
 }
 
 }  // namespace seeker::wire

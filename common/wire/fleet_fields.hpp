@@ -3,11 +3,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <google/protobuf/repeated_field.h>
 
-#include "common/core/pose2.hpp"
+#include "common/api/fleet.hpp"
 #include "common/wire/check.hpp"
+#include "seeker/v1/search.pb.h"
 
 namespace seeker::wire {
 
@@ -18,5 +20,12 @@ namespace seeker::wire {
 using CovarianceField = google::protobuf::RepeatedField<double>;
 void write_covariance(const Matrix3& from, CovarianceField* to);
 void read_covariance(const CovarianceField& from, Matrix3& to, Check& check);
+
+/// A field `detections`: at most api::kMaxFleetDetections, all within reach.
+using DetectionField = google::protobuf::RepeatedPtrField<v1::Detection>;
+void write_detections(const std::vector<api::Detection>& from, DetectionField* to);
+void read_detections(const DetectionField& from, std::vector<api::Detection>& to, Check& check);
+/// Refuses what lies out of reach.
+void check_reach(const api::Detection& detection, Check& check);
 
 }  // namespace seeker::wire

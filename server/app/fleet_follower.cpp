@@ -80,7 +80,7 @@ Status FleetFollower::once() {
     announce_at_ = std::chrono::steady_clock::now() + params_.period;
   }
   if (std::chrono::steady_clock::now() >= floor_at_) {
-    if (Status exchanged = exchange_floors(); !exchanged) {
+    if (Status exchanged = exchange_seen(); !exchanged) {
       return exchanged;
     }
     floor_at_ = std::chrono::steady_clock::now() + params_.floor_period;
@@ -89,17 +89,19 @@ Status FleetFollower::once() {
 }
 
 /// What the others have seen goes to the robot with the next share.
-Status FleetFollower::exchange_floors() {
-  Result<OwnFloor> own = rpc::wait<OwnFloor>(host_.give_floor, params_.call_timeout);
+Status FleetFollower::exchange_seen() {
+  Result<OwnSeen> own = rpc::wait<OwnSeen>(host_.give_seen, params_.call_timeout);
   if (!own) {
     return tl::unexpected<Error>(own.error());
   }
-  const Result<api::FleetFloors> floors = main_.floor({params_.robot_id, instance_, std::move(*own)});
-  if (floors) {
-    floor_ = floor_of(floors->others);
+  const Result<api::FleetSightings> others =
+      main_.seen({params_.robot_id, instance_, std::move(own->floor), std::move(own->detections)});
+  if (others) {
+    floor_ = floor_of(others->floor);
+    news_.tell(others->findings, host_);
     return {};
   }
-  return floors.error().code == Errc::kNotFound ? Status() : Status(tl::unexpected<Error>(floors.error()));
+  return others.error().code == Errc::kNotFound ? Status() : Status(tl::unexpected<Error>(others.error()));
 }
 
 Status FleetFollower::announce() {

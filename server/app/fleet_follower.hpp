@@ -15,6 +15,7 @@
 #include "common/api/fleet.hpp"
 #include "common/rpc/endpoint.hpp"
 #include "common/rpc/fleet_client.hpp"
+#include "server/app/fleet_news.hpp"
 #include "server/app/fleet_pieces.hpp"
 #include "server/app/own_map.hpp"
 
@@ -25,7 +26,7 @@ struct FleetFollowerParams {
   std::string robot_id;
   Duration period = std::chrono::seconds(5);         ///< wall time between announcements of the map
   Duration share_period = std::chrono::seconds(1);   ///< wall time between those of where the robot goes
-  Duration floor_period = std::chrono::seconds(5);   ///< wall time between those of the floor that it has seen
+  Duration floor_period = std::chrono::seconds(5);   ///< wall time between those of what it has seen
   Duration call_timeout = std::chrono::seconds(10);  ///< wall time
 };
 
@@ -61,7 +62,8 @@ class FleetFollower {
   WallTime announce_at_;
   WallTime share_at_;
   WallTime floor_at_;
-  nav::SharedFloor floor_;         ///< what the others have seen, as last heard
+  nav::SharedFloor floor_;  ///< what the others have seen, as last heard
+  FleetNews news_;
   std::optional<FleetView> view_;  ///< what the robot was last told of the others
   mutable std::mutex mutex_;       ///< guards what follows
   std::condition_variable wake_;

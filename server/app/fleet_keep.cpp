@@ -76,6 +76,12 @@ void FleetLeader::load_member(const fs::path& folder) {
       member.topology->velocity.reset();
     }
   }
+  for (const v1::Detection& kept : record->detections()) {
+    if (Result<api::Detection> one = wire::from_message<api::Detection>(kept)) {
+      member.found_before.push_back(std::move(*one));
+    }
+  }
+  member.found_before = api::within_limits(std::move(member.found_before));
   const std::lock_guard lock(mutex_);
   const std::string id = member.manifest.robot_id;
   if (members_.size() + 1 < api::kMaxFleetRobots && !members_.contains(id)) {
@@ -120,6 +126,9 @@ void FleetLeader::keep_record(const std::string& robot_id) {
     }
     if (member.topology) {
       wire::write(*member.topology, record.mutable_topology());
+    }
+    for (const api::Detection& one : all_found(member)) {
+      wire::write(one, record.add_detections());
     }
     needed = member.pieces;
   }

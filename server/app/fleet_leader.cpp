@@ -70,6 +70,12 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
   if (!same_frame(member.manifest.nodes, manifest.nodes)) {
     member.topology.reset();  // places in a map that is no more; those of the new one are told soon
     member.floor.reset();
+    member.found.clear();
+    member.found_before.clear();
+  }
+  if (member.manifest.instance != manifest.instance) {
+    member.found_before = all_found(member);  // a program that was started anew has forgotten them
+    member.found.clear();
   }
   take(member, manifest);
   api::FleetAnswer answer{missing_of(member), {}};
@@ -167,6 +173,7 @@ api::FleetStatus FleetLeader::status_now() const {
   own.main_T_map = Pose2{};
   own.main_T_base = own_map_T_base_;
   own.places = own_places_;
+  own.detections = own_found_;
   status.members.push_back(std::move(own));
   const WallTime now = std::chrono::steady_clock::now();
   for (const auto& [id, member] : members_) {
@@ -192,6 +199,9 @@ api::FleetMember FleetLeader::describe(const Member& member, WallTime now) const
     out.main_T_map = member.main_T_map;
     if (member.main_T_map && member.manifest.map_T_base) {
       out.main_T_base = *member.main_T_map * *member.manifest.map_T_base;
+    }
+    for (const api::Detection& one : member.main_T_map ? all_found(member) : std::vector<api::Detection>()) {
+      out.detections.push_back(api::moved(one, *member.main_T_map));
     }
   }
   for (const api::FleetNode& node : member.manifest.nodes) {

@@ -16,6 +16,7 @@
 
 #include "common/api/fleet.hpp"
 #include "server/app/disk_worker.hpp"
+#include "server/app/fleet_news.hpp"
 #include "server/app/fleet_pieces.hpp"
 #include "server/app/own_map.hpp"
 #include "server/fleet/fleet_links.hpp"
@@ -57,8 +58,8 @@ class FleetLeader {
   [[nodiscard]] Result<std::uint64_t> receive(const api::FleetChunk& chunk);
   /// Where a robot goes, and the answer: where the others go. kNotFound: it has to announce itself first.
   [[nodiscard]] Result<api::FleetShared> share(const api::FleetShare& share);
-  /// What a robot has seen of the floor, and the answer: what the others have. kNotFound: as above.
-  [[nodiscard]] Result<api::FleetFloors> floor(const api::FleetFloor& floor);
+  /// What a robot has seen, and the answer: what the others have. kNotFound: as above.
+  [[nodiscard]] Result<api::FleetSightings> seen(const api::FleetSeen& seen);
   /// Asks the main robot itself where it goes, and tells it of the others; to be called every now and then.
   void refresh();
   [[nodiscard]] api::FleetStatus status() const;
@@ -76,9 +77,11 @@ class FleetLeader {
     std::map<api::PieceHash, std::vector<std::uint8_t>> partial;
     std::uint8_t slot = 1;  ///< in the joint map
     std::optional<WallTime> seen;
-    std::optional<RobotTopology> topology;  ///< last told, in its own frame `map`
-    nav::SharedFloor floor;                 ///< so, too; null: nothing yet
-    std::optional<WallTime> shared;         ///< when it was told
+    std::optional<RobotTopology> topology;     ///< last told, in its own frame `map`
+    nav::SharedFloor floor;                    ///< so, too; null: nothing yet
+    std::vector<api::Detection> found;         ///< so, too
+    std::vector<api::Detection> found_before;  ///< told by programs of it that have ended
+    std::optional<WallTime> shared;            ///< when it was told
     std::optional<WallTime> judged;
     bool waits = false;   ///< to be judged by the worker
     std::string trouble;  ///< why its map cannot be judged; empty: it can
@@ -129,7 +132,7 @@ class FleetLeader {
     std::string trouble;  ///< why the maps could not be joined
   };
 
-  void refresh_floor();
+  void refresh_seen();
   [[nodiscard]] Result<api::FleetStatus> take_decision(const api::FleetDecision& decision);
 
   // With the lock held.
@@ -143,6 +146,9 @@ class FleetLeader {
                                                      WallTime now) const;
   [[nodiscard]] std::vector<std::pair<Pose2, nav::SharedFloor>> floors_of_others(const std::string& robot_id,
                                                                                  const Pose2& main_T_map) const;
+  [[nodiscard]] std::vector<api::FleetFinding> findings_of_others(const std::string& robot_id,
+                                                                  const Pose2& main_T_map) const;
+  [[nodiscard]] static std::vector<api::Detection> all_found(const Member& member);
   void recall_own(const api::FleetManifest& own, const v1::KeptFleet& kept);
   [[nodiscard]] bool silent(const std::optional<WallTime>& heard, WallTime now) const;
   void set_state(Member& member, api::FleetState state, std::string reason);
@@ -180,7 +186,7 @@ class FleetLeader {
   FleetLeaderParams params_;
   FleetHost host_;
   Inbox<OwnTopology> topology_inbox_;
-  Inbox<OwnFloor> floor_inbox_;
+  Inbox<OwnSeen> seen_inbox_;
   fleet::MapMerger merger_;
   mutable std::mutex mutex_;  ///< guards what follows
   std::map<std::string, Member> members_;
@@ -188,6 +194,7 @@ class FleetLeader {
   std::optional<Pose2> own_map_T_base_;
   std::optional<RobotTopology> own_topology_;
   nav::SharedFloor own_floor_;
+  std::vector<api::Detection> own_found_;
   /// The main robot has not taken up its map again since it was started: what it was holds, not where its loop is now.
   bool remembers_own_ = false;
   std::map<std::string, std::uint8_t> kept_slots_;
@@ -196,6 +203,7 @@ class FleetLeader {
   // For refresh() only.
   WallTime floor_at_;
   nav::SharedFloor others_floor_;  ///< what the main robot was told last
+  FleetNews news_;
   // For the worker only.
   std::map<std::uint8_t, fleet::PreparedMap> prepared_;  ///< by slot, the main robot's own at 0
   std::map<std::uint8_t, std::uint64_t> versions_;       ///< of those: rise when a map has changed

@@ -65,9 +65,9 @@ Status serve(FleetLeader& leader, const v1::FleetRequest& request, v1::FleetRepl
       return with_value<api::FleetShare>(request.share(), [&](const api::FleetShare& share) {
         return tell(leader.share(share), [&](const api::FleetShared& shared) { wire::write(shared, &reply); });
       });
-    case v1::FleetRequest::kFloor:
-      return with_value<api::FleetFloor>(request.floor(), [&](const api::FleetFloor& floor) {
-        return tell(leader.floor(floor), [&](const api::FleetFloors& floors) { wire::write(floors, &reply); });
+    case v1::FleetRequest::kSeen:
+      return with_value<api::FleetSeen>(request.seen(), [&](const api::FleetSeen& seen) {
+        return tell(leader.seen(seen), [&](const api::FleetSightings& others) { wire::write(others, &reply); });
       });
     case v1::FleetRequest::kDecide:
       return with_value<api::FleetDecision>(request.decide(), [&](const api::FleetDecision& decision) {

@@ -76,25 +76,44 @@ std::vector<RobotTopology> FleetLeader::others_of(const std::string& robot_id, c
   return others;
 }
 
-Result<api::FleetFloors> FleetLeader::floor(const api::FleetFloor& floor) {
+/// What is told now, and what programs of the robot told that have ended.
+std::vector<api::Detection> FleetLeader::all_found(const Member& member) {
+  std::vector<api::Detection> all = member.found;
+  for (const api::Detection& earlier : member.found_before) {
+    if (std::none_of(all.begin(), all.end(), [&](const api::Detection& one) { return one.id == earlier.id; })) {
+      all.push_back(earlier);
+    }
+  }
+  return api::within_limits(std::move(all));
+}
+
+Result<api::FleetSightings> FleetLeader::seen(const api::FleetSeen& seen) {
+  api::FleetSightings sightings;
   std::vector<std::pair<Pose2, nav::SharedFloor>> others;
   Point2 p_map = Point2::Zero();
   {
     const std::lock_guard lock(mutex_);
-    const auto known = members_.find(floor.robot_id);
-    if (known == members_.end() || known->second.manifest.instance != floor.instance) {
-      return fail(Errc::kNotFound, "robot '" + floor.robot_id + "' has to announce its map first");
+    const auto known = members_.find(seen.robot_id);
+    if (known == members_.end() || known->second.manifest.instance != seen.instance) {
+      return fail(Errc::kNotFound, "robot '" + seen.robot_id + "' has to announce its map first");
     }
     Member& member = known->second;
     member.seen = std::chrono::steady_clock::now();
-    member.floor = floor_of(floor.tiles);
+    member.floor = floor_of(seen.tiles);
+    if (member.found != seen.detections) {
+      member.found = seen.detections;
+      // A full queue only delays it: it is written with the next map that is looked at, too.
+      static_cast<void>(worker_.post([this, id = seen.robot_id] { keep_record(id); }));
+    }
     if (member.state == api::FleetState::kMerged && member.main_T_map) {
-      others = floors_of_others(floor.robot_id, *member.main_T_map);
+      others = floors_of_others(seen.robot_id, *member.main_T_map);
+      sightings.findings = findings_of_others(seen.robot_id, *member.main_T_map);
     }
     p_map = member.manifest.map_T_base.value_or(Pose2{}).translation();
   }
   const nav::SharedFloor all = nav::carried(others);
-  return api::FleetFloors{all ? api::within_limits(cut(*all), p_map) : std::vector<OccupancyTile>()};
+  sightings.floor = all ? api::within_limits(cut(*all), p_map) : std::vector<OccupancyTile>();
+  return sightings;
 }
 
 /// With the poses of their frames in that of the robot that asks.
@@ -113,23 +132,52 @@ std::vector<std::pair<Pose2, nav::SharedFloor>> FleetLeader::floors_of_others(co
   return floors;
 }
 
+/// In the frame of the robot that asks.
+std::vector<api::FleetFinding> FleetLeader::findings_of_others(const std::string& robot_id,
+                                                               const Pose2& main_T_map) const {
+  std::vector<api::FleetFinding> findings;
+  const Pose2 map_T_main = inverse(main_T_map);
+  const auto add = [&](const std::string& id, const std::vector<api::Detection>& found, const Pose2& main_T_found) {
+    for (const api::Detection& one : found) {
+      findings.push_back({id, api::moved(one, map_T_main * main_T_found)});
+    }
+  };
+  if (robot_id != params_.robot_id) {
+    add(params_.robot_id, own_found_, Pose2{});
+  }
+  for (const auto& [id, member] : members_) {
+    if (member.state == api::FleetState::kMerged && member.main_T_map && id != robot_id) {
+      add(id, all_found(member), *member.main_T_map);
+    }
+  }
+  return findings;
+}
+
 /// Floors of buildings are large: they are looked at less often than where everybody goes.
-void FleetLeader::refresh_floor() {
-  const std::optional<OwnFloor> own = floor_inbox_.take();
+void FleetLeader::refresh_seen() {
+  const std::optional<OwnSeen> own = seen_inbox_.take();
   std::vector<std::pair<Pose2, nav::SharedFloor>> others;
+  std::vector<api::FleetFinding> findings;
   {
     const std::lock_guard lock(mutex_);
-    own_floor_ = own && !remembers_own_ ? floor_of(*own) : own_floor_;
-    others = remembers_own_ ? others : floors_of_others(params_.robot_id, Pose2{});
+    if (own && !remembers_own_) {
+      own_floor_ = floor_of(own->floor);
+      own_found_ = own->detections;
+    }
+    if (!remembers_own_) {
+      others = floors_of_others(params_.robot_id, Pose2{});
+      findings = findings_of_others(params_.robot_id, Pose2{});
+    }
   }
   others_floor_ = nav::carried(others);
-  host_.give_floor(floor_inbox_.reply());
+  news_.tell(findings, host_);
+  host_.give_seen(seen_inbox_.reply());
 }
 
 void FleetLeader::refresh() {
   if (const WallTime now = std::chrono::steady_clock::now(); now >= floor_at_) {
     floor_at_ = now + params_.floor_period;
-    refresh_floor();
+    refresh_seen();
   }
   host_.give_topology(topology_inbox_.reply());
   const std::optional<OwnTopology> own = topology_inbox_.take();

@@ -22,8 +22,11 @@ struct OwnMap {
 /// What it tells of where it has been and means to go, frame `map`; nothing where it does not know its place.
 using OwnTopology = std::optional<RobotTopology>;
 
-/// What it has seen of the floor, frame `map`, within the limits of a fleet; empty where it does not know its place.
-using OwnFloor = std::vector<OccupancyTile>;
+/// What it has seen, frame `map`, within the limits of a fleet; empty where it does not know its place.
+struct OwnSeen {
+  std::vector<OccupancyTile> floor;
+  std::vector<api::Detection> detections;  ///< that belong to the map as it is now
+};
 /// Null where nothing has been seen.
 [[nodiscard]] nav::SharedFloor floor_of(const std::vector<OccupancyTile>& tiles);
 
@@ -32,7 +35,7 @@ using OwnFloor = std::vector<OccupancyTile>;
 struct FleetHost {
   std::function<void(const api::Reply<OwnMap>&)> give_map;
   std::function<void(const api::Reply<OwnTopology>&)> give_topology;
-  std::function<void(const api::Reply<OwnFloor>&)> give_floor;
+  std::function<void(const api::Reply<OwnSeen>&)> give_seen;
   /// What the robot knows of the others from now on, frame `map`; nothing: it is alone.
   std::function<void(std::optional<FleetView>)> take_view;
   /// An event of the robot; returns at once and calls nobody back.

@@ -199,7 +199,7 @@ FleetHost Robot::fleet_host() {
   FleetHost host;
   host.give_map = [this](const api::Reply<OwnMap>& reply) { give_own_map(reply); };
   host.give_topology = [this](const api::Reply<OwnTopology>& reply) { give_own_topology(reply); };
-  host.give_floor = [this](const api::Reply<OwnFloor>& reply) { give_own_floor(reply); };
+  host.give_seen = [this](const api::Reply<OwnSeen>& reply) { give_own_seen(reply); };
   // A full mailbox only delays what is said again soon.
   host.take_view = [this](std::optional<FleetView> view) {
     static_cast<void>(mailbox_.post([this, view = std::move(view)]() mutable { loop_.set_fleet(std::move(view)); }));
@@ -239,11 +239,19 @@ void Robot::give_own_topology(const api::Reply<OwnTopology>& reply) {
   }
 }
 
-void Robot::give_own_floor(const api::Reply<OwnFloor>& reply) {
+void Robot::give_own_seen(const api::Reply<OwnSeen>& reply) {
   const bool posted = mailbox_.post([this, reply] {
     const std::optional<Pose2> place = known_place(loop_);
     const bool told = place && !loop_.map_waits_for_resume();
-    reply(told ? api::within_limits(loop_.robot_map().tiles_since(0).tiles, place->translation()) : OwnFloor{});
+    if (!told) {
+      reply(OwnSeen{});
+      return;
+    }
+    const std::uint32_t epoch = loop_.status().pose.map_epoch;
+    std::vector<api::Detection> found = loop_.missions().detections();
+    std::erase_if(found, [&](const api::Detection& one) { return one.map_epoch != epoch; });
+    reply(OwnSeen{api::within_limits(loop_.robot_map().tiles_since(0).tiles, place->translation()),
+                  api::within_limits(std::move(found))});
   });
   if (!posted) {
     reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));

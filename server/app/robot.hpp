@@ -53,7 +53,7 @@ class Robot final : public api::RobotHost {
 
   void give_own_map(const api::Reply<OwnMap>& reply);
   void give_own_topology(const api::Reply<OwnTopology>& reply);
-  void give_own_floor(const api::Reply<OwnFloor>& reply);
+  void give_own_seen(const api::Reply<OwnSeen>& reply);
   void keep_journal();
   void run(bool wait_for_client);
   [[nodiscard]] api::RobotInfo info() const;

@@ -47,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check<api::FleetManifest>(request.announce());
   check<api::FleetChunk>(request.chunk());
   check<api::FleetDecision>(request.decide());
-  check<api::FleetFloor>(request.floor());
+  check<api::FleetSeen>(request.seen());
   check_share(request.share());
   return 0;
 }

@@ -57,8 +57,8 @@ inline app::FleetLeaderParams leader_params(const std::string& folder) {
 /// A robot with a toy map, which remembers what its fleet tells it.
 class ToyHost {
  public:
-  explicit ToyHost(LineMap map, app::OwnTopology topology = std::nullopt, app::OwnFloor floor = {})
-      : map_(std::move(map)), topology_(std::move(topology)), floor_(std::move(floor)) {}
+  explicit ToyHost(LineMap map, app::OwnTopology topology = std::nullopt, app::OwnSeen seen = {})
+      : map_(std::move(map)), topology_(std::move(topology)), seen_(std::move(seen)) {}
 
   [[nodiscard]] app::FleetHost host() const {
     app::FleetHost host;
@@ -68,7 +68,7 @@ class ToyHost {
     host.give_topology = [topology = topology_](const api::Reply<app::OwnTopology>& reply) {
       reply(app::OwnTopology(topology));
     };
-    host.give_floor = [floor = floor_](const api::Reply<app::OwnFloor>& reply) { reply(app::OwnFloor(floor)); };
+    host.give_seen = [seen = seen_](const api::Reply<app::OwnSeen>& reply) { reply(app::OwnSeen(seen)); };
     host.take_view = [heard = heard_](std::optional<FleetView> view) {
       const std::lock_guard lock(heard->mutex);
       heard->view = std::move(view);
@@ -109,7 +109,7 @@ class ToyHost {
   };
   LineMap map_;
   app::OwnTopology topology_;
-  app::OwnFloor floor_;
+  app::OwnSeen seen_;
   std::shared_ptr<Heard> heard_ = std::make_shared<Heard>();
 };
 
@@ -161,6 +161,18 @@ inline std::vector<OccupancyTile> floor_with(const Point2& p_map) {
   const CellIndex cell = all.cell_of(p_map);
   Grid<std::uint8_t> grid({kTileResolution_m * Point2(cell.i, cell.j), kTileResolution_m}, 1, 1, kOccupiedCell);
   return cut(grid);
+}
+
+/// A target that a robot has found.
+inline api::Detection found_at(std::uint64_t id, const Point2& p_map, const std::string& target = "mug") {
+  api::Detection found;
+  found.id = id;
+  found.target = target;
+  found.stamp = RobotTime(seconds(static_cast<int>(id)));
+  found.map_T_base = {p_map.x() - 1.0, p_map.y(), 0.0};
+  found.position = p_map;
+  found.position_covariance = 0.01 * Matrix2::Identity();
+  return found;
 }
 
 /// Where the only occupied cell is.

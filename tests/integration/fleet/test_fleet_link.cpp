@@ -95,10 +95,10 @@ TEST(FleetLink, ARobotKeepsThePlacesOfTheOthersWhenTheLinkDropsAndTakesUpTheirGo
   EXPECT_EQ(alone->others.front().topology.nodes.size(), heard->others.front().topology.nodes.size());
 }
 
-TEST(FleetLink, RobotsHearOfTheFloorThatTheOthersHaveSeen) {
+TEST(FleetLink, RobotsHearOfTheFloorAndTheTargetsThatTheOthersHaveSeen) {
   const Point2 seen_by_main(4.0, 0.5);
-  const ToyHost first(west(), at_place("main", {2.0, 1.0}), floor_with(seen_by_main));
-  const ToyHost second(east(), at_place("r1", {1.0, 0.0}), floor_with({2.0, -0.5}));
+  const ToyHost first(west(), at_place("main", {2.0, 1.0}), {floor_with(seen_by_main), {}});
+  const ToyHost second(east(), at_place("r1", {1.0, 0.0}), {floor_with({2.0, -0.5}), {found_at(1, {2.0, -0.5})}});
   const Main main("link_floor", first);
   const app::FleetPart robot = robot_at(main.port, "r1", second.host());
   const auto has_floor = [](const std::optional<FleetView>& view) { return view && view->floor; };
@@ -108,6 +108,10 @@ TEST(FleetLink, RobotsHearOfTheFloorThatTheOthersHaveSeen) {
   ASSERT_TRUE(there);
   EXPECT_THAT(*there, Point2Near(inverse(west_T_east()) * seen_by_main, 0.3));
   EXPECT_TRUE(first.until(has_floor));
+  const auto events = first.events();
+  EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const std::string& event) {
+    return event.find("'r1' has seen 'mug'") != std::string::npos;
+  }));
 }
 
 TEST(FleetLink, ARobotThatIsTakenOutForgetsTheOthers) {

@@ -59,6 +59,7 @@ class FleetMemory : public ::testing::Test {
     merged = until(leader, "r2", [](const auto& m) { return m.main_T_map.has_value(); });
     static_cast<void>(until(leader, "stranger", [](const auto& m) { return m.state != api::FleetState::kWaiting; }));
     ASSERT_TRUE(leader.decide({"stranger", api::FleetVerb::kSplit, 0}));
+    ASSERT_TRUE(leader.seen({"r2", 1, {}, {found_at(5, {2.0, 0.5})}}));
     joint = joint_map(leader);
   }
   FleetLeaderParams same = leader_params("fleet_memory");
@@ -73,6 +74,8 @@ TEST_F(FleetMemory, TheJointMapIsThereBeforeTheMainRobotHasTakenUpItsOwn) {
   const api::FleetMember member = until(again, "r2", api::FleetState::kMerged);
   ASSERT_TRUE(member.main_T_map);
   EXPECT_THAT(*member.main_T_map, Pose2Near(*merged.main_T_map, 1e-6, 1e-6));
+  ASSERT_EQ(member.detections.size(), 1U) << "what it has found is not forgotten";
+  EXPECT_THAT(*member.detections[0].position, Point2Near(*merged.main_T_map * Point2(2.0, 0.5), 1e-6));
   EXPECT_EQ(until(again, "stranger", api::FleetState::kSplit).state, api::FleetState::kSplit);
   const LineMap map = joint_map(again);
   EXPECT_EQ(map.nodes.size(), joint.nodes.size());

@@ -70,20 +70,20 @@ TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
 TEST(FleetSharing, EveryRobotIsToldTheFloorOfTheOthersInItsOwnFrame) {
   const Point2 seen_by_main(4.0, 0.5);
   const Point2 seen_by_r1(2.0, -0.5);
-  const ToyHost main(west(), at_place("main", kPlace), floor_with(seen_by_main));
+  const ToyHost main(west(), at_place("main", kPlace), {floor_with(seen_by_main), {}});
   FleetLeaderParams params = patient_params("share_floor");
   params.floor_period = Duration::zero();
   FleetLeader leader(params, main.host());
-  EXPECT_EQ(leader.floor({"r1", 1, {}}).error().code, Errc::kNotFound) << "it has to announce itself first";
+  EXPECT_EQ(leader.seen({"r1", 1, {}, {}}).error().code, Errc::kNotFound) << "it has to announce itself first";
   join(leader, packed(east(), "r1"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
   EXPECT_EQ(told(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
   leader.refresh();
   leader.refresh();
 
-  const auto r1_hears = leader.floor({"r1", 1, floor_with(seen_by_r1)});
+  const auto r1_hears = leader.seen({"r1", 1, floor_with(seen_by_r1), {}});
   ASSERT_TRUE(r1_hears) << r1_hears.error().message;
-  const auto of_main = assemble(r1_hears->others);
+  const auto of_main = assemble(r1_hears->floor);
   ASSERT_TRUE(of_main);
   const auto there = occupied_in(*of_main);
   ASSERT_TRUE(there);
@@ -97,17 +97,67 @@ TEST(FleetSharing, EveryRobotIsToldTheFloorOfTheOthersInItsOwnFrame) {
   EXPECT_THAT(*here, Point2Near(west_T_r1 * seen_by_r1, 2.0 * kTileResolution_m));
 }
 
-TEST(FleetSharing, ARobotOfAnotherBuildingIsToldNoFloor) {
-  const ToyHost main(west(), at_place("main", kPlace), floor_with(kPlace));
+TEST(FleetSharing, WhatOneHasFoundAllHearOfOnceInTheirOwnFrames) {
+  const Point2 by_main(4.0, 0.5);
+  const Point2 by_r1(2.0, -0.5);
+  const ToyHost main(west(), at_place("main", kPlace), {{}, {found_at(7, by_main, "ball")}});
+  FleetLeaderParams params = patient_params("share_found");
+  params.floor_period = Duration::zero();
+  FleetLeader leader(params, main.host());
+  join(leader, packed(east(), "r1"));
+  const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
+  leader.refresh();
+  leader.refresh();
+  const auto r1_hears = leader.seen({"r1", 1, {}, {found_at(1, by_r1)}});
+  ASSERT_TRUE(r1_hears) << r1_hears.error().message;
+  ASSERT_EQ(r1_hears->findings.size(), 1U);
+  EXPECT_EQ(r1_hears->findings[0].robot_id, "main");
+  EXPECT_EQ(r1_hears->findings[0].detection.target, "ball");
+  EXPECT_THAT(*r1_hears->findings[0].detection.position, Point2Near(inverse(west_T_r1) * by_main, 1e-9));
+
+  leader.refresh();
+  leader.refresh();
+  const auto events = main.events();
+  EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                          [](const std::string& event) {
+                            return event.find("fleet-found robot 'r1' has seen 'mug' at") != std::string::npos;
+                          }),
+            1);
+  const api::FleetStatus status = leader.status();
+  ASSERT_EQ(status.members[0].detections.size(), 1U);
+  ASSERT_EQ(status.members[1].detections.size(), 1U);
+  EXPECT_THAT(*status.members[1].detections[0].position, Point2Near(west_T_r1 * by_r1, 1e-9));
+}
+
+TEST(FleetSharing, WhatARobotFoundBeforeItWasStartedAnewStaysFound) {
+  FleetLeaderParams impatient = patient_params("share_found_anew");
+  impatient.silence_limit = Duration::zero();
+  FleetLeader leader(impatient, holds(west()));
+  join(leader, packed(east(), "r1"));
+  static_cast<void>(until(leader, "r1", placed));
+  ASSERT_TRUE(leader.seen({"r1", 1, {}, {found_at(1, kPlace), found_at(2, kPlace)}}));
+  ASSERT_TRUE(leader.seen({"r1", 1, {}, {found_at(2, kPlace)}})) << "it takes the first one back";
+  join(leader, packed(east(), "r1", 2));
+  ASSERT_TRUE(leader.seen({"r1", 2, {}, {found_at(3, kPlace)}}));
+  const api::FleetMember r1 = until(leader, "r1", placed);
+  ASSERT_EQ(r1.detections.size(), 2U);
+  EXPECT_EQ(r1.detections[0].id, 2U);
+  EXPECT_EQ(r1.detections[1].id, 3U);
+}
+
+TEST(FleetSharing, ARobotOfAnotherBuildingIsToldNothingOfThisOne) {
+  const ToyHost main(west(), at_place("main", kPlace), {floor_with(kPlace), {found_at(1, kPlace)}});
   FleetLeader leader(patient_params("share_floor_apart"), main.host());
   join(leader, packed(east(7), "r1"));
   static_cast<void>(
       until(leader, "r1", [](const api::FleetMember& member) { return member.state != api::FleetState::kWaiting; }));
   leader.refresh();
   leader.refresh();
-  const auto heard = leader.floor({"r1", 1, floor_with(kPlace)});
+  const auto heard = leader.seen({"r1", 1, floor_with(kPlace), {found_at(1, kPlace)}});
   ASSERT_TRUE(heard) << heard.error().message;
-  EXPECT_TRUE(heard->others.empty());
+  EXPECT_TRUE(heard->floor.empty());
+  EXPECT_TRUE(heard->findings.empty());
+  EXPECT_TRUE(leader.status().members[1].detections.empty()) << "nobody knows where that is";
   leader.refresh();
   EXPECT_FALSE(main.view().has_value());
 }
