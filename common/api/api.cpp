@@ -3,6 +3,8 @@
 #include <set>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include "common/api/robot_api.hpp"
 #include "common/core/angle.hpp"
 #include "common/core/line_map.hpp"

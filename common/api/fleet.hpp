@@ -13,6 +13,7 @@
 #include "common/core/line_map.hpp"
 #include "common/core/occupancy_tile.hpp"
 #include "common/core/pose2.hpp"
+#include "common/core/searched_floor.hpp"
 #include "common/core/topology.hpp"
 
 namespace seeker::api {
@@ -32,11 +33,13 @@ inline constexpr std::size_t kMaxFleetGoals = 4'000;
 inline constexpr std::size_t kMaxFleetSectors = 20'000;
 inline constexpr std::size_t kMaxFleetWays = 10'000;
 inline constexpr int kMaxFleetLayer = 64;
-inline constexpr std::size_t kMaxFleetTiles = 1'024;    ///< of a floor,
-inline constexpr int kMaxFleetFloorSide_tiles = 64;     ///< that is at most so wide and so high: 205 m
-inline constexpr std::size_t kMaxFleetDetections = 64;  ///< of one robot
-inline constexpr double kMaxFleetReach_m = 10'000.0;    ///< a place is not farther from the origin of any map
-inline constexpr double kMaxFleetGoal_m = 200.0;        ///< nor a goal from its place
+inline constexpr std::size_t kMaxFleetTiles = 1'024;     ///< of a floor,
+inline constexpr int kMaxFleetFloorSide_tiles = 64;      ///< that is at most so wide and so high: 205 m
+inline constexpr std::size_t kMaxFleetDetections = 64;   ///< of one robot
+inline constexpr int kMaxFleetSearchedSide_cells = 512;  ///< of what one robot tells that it has searched
+inline constexpr std::size_t kMaxFleetTargets = 64;      ///< that it was for
+inline constexpr double kMaxFleetReach_m = 10'000.0;     ///< a place is not farther from the origin of any map
+inline constexpr double kMaxFleetGoal_m = 200.0;         ///< nor a goal from its place
 
 /// A local map by its piece: segments and scans in its own frame, so that it stays the same when the map around moves.
 struct FleetNode {
@@ -140,9 +143,10 @@ struct FleetShared {
 /// What a robot has seen, in its own frame `map`. Said now and then; empty where it does not know its place.
 struct FleetSeen {
   std::string robot_id;
-  std::uint64_t instance = 0;         ///< as in FleetManifest
-  std::vector<OccupancyTile> tiles;   ///< of the floor, all of them
-  std::vector<Detection> detections;  ///< of its missions since it was started
+  std::uint64_t instance = 0;             ///< as in FleetManifest
+  std::vector<OccupancyTile> tiles;       ///< of the floor, all of them
+  std::vector<Detection> detections;      ///< of its missions since it was started
+  std::optional<SearchedFloor> searched;  ///< by its last search
   friend bool operator==(const FleetSeen&, const FleetSeen&) = default;
 };
 
@@ -158,6 +162,7 @@ struct FleetFinding {
 struct FleetSightings {
   std::vector<OccupancyTile> floor;
   std::vector<FleetFinding> findings;
+  std::vector<SearchedFloor> searched;
   friend bool operator==(const FleetSightings&, const FleetSightings&) = default;
 };
 

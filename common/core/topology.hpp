@@ -11,6 +11,7 @@
 
 #include "common/core/grid.hpp"
 #include "common/core/pose2.hpp"
+#include "common/core/searched_floor.hpp"
 
 namespace seeker {
 
@@ -86,6 +87,7 @@ struct FleetView {
   std::vector<RobotTopology> others;
   /// What they have seen of the floor, cells as in OccupancyTile on multiples of its resolution; null: nothing is told.
   std::shared_ptr<const Grid<std::uint8_t>> floor = nullptr;
+  SharedSearch searched = nullptr;  ///< what they have searched
 
   friend bool operator==(const FleetView&, const FleetView&) = default;
 };

@@ -18,6 +18,7 @@ void write(const RobotTopology& from, v1::FleetTopology* to);
 void write(const api::FleetShare& from, v1::FleetShare* to);
 /// Into the fields of a reply that answer a share.
 void write(const api::FleetShared& from, v1::FleetReply* to);
+void write(const SearchedFloor& from, v1::SearchedFloor* to);
 void write(const api::FleetSeen& from, v1::FleetSeen* to);
 /// Into the fields of a reply that answers what was seen.
 void write(const api::FleetSightings& from, v1::FleetReply* to);
@@ -30,6 +31,7 @@ void read(const v1::FleetChunk& from, api::FleetChunk& to, Check& check);
 void read(const v1::FleetTopology& from, RobotTopology& to, Check& check);
 void read(const v1::FleetShare& from, api::FleetShare& to, Check& check);
 void read(const v1::FleetReply& from, api::FleetShared& to, Check& check);
+void read(const v1::SearchedFloor& from, SearchedFloor& to, Check& check);
 void read(const v1::FleetSeen& from, api::FleetSeen& to, Check& check);
 void read(const v1::FleetReply& from, api::FleetSightings& to, Check& check);
 void read(const v1::FleetStatus& from, api::FleetStatus& to, Check& check);

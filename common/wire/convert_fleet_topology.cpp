@@ -17,6 +17,7 @@ constexpr double kMaxSpan_rad = kTwoPi + 1e-5;
 /// Of a robot of a fleet.
 constexpr double kMaxSpeed_m_s = 10.0;
 constexpr double kMaxTurn_rad_s = 20.0;
+constexpr double kMaxCell_m = 1.0;  // of what was searched
 
 void write_place(const TopologyNode& from, pb::FleetPlace* to) {
   to->set_id(from.id);
@@ -49,11 +50,11 @@ Point2 read_point(bool present, const pb::Point2& from, std::string_view field, 
   return {within(p.x(), api::kMaxFleetReach_m, field, check), within(p.y(), api::kMaxFleetReach_m, field, check)};
 }
 
-Pose2 read_place_pose(bool present, const pb::Pose2& from, Check& check) {
+Pose2 read_place_pose(bool present, const pb::Pose2& from, std::string_view field, Check& check) {
   Pose2 pose;
-  read_required(present, from, pose, "map_t_base", check);
-  within(pose.x_m, api::kMaxFleetReach_m, "map_t_base", check);
-  within(pose.y_m, api::kMaxFleetReach_m, "map_t_base", check);
+  read_required(present, from, pose, field, check);
+  within(pose.x_m, api::kMaxFleetReach_m, field, check);
+  within(pose.y_m, api::kMaxFleetReach_m, field, check);
   return pose;
 }
 
@@ -93,7 +94,7 @@ void read_sectors(const pb::FleetPlace& from, std::vector<FreeSector>& to, Check
 
 void read_place(const pb::FleetPlace& from, TopologyNode& to, Check& check) {
   to.id = from.id();
-  to.map_T_base = read_place_pose(from.has_map_t_base(), from.map_t_base(), check);
+  to.map_T_base = read_place_pose(from.has_map_t_base(), from.map_t_base(), "map_t_base", check);
   read_sectors(from, to.sectors, check);
   for (int k = 0; k < from.goals_size(); ++k) {
     const auto scope = check.in("goals", static_cast<std::size_t>(k));
@@ -198,7 +199,7 @@ void read(const pb::FleetTopology& from, RobotTopology& to, Check& check) {
     return;
   }
   to.robot_id = read_robot_id(from.robot_id(), check);
-  to.map_T_base = read_place_pose(from.has_map_t_base(), from.map_t_base(), check);
+  to.map_T_base = read_place_pose(from.has_map_t_base(), from.map_t_base(), "map_t_base", check);
   for (int k = 0; k < from.places_size(); ++k) {
     const auto scope = check.in("places", static_cast<std::size_t>(k));
     read_place(from.places(k), to.topology.nodes.emplace_back(), check);
@@ -256,11 +257,43 @@ void read(const pb::FleetReply& from, api::FleetShared& to, Check& check) {
   }
 }
 
+void write(const SearchedFloor& from, pb::SearchedFloor* to) {
+  for (const std::string& target : from.targets) {
+    to->add_targets(clean_text(target, kMaxNameBytes));
+  }
+  write(from.map_T_grid, to->mutable_map_t_grid());
+  write(from.probability, to->mutable_probability());
+}
+
+void read(const pb::SearchedFloor& from, SearchedFloor& to, Check& check) {
+  const auto too_long = [](std::uint32_t cells) { return cells > api::kMaxFleetSearchedSide_cells; };
+  if (!check.count("targets", static_cast<std::size_t>(from.targets_size()), api::kMaxFleetTargets)) {
+    return;
+  }
+  if (too_long(from.probability().width()) || too_long(from.probability().height())) {
+    check.refuse("probability", Errc::kTooLarge, "is more than 512 cells wide or high");
+    return;
+  }
+  for (const std::string& target : from.targets()) {
+    to.targets.push_back(check.text("targets", target, kMaxNameBytes));
+  }
+  to.map_T_grid = read_place_pose(from.has_map_t_grid(), from.map_t_grid(), "map_t_grid", check);
+  const auto scope = check.in("probability");
+  read(from.probability(), to.probability, check);
+  const Point2& origin = to.probability.frame().origin;
+  within(origin.x(), api::kMaxFleetReach_m, "origin_x_m", check);
+  within(origin.y(), api::kMaxFleetReach_m, "origin_y_m", check);
+  within(to.probability.frame().resolution_m, kMaxCell_m, "resolution_m", check);
+}
+
 void write(const api::FleetSeen& from, pb::FleetSeen* to) {
   to->set_robot_id(from.robot_id);
   to->set_instance(from.instance);
   write_tiles(from.tiles, to->mutable_tiles());
   write_detections(from.detections, to->mutable_detections());
+  if (from.searched) {
+    write(*from.searched, to->mutable_searched());
+  }
 }
 
 void read(const pb::FleetSeen& from, api::FleetSeen& to, Check& check) {
@@ -268,6 +301,10 @@ void read(const pb::FleetSeen& from, api::FleetSeen& to, Check& check) {
   to.instance = from.instance();
   read_tiles(from.tiles(), to.tiles, check);
   read_detections(from.detections(), to.detections, check);
+  if (from.has_searched()) {
+    const auto scope = check.in("searched");
+    read(from.searched(), to.searched.emplace(), check);
+  }
 }
 
 void write(const api::FleetSightings& from, pb::FleetReply* to) {
@@ -276,6 +313,9 @@ void write(const api::FleetSightings& from, pb::FleetReply* to) {
     pb::FleetFinding* one = to->add_findings();
     one->set_robot_id(finding.robot_id);
     write(finding.detection, one->mutable_detection());
+  }
+  for (const SearchedFloor& searched : from.searched) {
+    write(searched, to->add_searched());
   }
 }
 
@@ -292,6 +332,13 @@ void read(const pb::FleetReply& from, api::FleetSightings& to, Check& check) {
     read_required(from.findings(k).has_detection(), from.findings(k).detection(), finding.detection, "detection",
                   check);
     check_reach(finding.detection, check);
+  }
+  if (!check.count("searched", static_cast<std::size_t>(from.searched_size()), api::kMaxFleetRobots - 1)) {
+    return;
+  }
+  for (int k = 0; k < from.searched_size(); ++k) {
+    const auto scope = check.in("searched", static_cast<std::size_t>(k));
+    read(from.searched(k), to.searched.emplace_back(), check);
   }
 }
 

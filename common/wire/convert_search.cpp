@@ -15,34 +15,6 @@ void read(const pb::Covariance2& from, Matrix2& to, Check& check) {
   to << check.finite("xx_m2", from.xx_m2()), xy, xy, check.finite("yy_m2", from.yy_m2());
 }
 
-void write(const Grid<std::uint8_t>& from, pb::ByteGrid* to) {
-  to->set_origin_x_m(from.frame().origin.x());
-  to->set_origin_y_m(from.frame().origin.y());
-  to->set_resolution_m(from.frame().resolution_m);
-  to->set_width(static_cast<std::uint32_t>(from.width()));
-  to->set_height(static_cast<std::uint32_t>(from.height()));
-  to->set_cells_zstd(compress(from.cells()));
-}
-
-void read(const pb::ByteGrid& from, Grid<std::uint8_t>& to, Check& check) {
-  const std::uint64_t cells = std::uint64_t{from.width()} * from.height();
-  if (from.width() > kMaxGridCells || from.height() > kMaxGridCells || cells > kMaxGridCells) {
-    check.refuse("width", Errc::kTooLarge, "* height is above 8 Mi cells");
-    return;
-  }
-  GridFrame frame;
-  frame.origin = {check.finite("origin_x_m", from.origin_x_m()), check.finite("origin_y_m", from.origin_y_m())};
-  frame.resolution_m = check.finite("resolution_m", from.resolution_m());
-  if (!(frame.resolution_m > 0.0)) {
-    check.refuse("resolution_m", Errc::kInvalidArgument, "must be above zero");
-    return;
-  }
-  to = Grid<std::uint8_t>(frame, static_cast<int>(from.width()), static_cast<int>(from.height()));
-  if (const Status unpacked = decompress(from.cells_zstd(), to.cells()); !unpacked) {
-    check.refuse("cells_zstd", unpacked.error().code, unpacked.error().message);
-  }
-}
-
 void write(const api::GridLists& from, pb::GridLists* to) {
   to->set_cell_size_m(from.cell_size_m);
   wire::write(from.searched, to->mutable_searched());
@@ -71,7 +43,7 @@ void read(const pb::GridLists& from, api::GridLists& to, Check& check) {
 }
 
 void write(const api::EvidenceMap& from, pb::EvidenceMap* to) {
-  write(from.probability, to->mutable_probability());
+  wire::write(from.probability, to->mutable_probability());
   for (std::size_t k = 0; k < std::min(from.gaps.size(), kMaxGaps); ++k) {
     pb::Gap* gap = to->add_gaps();
     wire::write(from.gaps[k].centre, gap->mutable_centre());
@@ -89,7 +61,7 @@ void read(const pb::EvidenceMap& from, api::EvidenceMap& to, Check& check) {
   }
   {
     const auto scope = check.in("probability");
-    read(from.probability(), to.probability, check);
+    wire::read(from.probability(), to.probability, check);
   }
   to.gaps.resize(static_cast<std::size_t>(from.gaps_size()));
   for (std::size_t k = 0; k < to.gaps.size(); ++k) {
@@ -104,6 +76,34 @@ void read(const pb::EvidenceMap& from, api::EvidenceMap& to, Check& check) {
 }
 
 }  // namespace
+
+void write(const Grid<std::uint8_t>& from, pb::ByteGrid* to) {
+  to->set_origin_x_m(from.frame().origin.x());
+  to->set_origin_y_m(from.frame().origin.y());
+  to->set_resolution_m(from.frame().resolution_m);
+  to->set_width(static_cast<std::uint32_t>(from.width()));
+  to->set_height(static_cast<std::uint32_t>(from.height()));
+  to->set_cells_zstd(compress(from.cells()));
+}
+
+void read(const pb::ByteGrid& from, Grid<std::uint8_t>& to, Check& check) {
+  const std::uint64_t cells = std::uint64_t{from.width()} * from.height();
+  if (from.width() > kMaxGridCells || from.height() > kMaxGridCells || cells > kMaxGridCells) {
+    check.refuse("width", Errc::kTooLarge, "* height is above 8 Mi cells");
+    return;
+  }
+  GridFrame frame;
+  frame.origin = {check.finite("origin_x_m", from.origin_x_m()), check.finite("origin_y_m", from.origin_y_m())};
+  frame.resolution_m = check.finite("resolution_m", from.resolution_m());
+  if (!(frame.resolution_m > 0.0)) {
+    check.refuse("resolution_m", Errc::kInvalidArgument, "must be above zero");
+    return;
+  }
+  to = Grid<std::uint8_t>(frame, static_cast<int>(from.width()), static_cast<int>(from.height()));
+  if (const Status unpacked = decompress(from.cells_zstd(), to.cells()); !unpacked) {
+    check.refuse("cells_zstd", unpacked.error().code, unpacked.error().message);
+  }
+}
 
 void write(const api::CoverageSummary& from, pb::CoverageSummary* to) {
   to->set_reachable_area_m2(from.reachable_area_m2);

@@ -97,6 +97,10 @@ class Behaviour {
   /// What it goes on from when the program is cut off, and what it is told then before its first step.
   [[nodiscard]] virtual std::optional<TopologyMemory> memory() const { return std::nullopt; }
   virtual void remember(const TopologyMemory& /*memory*/) {}
+  /// What it has searched itself, within a square of so many cells around a point, as other robots are told.
+  [[nodiscard]] virtual std::optional<SearchedFloor> searched(const Point2& /*middle_map*/, int /*side_cells*/) const {
+    return std::nullopt;
+  }
   /// Everything found so far, with ids from 1 that stay.
   [[nodiscard]] virtual std::vector<api::Detection> detections() const { return {}; }
 };

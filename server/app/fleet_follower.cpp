@@ -94,10 +94,11 @@ Status FleetFollower::exchange_seen() {
   if (!own) {
     return tl::unexpected<Error>(own.error());
   }
-  const Result<api::FleetSightings> others =
-      main_.seen({params_.robot_id, instance_, std::move(own->floor), std::move(own->detections)});
+  Result<api::FleetSightings> others = main_.seen(
+      {params_.robot_id, instance_, std::move(own->floor), std::move(own->detections), std::move(own->searched)});
   if (others) {
     floor_ = floor_of(others->floor);
+    searched_ = shared_search(std::move(others->searched), searched_);
     news_.tell(others->findings, host_);
     return {};
   }
@@ -157,7 +158,7 @@ void FleetFollower::hear(const Result<api::FleetShared>& shared) {
   std::optional<FleetView> view = view_;
   const api::FleetState state = shared ? shared->state : api::FleetState::kWaiting;
   switch (state) {
-    case api::FleetState::kMerged: view = FleetView{params_.robot_id, shared->others, floor_}; break;
+    case api::FleetState::kMerged: view = FleetView{params_.robot_id, shared->others, floor_, searched_}; break;
     case api::FleetState::kWaiting:
     case api::FleetState::kInsufficientOverlap:
       for (std::size_t k = 0; view && k < view->others.size(); ++k) {
@@ -170,6 +171,7 @@ void FleetFollower::hear(const Result<api::FleetShared>& shared) {
     case api::FleetState::kSplit:
       view.reset();
       floor_.reset();
+      searched_.reset();
       break;
   }
   if (view != view_) {

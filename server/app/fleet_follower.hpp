@@ -47,7 +47,7 @@ class FleetFollower {
   [[nodiscard]] Status announce();
   [[nodiscard]] Status send(const PackedMap& packed, const api::FleetMissing& missing);
   [[nodiscard]] Status share();
-  [[nodiscard]] Status exchange_floors();
+  [[nodiscard]] Status exchange_seen();
   void hear(const Result<api::FleetShared>& shared);
   void note(const Status& outcome);
   [[nodiscard]] bool stopping() const;
@@ -63,6 +63,7 @@ class FleetFollower {
   WallTime share_at_;
   WallTime floor_at_;
   nav::SharedFloor floor_;  ///< what the others have seen, as last heard
+  SharedSearch searched_;   ///< so, too
   FleetNews news_;
   std::optional<FleetView> view_;  ///< what the robot was last told of the others
   mutable std::mutex mutex_;       ///< guards what follows

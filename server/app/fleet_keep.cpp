@@ -82,6 +82,11 @@ void FleetLeader::load_member(const fs::path& folder) {
     }
   }
   member.found_before = api::within_limits(std::move(member.found_before));
+  if (record->has_searched()) {
+    if (Result<SearchedFloor> searched = wire::from_message<SearchedFloor>(record->searched())) {
+      member.searched = std::move(*searched);
+    }
+  }
   const std::lock_guard lock(mutex_);
   const std::string id = member.manifest.robot_id;
   if (members_.size() + 1 < api::kMaxFleetRobots && !members_.contains(id)) {
@@ -129,6 +134,9 @@ void FleetLeader::keep_record(const std::string& robot_id) {
     }
     for (const api::Detection& one : all_found(member)) {
       wire::write(one, record.add_detections());
+    }
+    if (member.searched) {
+      wire::write(*member.searched, record.mutable_searched());
     }
     needed = member.pieces;
   }

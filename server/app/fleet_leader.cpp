@@ -72,6 +72,7 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
     member.floor.reset();
     member.found.clear();
     member.found_before.clear();
+    member.searched.reset();
   }
   if (member.manifest.instance != manifest.instance) {
     member.found_before = all_found(member);  // a program that was started anew has forgotten them

@@ -81,6 +81,7 @@ class FleetLeader {
     nav::SharedFloor floor;                    ///< so, too; null: nothing yet
     std::vector<api::Detection> found;         ///< so, too
     std::vector<api::Detection> found_before;  ///< told by programs of it that have ended
+    std::optional<SearchedFloor> searched;     ///< in its own frame `map`
     std::optional<WallTime> shared;            ///< when it was told
     std::optional<WallTime> judged;
     bool waits = false;   ///< to be judged by the worker
@@ -148,6 +149,8 @@ class FleetLeader {
                                                                                  const Pose2& main_T_map) const;
   [[nodiscard]] std::vector<api::FleetFinding> findings_of_others(const std::string& robot_id,
                                                                   const Pose2& main_T_map) const;
+  [[nodiscard]] std::vector<SearchedFloor> searched_by_others(const std::string& robot_id,
+                                                              const Pose2& main_T_map) const;
   [[nodiscard]] static std::vector<api::Detection> all_found(const Member& member);
   void recall_own(const api::FleetManifest& own, const v1::KeptFleet& kept);
   [[nodiscard]] bool silent(const std::optional<WallTime>& heard, WallTime now) const;
@@ -195,6 +198,7 @@ class FleetLeader {
   std::optional<RobotTopology> own_topology_;
   nav::SharedFloor own_floor_;
   std::vector<api::Detection> own_found_;
+  std::optional<SearchedFloor> own_searched_;
   /// The main robot has not taken up its map again since it was started: what it was holds, not where its loop is now.
   bool remembers_own_ = false;
   std::map<std::string, std::uint8_t> kept_slots_;
@@ -203,6 +207,7 @@ class FleetLeader {
   // For refresh() only.
   WallTime floor_at_;
   nav::SharedFloor others_floor_;  ///< what the main robot was told last
+  SharedSearch others_searched_;   ///< so, too
   FleetNews news_;
   // For the worker only.
   std::map<std::uint8_t, fleet::PreparedMap> prepared_;  ///< by slot, the main robot's own at 0

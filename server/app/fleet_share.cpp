@@ -31,6 +31,13 @@ nav::SharedFloor floor_of(const std::vector<OccupancyTile>& tiles) {
   return floor ? std::make_shared<const Grid<std::uint8_t>>(*std::move(floor)) : nullptr;
 }
 
+SharedSearch shared_search(std::vector<SearchedFloor> searched, const SharedSearch& before) {
+  if (searched.empty() || (before && *before == searched)) {
+    return searched.empty() ? nullptr : before;
+  }
+  return std::make_shared<const std::vector<SearchedFloor>>(std::move(searched));
+}
+
 bool FleetLeader::silent(const std::optional<WallTime>& heard, WallTime now) const {
   return !heard || now - *heard >= params_.silence_limit;
 }
@@ -100,14 +107,16 @@ Result<api::FleetSightings> FleetLeader::seen(const api::FleetSeen& seen) {
     Member& member = known->second;
     member.seen = std::chrono::steady_clock::now();
     member.floor = floor_of(seen.tiles);
-    if (member.found != seen.detections) {
+    if (member.found != seen.detections || (seen.searched && member.searched != seen.searched)) {
       member.found = seen.detections;
+      member.searched = seen.searched ? seen.searched : member.searched;  // one that was started anew has forgotten it
       // A full queue only delays it: it is written with the next map that is looked at, too.
       static_cast<void>(worker_.post([this, id = seen.robot_id] { keep_record(id); }));
     }
     if (member.state == api::FleetState::kMerged && member.main_T_map) {
       others = floors_of_others(seen.robot_id, *member.main_T_map);
       sightings.findings = findings_of_others(seen.robot_id, *member.main_T_map);
+      sightings.searched = searched_by_others(seen.robot_id, *member.main_T_map);
     }
     p_map = member.manifest.map_T_base.value_or(Pose2{}).translation();
   }
@@ -153,23 +162,48 @@ std::vector<api::FleetFinding> FleetLeader::findings_of_others(const std::string
   return findings;
 }
 
+/// In the frame of the robot that asks.
+std::vector<SearchedFloor> FleetLeader::searched_by_others(const std::string& robot_id, const Pose2& main_T_map) const {
+  std::vector<SearchedFloor> all;
+  const Pose2 map_T_main = inverse(main_T_map);
+  const auto add = [&](const std::optional<SearchedFloor>& searched, const Pose2& main_T_theirs) {
+    if (searched) {
+      all.push_back(*searched);
+      all.back().map_T_grid = map_T_main * main_T_theirs * all.back().map_T_grid;
+    }
+  };
+  if (robot_id != params_.robot_id) {
+    add(own_searched_, Pose2{});
+  }
+  for (const auto& [id, member] : members_) {
+    if (member.state == api::FleetState::kMerged && member.main_T_map && id != robot_id) {
+      add(member.searched, *member.main_T_map);
+    }
+  }
+  return all;
+}
+
 /// Floors of buildings are large: they are looked at less often than where everybody goes.
 void FleetLeader::refresh_seen() {
   const std::optional<OwnSeen> own = seen_inbox_.take();
   std::vector<std::pair<Pose2, nav::SharedFloor>> others;
   std::vector<api::FleetFinding> findings;
+  std::vector<SearchedFloor> searched;
   {
     const std::lock_guard lock(mutex_);
     if (own && !remembers_own_) {
       own_floor_ = floor_of(own->floor);
       own_found_ = own->detections;
+      own_searched_ = own->searched;
     }
     if (!remembers_own_) {
       others = floors_of_others(params_.robot_id, Pose2{});
       findings = findings_of_others(params_.robot_id, Pose2{});
+      searched = searched_by_others(params_.robot_id, Pose2{});
     }
   }
   others_floor_ = nav::carried(others);
+  others_searched_ = shared_search(std::move(searched), others_searched_);
   news_.tell(findings, host_);
   host_.give_seen(seen_inbox_.reply());
 }
@@ -192,8 +226,9 @@ void FleetLeader::refresh() {
       others = others_of(params_.robot_id, Pose2{}, std::chrono::steady_clock::now());
     }
   }
-  host_.take_view(others.empty() ? std::nullopt
-                                 : std::optional(FleetView{params_.robot_id, std::move(others), others_floor_}));
+  host_.take_view(others.empty()
+                      ? std::nullopt
+                      : std::optional(FleetView{params_.robot_id, std::move(others), others_floor_, others_searched_}));
 }
 
 }  // namespace seeker::app

@@ -2,9 +2,15 @@
 
 #include <algorithm>
 
+#include "common/api/fleet.hpp"
 #include "common/core/assert.hpp"
 
 namespace seeker::app {
+namespace {
+
+constexpr int kSearchedSide_cells = api::kMaxFleetSearchedSide_cells;
+
+}  // namespace
 
 MissionExecutor::MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs)
     : params_(params), factory_(std::move(factory)), outputs_(std::move(outputs)) {}
@@ -95,6 +101,7 @@ void MissionExecutor::end(api::Outcome outcome, const std::string& cause, const 
 void MissionExecutor::finish(const api::MissionEnd& end, RobotTime now) {
   SEEKER_ASSERT(active_.has_value());
   collect();
+  keep_searched();
   active_->status.state = api::MissionState::kEnded;
   active_->status.end = end;
   active_->status.planned_path.clear();
@@ -167,6 +174,7 @@ void MissionExecutor::apply_link_policy(const Situation& situation, WallTime wal
     return;
   }
   collect();
+  keep_searched();
   active_->behaviour = std::move(*way_back);
   active_->detection_base = highest_detection_id_;
   active_->end_after =
@@ -275,6 +283,22 @@ void MissionExecutor::collect() {
     highest_detection_id_ = std::max(highest_detection_id_, detection.id);
     outputs_.detection(detection);
   }
+}
+
+void MissionExecutor::keep_searched() {
+  const Point2 about = active_->last_pose.value_or(Pose2{}).translation();
+  if (auto searched = active_->behaviour->searched(about, kSearchedSide_cells)) {
+    searched_ = std::move(searched);
+    searched_epoch_ = active_->map_epoch;
+  }
+}
+
+std::optional<SearchedFloor> MissionExecutor::searched(const PoseEstimate& at) const {
+  auto now = active_ ? active_->behaviour->searched(at.map_T_base.translation(), kSearchedSide_cells) : std::nullopt;
+  if (!now && searched_epoch_ == at.map_epoch) {
+    return searched_;
+  }
+  return now;
 }
 
 void MissionExecutor::client_lost(const std::string& client, WallTime wall_now) {

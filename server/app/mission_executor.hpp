@@ -68,6 +68,8 @@ class MissionExecutor {
   [[nodiscard]] const std::optional<api::MissionStatus>& last() const { return last_; }
   [[nodiscard]] const std::optional<api::GridReport>& grid() const { return grid_; }
   [[nodiscard]] const std::vector<api::Detection>& detections() const { return detections_; }
+  /// What the running search has searched, or the last one of this map epoch; see Behaviour::searched().
+  [[nodiscard]] std::optional<SearchedFloor> searched(const PoseEstimate& at) const;
   [[nodiscard]] const Behaviour* behaviour() const { return active_ ? active_->behaviour.get() : nullptr; }
   /// Ids continue above what an earlier run of the program gave out.
   void continue_detection_ids(std::uint64_t highest) { highest_detection_id_ = highest; }
@@ -96,6 +98,7 @@ class MissionExecutor {
   void take(const Decision& decision, const Situation& situation);
   void finish(const api::MissionEnd& end, RobotTime now);
   void collect();
+  void keep_searched();
   void report(RobotTime now);
   void log(RobotTime now, const std::string& kind, const std::string& text,
            api::Severity severity = api::Severity::kInfo);
@@ -107,6 +110,8 @@ class MissionExecutor {
   std::optional<api::MissionStatus> last_;
   std::optional<api::GridReport> grid_;
   std::vector<api::Detection> detections_;
+  std::optional<SearchedFloor> searched_;  ///< by the last search that ended,
+  std::uint32_t searched_epoch_ = 0;       ///< in the map of this epoch
   std::uint64_t highest_detection_id_ = 0;
   std::uint64_t event_sequence_ = 0;
 };

@@ -9,6 +9,7 @@
 
 #include "common/api/robot_api.hpp"
 #include "common/core/line_map.hpp"
+#include "common/core/searched_floor.hpp"
 #include "common/core/topology.hpp"
 #include "server/nav/shared_floor.hpp"
 
@@ -26,9 +27,12 @@ using OwnTopology = std::optional<RobotTopology>;
 struct OwnSeen {
   std::vector<OccupancyTile> floor;
   std::vector<api::Detection> detections;  ///< that belong to the map as it is now
+  std::optional<SearchedFloor> searched;
 };
 /// Null where nothing has been seen.
 [[nodiscard]] nav::SharedFloor floor_of(const std::vector<OccupancyTile>& tiles);
+/// Null where nothing was searched; `before` where that says the same.
+[[nodiscard]] SharedSearch shared_search(std::vector<SearchedFloor> searched, const SharedSearch& before);
 
 /// The robot as its fleet sees it. None is empty; all may be called from any thread. The first three answer on the
 /// loop's thread, or at once where the loop has ended.

@@ -66,7 +66,8 @@ void RobotLoop::note_topology() {
 void RobotLoop::move_fleet(const Pose2& new_T_old) {
   own_topology_.topology = fleet::moved(std::move(own_topology_.topology), new_T_old);
   if (fleet_) {
-    fleet_->floor.reset();  // the next view brings it anew
+    fleet_->floor.reset();  // the next view brings both anew
+    fleet_->searched.reset();
     for (RobotTopology& other : fleet_->others) {
       other = fleet::moved(std::move(other), new_T_old);
     }

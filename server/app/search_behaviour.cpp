@@ -114,6 +114,7 @@ Decision SearchBehaviour::step(const Situation& situation) {
     const std::vector<Recognition> seen = round_->finish();
     mission_.on_looks(to_looks(seen));
   }
+  hear(situation.fleet);
   const search::MapViews views =
       views_ ? search::MapViews([&] { return views_->find(situation); }) : search::MapViews();
   search::SearchStep step = mission_.step({.now = situation.now,
@@ -143,6 +144,14 @@ Decision SearchBehaviour::step(const Situation& situation) {
     decision.end = to_api(*step.end, mission_.lists().unreachable);
   }
   return decision;
+}
+
+void SearchBehaviour::hear(const FleetView* fleet) {
+  const SharedSearch others = fleet != nullptr ? fleet->searched : nullptr;
+  if (others != others_) {
+    others_ = others;
+    mission_.set_others(others ? *others : std::vector<SearchedFloor>());
+  }
 }
 
 void SearchBehaviour::on_recognition(const Recognition& recognition) {
@@ -193,6 +202,18 @@ std::optional<api::GridReport> SearchBehaviour::grid() const {
   }
   report.evidence.summary = to_api(evidence.summary);
   return report;
+}
+
+std::optional<SearchedFloor> SearchBehaviour::searched(const Point2& middle_map, int side_cells) const {
+  SearchedFloor searched;
+  searched.probability = mission_.evidence().own_looks(middle_map, side_cells);
+  if (searched.probability.empty()) {
+    return std::nullopt;
+  }
+  for (const search::SearchTarget& target : mission_.request().targets) {
+    searched.targets.push_back(target.name);
+  }
+  return searched;
 }
 
 std::vector<api::Detection> SearchBehaviour::detections() const {

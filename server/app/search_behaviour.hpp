@@ -52,16 +52,19 @@ class SearchBehaviour final : public Behaviour {
   void resumed(RobotTime now) override;
   void map_moved(const Pose2& new_T_old) override;
   [[nodiscard]] std::optional<api::GridReport> grid() const override;
+  [[nodiscard]] std::optional<SearchedFloor> searched(const Point2& middle_map, int side_cells) const override;
   [[nodiscard]] std::vector<api::Detection> detections() const override;
 
  private:
   SearchBehaviour(search::SearchMission mission, std::shared_ptr<const vision::Recogniser> recogniser,
                   EvidenceMemory memory, std::unique_ptr<MapViewFinder> views);
   [[nodiscard]] Decision look_around(const Situation& situation);
+  void hear(const FleetView* fleet);
 
   search::SearchMission mission_;
   std::shared_ptr<const vision::Recogniser> recogniser_;
   EvidenceMemory memory_;
+  SharedSearch others_;  ///< what the mission was told last
   std::unique_ptr<MapViewFinder> views_;
   std::optional<PictureRound> round_;  ///< in place of a single picture
   int pictures_around_ = 1;

@@ -11,6 +11,7 @@
 
 #include "common/core/grid.hpp"
 #include "common/core/pose2.hpp"
+#include "common/core/searched_floor.hpp"
 #include "server/search/hit_rate.hpp"
 #include "server/search/search_types.hpp"
 
@@ -35,6 +36,13 @@ class EvidenceGrid {
   /// targets looked for. Returns the probability mass added, cells x probability.
   double add_look(const Grid<std::uint8_t>& occupancy, const Point2& camera_map, double target_size_m);
 
+  /// Takes what other robots have searched, with the same cells, for looks from places of their own; replaces what was
+  /// said of them before. Floor with cells of another size says nothing.
+  void set_others(const std::vector<SearchedFloor>& others);
+  /// What this grid's own looks tell, within a square of `side_cells` around `middle_map`; empty where they tell
+  /// nothing there.
+  [[nodiscard]] Grid<std::uint8_t> own_looks(const Point2& middle_map, int side_cells) const;
+
   /// What add_look would add within the cells of `wanted` (same cell size, 1 = count), without adding it.
   [[nodiscard]] double expected_gain(const Grid<std::uint8_t>& occupancy, const Grid<std::uint8_t>& wanted,
                                      const Point2& camera_map, double target_size_m) const;
@@ -46,7 +54,8 @@ class EvidenceGrid {
   /// Cells lie on multiples of cell_m, indices may be negative.
   [[nodiscard]] GridFrame frame() const { return {Point2::Zero(), params_.cell_m}; }
 
-  /// Moves everything when a map epoch moved the map: `new_T_old` takes old map coordinates to new ones.
+  /// Moves everything when a map epoch moved the map: `new_T_old` takes old map coordinates to new ones. What others
+  /// have searched is forgotten: they say it anew.
   void transform(const Pose2& new_T_old);
   void clear();
 
@@ -68,14 +77,19 @@ class EvidenceGrid {
   };
   using Key = std::uint64_t;
   [[nodiscard]] static Key key_of(CellIndex cell);
+  [[nodiscard]] static CellIndex cell_of(Key key);
   [[nodiscard]] std::uint32_t place_of(const Point2& camera_map) const;
-  [[nodiscard]] double combined(const CellEvidence& evidence) const;
-  [[nodiscard]] double combined_with(const CellEvidence* evidence, std::uint32_t place, double p) const;
+  /// With what others say of the cell.
+  [[nodiscard]] double combined(Key key, const CellEvidence* evidence) const;
+  [[nodiscard]] double combined_with(Key key, const CellEvidence* evidence, std::uint32_t place, double p) const;
+  /// That all looks miss.
+  [[nodiscard]] static double miss_of(const CellEvidence& evidence, std::uint32_t place, double p);
 
   EvidenceParams params_;
   HitRate rate_;
   std::vector<Point2> places_;
   std::unordered_map<Key, CellEvidence> cells_;  ///< looked up only, never walked in an order that matters
+  std::unordered_map<Key, double> others_miss_;  ///< that all others would have missed it
 };
 
 }  // namespace seeker::search

@@ -1,5 +1,7 @@
 #include "server/search/search_mission.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "server/search/search_mission_impl.hpp"
@@ -44,9 +46,22 @@ void SearchMission::on_looks(std::vector<Look> looks) {
 void SearchMission::pause() { impl_->visit_.interrupted(); }
 void SearchMission::resume(RobotTime now) { impl_->resume(now); }
 void SearchMission::transform(const Pose2& new_T_old) { impl_->transform(new_T_old); }
-void SearchMission::keep_evidence(EvidenceGrid evidence) { impl_->evidence_ = std::move(evidence); }
+void SearchMission::keep_evidence(EvidenceGrid evidence) {
+  impl_->evidence_ = std::move(evidence);
+  impl_->evidence_.set_others({});
+}
 
 const EvidenceGrid& SearchMission::evidence() const { return impl_->evidence_; }
+
+void SearchMission::set_others(const std::vector<SearchedFloor>& others) {
+  std::vector<SearchedFloor> same;
+  std::copy_if(others.begin(), others.end(), std::back_inserter(same), [&](const SearchedFloor& other) {
+    return std::all_of(request().targets.begin(), request().targets.end(), [&](const SearchTarget& target) {
+      return std::find(other.targets.begin(), other.targets.end(), target.name) != other.targets.end();
+    });
+  });
+  impl_->evidence_.set_others(same);
+}
 const GridLists& SearchMission::lists() const { return impl_->strategy_->lists(); }
 std::vector<Detection> SearchMission::detections() const { return impl_->tracker_.detections(); }
 EvidenceReport SearchMission::evidence_report() const { return impl_->evidence_report(); }

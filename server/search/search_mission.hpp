@@ -84,6 +84,9 @@ class SearchMission {
   /// Evidence of an earlier search, for SearchRequest::gaps_only. Before the first step.
   void keep_evidence(EvidenceGrid evidence);
   [[nodiscard]] const EvidenceGrid& evidence() const;
+  /// What other robots have searched, frame `map`; replaces what was said before. Only searches for all targets of this
+  /// one count.
+  void set_others(const std::vector<SearchedFloor>& others);
 
   [[nodiscard]] const GridLists& lists() const;
   /// Every track that has not been refuted, in the order of ids.

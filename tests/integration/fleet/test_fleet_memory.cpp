@@ -59,7 +59,7 @@ class FleetMemory : public ::testing::Test {
     merged = until(leader, "r2", [](const auto& m) { return m.main_T_map.has_value(); });
     static_cast<void>(until(leader, "stranger", [](const auto& m) { return m.state != api::FleetState::kWaiting; }));
     ASSERT_TRUE(leader.decide({"stranger", api::FleetVerb::kSplit, 0}));
-    ASSERT_TRUE(leader.seen({"r2", 1, {}, {found_at(5, {2.0, 0.5})}}));
+    ASSERT_TRUE(leader.seen({"r2", 1, {}, {found_at(5, {2.0, 0.5})}, {}}));
     joint = joint_map(leader);
   }
   FleetLeaderParams same = leader_params("fleet_memory");

@@ -70,18 +70,18 @@ TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
 TEST(FleetSharing, EveryRobotIsToldTheFloorOfTheOthersInItsOwnFrame) {
   const Point2 seen_by_main(4.0, 0.5);
   const Point2 seen_by_r1(2.0, -0.5);
-  const ToyHost main(west(), at_place("main", kPlace), {floor_with(seen_by_main), {}});
+  const ToyHost main(west(), at_place("main", kPlace), {floor_with(seen_by_main), {}, {}});
   FleetLeaderParams params = patient_params("share_floor");
   params.floor_period = Duration::zero();
   FleetLeader leader(params, main.host());
-  EXPECT_EQ(leader.seen({"r1", 1, {}, {}}).error().code, Errc::kNotFound) << "it has to announce itself first";
+  EXPECT_EQ(leader.seen({"r1", 1, {}, {}, {}}).error().code, Errc::kNotFound) << "it has to announce itself first";
   join(leader, packed(east(), "r1"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
   EXPECT_EQ(told(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
   leader.refresh();
   leader.refresh();
 
-  const auto r1_hears = leader.seen({"r1", 1, floor_with(seen_by_r1), {}});
+  const auto r1_hears = leader.seen({"r1", 1, floor_with(seen_by_r1), {}, {}});
   ASSERT_TRUE(r1_hears) << r1_hears.error().message;
   const auto of_main = assemble(r1_hears->floor);
   ASSERT_TRUE(of_main);
@@ -100,7 +100,7 @@ TEST(FleetSharing, EveryRobotIsToldTheFloorOfTheOthersInItsOwnFrame) {
 TEST(FleetSharing, WhatOneHasFoundAllHearOfOnceInTheirOwnFrames) {
   const Point2 by_main(4.0, 0.5);
   const Point2 by_r1(2.0, -0.5);
-  const ToyHost main(west(), at_place("main", kPlace), {{}, {found_at(7, by_main, "ball")}});
+  const ToyHost main(west(), at_place("main", kPlace), {{}, {found_at(7, by_main, "ball")}, {}});
   FleetLeaderParams params = patient_params("share_found");
   params.floor_period = Duration::zero();
   FleetLeader leader(params, main.host());
@@ -108,7 +108,7 @@ TEST(FleetSharing, WhatOneHasFoundAllHearOfOnceInTheirOwnFrames) {
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
   leader.refresh();
   leader.refresh();
-  const auto r1_hears = leader.seen({"r1", 1, {}, {found_at(1, by_r1)}});
+  const auto r1_hears = leader.seen({"r1", 1, {}, {found_at(1, by_r1)}, {}});
   ASSERT_TRUE(r1_hears) << r1_hears.error().message;
   ASSERT_EQ(r1_hears->findings.size(), 1U);
   EXPECT_EQ(r1_hears->findings[0].robot_id, "main");
@@ -129,16 +129,42 @@ TEST(FleetSharing, WhatOneHasFoundAllHearOfOnceInTheirOwnFrames) {
   EXPECT_THAT(*status.members[1].detections[0].position, Point2Near(west_T_r1 * by_r1, 1e-9));
 }
 
+TEST(FleetSharing, WhatOneHasSearchedTheOthersAreToldInTheirOwnFrames) {
+  const SearchedFloor by_main{{"mug"}, {1.0, 0.0, 0.0}, {{Point2::Zero(), 0.2}, 3, 3, 200}};
+  const SearchedFloor by_r1{{"mug"}, {0.0, 2.0, 0.5}, {{Point2::Zero(), 0.2}, 4, 4, 100}};
+  const ToyHost main(west(), at_place("main", kPlace), {{}, {}, by_main});
+  FleetLeaderParams params = patient_params("share_searched");
+  params.floor_period = Duration::zero();
+  FleetLeader leader(params, main.host());
+  join(leader, packed(east(), "r1"));
+  const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
+  EXPECT_EQ(told(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
+  leader.refresh();
+  leader.refresh();
+  const auto r1_hears = leader.seen({"r1", 1, {}, {}, by_r1});
+  ASSERT_TRUE(r1_hears) << r1_hears.error().message;
+  ASSERT_EQ(r1_hears->searched.size(), 1U);
+  EXPECT_EQ(r1_hears->searched[0].probability, by_main.probability);
+  EXPECT_THAT(r1_hears->searched[0].map_T_grid, Pose2Near(inverse(west_T_r1) * by_main.map_T_grid, 1e-9, 1e-9));
+  // A robot that was started anew has forgotten what it searched; the others have not.
+  ASSERT_TRUE(leader.seen({"r1", 1, {}, {}, {}}));
+  leader.refresh();
+  const auto main_hears = main.view();
+  ASSERT_TRUE(main_hears && main_hears->searched);
+  ASSERT_EQ(main_hears->searched->size(), 1U);
+  EXPECT_THAT(main_hears->searched->front().map_T_grid, Pose2Near(west_T_r1 * by_r1.map_T_grid, 1e-9, 1e-9));
+}
+
 TEST(FleetSharing, WhatARobotFoundBeforeItWasStartedAnewStaysFound) {
   FleetLeaderParams impatient = patient_params("share_found_anew");
   impatient.silence_limit = Duration::zero();
   FleetLeader leader(impatient, holds(west()));
   join(leader, packed(east(), "r1"));
   static_cast<void>(until(leader, "r1", placed));
-  ASSERT_TRUE(leader.seen({"r1", 1, {}, {found_at(1, kPlace), found_at(2, kPlace)}}));
-  ASSERT_TRUE(leader.seen({"r1", 1, {}, {found_at(2, kPlace)}})) << "it takes the first one back";
+  ASSERT_TRUE(leader.seen({"r1", 1, {}, {found_at(1, kPlace), found_at(2, kPlace)}, {}}));
+  ASSERT_TRUE(leader.seen({"r1", 1, {}, {found_at(2, kPlace)}, {}})) << "it takes the first one back";
   join(leader, packed(east(), "r1", 2));
-  ASSERT_TRUE(leader.seen({"r1", 2, {}, {found_at(3, kPlace)}}));
+  ASSERT_TRUE(leader.seen({"r1", 2, {}, {found_at(3, kPlace)}, {}}));
   const api::FleetMember r1 = until(leader, "r1", placed);
   ASSERT_EQ(r1.detections.size(), 2U);
   EXPECT_EQ(r1.detections[0].id, 2U);
@@ -146,14 +172,14 @@ TEST(FleetSharing, WhatARobotFoundBeforeItWasStartedAnewStaysFound) {
 }
 
 TEST(FleetSharing, ARobotOfAnotherBuildingIsToldNothingOfThisOne) {
-  const ToyHost main(west(), at_place("main", kPlace), {floor_with(kPlace), {found_at(1, kPlace)}});
+  const ToyHost main(west(), at_place("main", kPlace), {floor_with(kPlace), {found_at(1, kPlace)}, {}});
   FleetLeader leader(patient_params("share_floor_apart"), main.host());
   join(leader, packed(east(7), "r1"));
   static_cast<void>(
       until(leader, "r1", [](const api::FleetMember& member) { return member.state != api::FleetState::kWaiting; }));
   leader.refresh();
   leader.refresh();
-  const auto heard = leader.seen({"r1", 1, floor_with(kPlace), {found_at(1, kPlace)}});
+  const auto heard = leader.seen({"r1", 1, floor_with(kPlace), {found_at(1, kPlace)}, {}});
   ASSERT_TRUE(heard) << heard.error().message;
   EXPECT_TRUE(heard->floor.empty());
   EXPECT_TRUE(heard->findings.empty());

@@ -87,15 +87,15 @@ Result<api::FleetSeen> through_bytes(const api::FleetSeen& floor) {
 }
 
 TEST(ConvertFleet, FloorComesBackUnchangedAndIsNeverLargerThanItMayBe) {
-  const api::FleetSeen floor{"r1", 77, {tile(-3, 0), tile(2, 9)}, {}};
+  const api::FleetSeen floor{"r1", 77, {tile(-3, 0), tile(2, 9)}, {}, {}};
   EXPECT_EQ(through_bytes(floor).value(), floor);
-  const api::FleetSightings others{floor.tiles, {}};
+  const api::FleetSightings others{floor.tiles, {}, {}};
   pb::FleetReply reply;
   write(others, &reply);
   EXPECT_EQ(from_message<api::FleetSightings>(reply).value(), others);
-  EXPECT_EQ(through_bytes({"r1", 77, {tile(0, 0), tile(0, api::kMaxFleetFloorSide_tiles)}, {}}).error().code,
+  EXPECT_EQ(through_bytes({"r1", 77, {tile(0, 0), tile(0, api::kMaxFleetFloorSide_tiles)}, {}, {}}).error().code,
             Errc::kTooLarge);
-  const api::FleetSeen many{"r1", 77, std::vector<OccupancyTile>(api::kMaxFleetTiles + 1, tile(0, 0)), {}};
+  const api::FleetSeen many{"r1", 77, std::vector<OccupancyTile>(api::kMaxFleetTiles + 1, tile(0, 0)), {}, {}};
   EXPECT_EQ(through_bytes(many).error().code, Errc::kTooLarge);
 }
 
@@ -109,21 +109,38 @@ api::Detection detection(std::uint64_t id, const Point2& p_map) {
 }
 
 TEST(ConvertFleet, WhatWasFoundComesBackUnchangedAndIsNeverMoreThanItMayBe) {
-  const api::FleetSeen found{"r1", 77, {}, {detection(1, {2.0, 3.0}), detection(4, {-2.0, 3.0})}};
+  const api::FleetSeen found{"r1", 77, {}, {detection(1, {2.0, 3.0}), detection(4, {-2.0, 3.0})}, {}};
   EXPECT_EQ(through_bytes(found).value(), found);
-  const api::FleetSightings others{{}, {{"r2", found.detections[0]}, {"r3", found.detections[1]}}};
+  const api::FleetSightings others{{}, {{"r2", found.detections[0]}, {"r3", found.detections[1]}}, {}};
   pb::FleetReply reply;
   write(others, &reply);
   EXPECT_EQ(from_message<api::FleetSightings>(reply).value(), others);
-  EXPECT_EQ(through_bytes({"r1", 77, {}, {detection(1, {2e4, 0.0})}}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(through_bytes({"r1", 77, {}, {detection(1, {2e4, 0.0})}, {}}).error().code, Errc::kInvalidArgument);
   std::vector<api::Detection> many;
   for (std::uint64_t id = 1; id <= api::kMaxFleetDetections + 1; ++id) {
     many.push_back(detection(id, {1.0, 1.0}));
   }
-  EXPECT_EQ(through_bytes({"r1", 77, {}, many}).error().code, Errc::kTooLarge);
+  EXPECT_EQ(through_bytes({"r1", 77, {}, many, {}}).error().code, Errc::kTooLarge);
   const std::vector<api::Detection> told = api::within_limits(many);
-  EXPECT_TRUE(through_bytes({"r1", 77, {}, told}));
+  EXPECT_TRUE(through_bytes({"r1", 77, {}, told, {}}));
   EXPECT_EQ(told.front().id, 2U) << "the newest stay";
+}
+
+TEST(ConvertFleet, WhatWasSearchedComesBackUnchangedAndIsNeverLargerThanItMayBe) {
+  SearchedFloor searched{{"box", "mug"}, {1.0, 2.0, 0.5}, {{{-3.0, 4.0}, 0.2}, 7, 5, 100}};
+  searched.probability[{3, 2}] = 250;
+  api::FleetSeen seen{"r1", 77, {}, {}, searched};
+  EXPECT_EQ(through_bytes(seen).value(), seen);
+  const api::FleetSightings others{{}, {}, {searched, searched}};
+  pb::FleetReply reply;
+  write(others, &reply);
+  EXPECT_EQ(from_message<api::FleetSightings>(reply).value(), others);
+  seen.searched->probability = {{Point2::Zero(), 0.2}, api::kMaxFleetSearchedSide_cells + 1, 1, 0};
+  EXPECT_EQ(through_bytes(seen).error().code, Errc::kTooLarge);
+  seen.searched->probability = {{{2e4, 0.0}, 0.2}, 1, 1, 0};
+  EXPECT_EQ(through_bytes(seen).error().code, Errc::kInvalidArgument);
+  seen.searched->probability = {{Point2::Zero(), 5.0}, 1, 1, 0};
+  EXPECT_EQ(through_bytes(seen).error().code, Errc::kInvalidArgument);
 }
 
 TEST(ConvertFleet, OfALargeFloorTheTilesNextToTheRobotAreTold) {
@@ -133,7 +150,7 @@ TEST(ConvertFleet, OfALargeFloorTheTilesNextToTheRobotAreTold) {
       tiles.push_back(tile(i, j));
     }
   }
-  const api::FleetSeen told{"r1", 77, api::within_limits(tiles, Point2(64.0, 0.0)), {}};
+  const api::FleetSeen told{"r1", 77, api::within_limits(tiles, Point2(64.0, 0.0)), {}, {}};
   EXPECT_TRUE(through_bytes(told));
   ASSERT_EQ(told.tiles.size(), api::kMaxFleetTiles);
   EXPECT_TRUE(std::all_of(told.tiles.begin(), told.tiles.end(), [](const OccupancyTile& one) {

@@ -14,6 +14,7 @@ struct Script {
   int resumed = 0;
   std::optional<Pose2> moved;
   std::optional<api::GridReport> grid;
+  std::optional<SearchedFloor> searched;
 };
 
 class ScriptedBehaviour final : public Behaviour {
@@ -26,6 +27,9 @@ class ScriptedBehaviour final : public Behaviour {
   void resumed(RobotTime /*now*/) override { ++script_->resumed; }
   void map_moved(const Pose2& new_T_old) override { script_->moved = new_T_old; }
   std::optional<api::GridReport> grid() const override { return script_->grid; }
+  std::optional<SearchedFloor> searched(const Point2& /*middle_map*/, int /*side_cells*/) const override {
+    return script_->searched;
+  }
 
  private:
   std::shared_ptr<Script> script_;
@@ -216,6 +220,22 @@ TEST_F(MissionExecutorTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {
   executor.map_moved({1.0, 0.0, 0.0}, situation.now);
   EXPECT_FALSE(script->moved);
   EXPECT_EQ(executor.grid()->map_epoch, 3U) << "what an ended mission left keeps its epoch";
+}
+
+TEST_F(MissionExecutorTest, WhatTheLastSearchHasSearchedIsKnownUntilTheMapMoves) {
+  EXPECT_FALSE(executor.searched(situation.pose));
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  script->searched = SearchedFloor{{"mug"}, {}, {GridFrame{}, 2, 2, 100}};
+  static_cast<void>(tick());
+  EXPECT_EQ(executor.searched(situation.pose), script->searched);
+  executor.end(api::Outcome::kOperator, "test", "", situation.now);
+  const auto searched = std::exchange(script->searched, std::nullopt);
+  EXPECT_EQ(executor.searched(situation.pose), searched);
+  ASSERT_TRUE(executor.start(request("two"), "anna", situation));
+  static_cast<void>(tick());
+  EXPECT_EQ(executor.searched(situation.pose), searched) << "that mission does not search";
+  situation.pose.map_epoch = 1;
+  EXPECT_FALSE(executor.searched(situation.pose));
 }
 
 TEST_F(MissionExecutorTest, TimeLimitEndsTheMission) {

@@ -59,6 +59,54 @@ TEST(Evidence, LooksFromOnePlaceCountOnce) {
   EXPECT_GT(evidence.probability_at({-2.1, 0.1}), once + 0.05);
 }
 
+TEST(Evidence, OthersCountLikeLooksFromPlacesOfTheirOwn) {
+  constexpr int kSide = 60;
+  EvidenceGrid other;
+  (void)other.add_look(room(), {0.0, 1.0}, 0.4);
+  EvidenceGrid own;
+  (void)own.add_look(room(), {0.0, 0.0}, 0.4);
+  const Point2 p(-2.1, 0.1);
+  const double alone = own.probability_at(p);
+  const Grid<std::uint8_t> told = other.own_looks({0.0, 0.0}, kSide);
+  own.set_others({{{"box"}, Pose2{}, told}});
+  EXPECT_NEAR(own.probability_at(p), 1.0 - (1.0 - alone) * (1.0 - other.probability_at(p)), 0.01);
+  EXPECT_GT(own.probability_at({0.1, 3.9}), 0.1) << "where only the other one has looked";
+  EXPECT_LT(own.add_look(room(), {0.0, 1.5}, 0.4), other.add_look(room(), {0.0, 1.5}, 0.4) + 1e-9);
+
+  // What is told of this one is not what it was told.
+  EvidenceGrid same;
+  (void)same.add_look(room(), {0.0, 0.0}, 0.4);
+  same.set_others({{{"box"}, Pose2{}, told}});
+  EvidenceGrid lone;
+  (void)lone.add_look(room(), {0.0, 0.0}, 0.4);
+  EXPECT_EQ(same.own_looks({0.0, 0.0}, kSide), lone.own_looks({0.0, 0.0}, kSide));
+  same.transform({2.0, 0.0, 0.0});
+  EXPECT_NEAR(same.probability_at(p + Point2(2.0, 0.0)), alone, 1e-9) << "others say anew where it is in the moved map";
+}
+
+TEST(Evidence, OthersMayLieInFramesOfTheirOwn) {
+  EvidenceGrid other;
+  (void)other.add_look(room(), {0.0, 0.0}, 0.4);
+  const Pose2 map_T_grid{5.0, 2.0, 0.6};
+  EvidenceGrid own;
+  own.set_others({{{"box"}, map_T_grid, other.own_looks({0.0, 0.0}, 60)}});
+  // Half a cell beside it the probability is hardly another; walls and ends of the range apart.
+  for (const Point2& p : {Point2(-1.1, 0.1), Point2(-0.5, 1.3), Point2(-0.7, -1.1)}) {
+    EXPECT_NEAR(own.probability_at(map_T_grid * p), other.probability_at(p), 0.1);
+  }
+  EXPECT_EQ(own.probability_at(map_T_grid * Point2(1.9, 0.1)), 0.0) << "behind the wall";
+}
+
+TEST(Evidence, OwnLooksAreToldWithinTheSquareAskedFor) {
+  EvidenceGrid evidence;
+  EXPECT_TRUE(evidence.own_looks({0.0, 0.0}, 100).empty());
+  (void)evidence.add_look(room(), {0.0, 0.0}, 0.4);
+  const Grid<std::uint8_t> near = evidence.own_looks({-1.0, 0.0}, 4);
+  EXPECT_EQ(near.width(), 4);
+  EXPECT_EQ(near.height(), 4);
+  EXPECT_TRUE(evidence.own_looks({50.0, 0.0}, 10).empty());
+}
+
 RC_GTEST_PROP(Evidence, IsMonotoneAndBounded, (std::uint32_t seed)) {
   Rng rng(seed);
   const auto grid = room();

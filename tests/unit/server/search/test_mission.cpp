@@ -65,6 +65,34 @@ TEST(SearchMission, PlanCoversTwoRoomsWithoutTarget) {
   EXPECT_EQ(report.summary.gaps, static_cast<int>(report.gaps.size()));
 }
 
+TEST(SearchMission, FloorThatAnotherRobotHasSearchedIsNotSearchedAgain) {
+  const Pose2 there_T_here{3.0, -7.0, 0.8};  // the other one has a frame of its own
+  ToyRobot other(two_rooms(), {9.0, 1.0, 2.0}, true, 7);
+  auto its_mission = mission_of(Strategy::kPlan, OnFound::kApproach,
+                                {.bound = Polygon{{5.1, 0.0}, {10.2, 0.0}, {10.2, 5.0}, {5.1, 5.0}}, .keep_out = {}});
+  ASSERT_TRUE(other.run(its_mission, 1200.0).end.has_value());
+  its_mission.transform(there_T_here);
+  SearchedFloor searched;
+  searched.targets = {"ball", "box"};
+  searched.map_T_grid = inverse(there_T_here);
+  searched.probability = its_mission.evidence().own_looks(there_T_here * Point2(5.0, 2.5), 200);
+
+  std::vector<ToyRun> runs;
+  for (const std::vector<std::string>& targets : {std::vector<std::string>{}, {"ball"}, {"ball", "box"}}) {
+    auto mission = mission_of(Strategy::kPlan);
+    searched.targets = targets;
+    mission.set_others({searched});
+    ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 5);
+    runs.push_back(robot.run(mission, 1200.0));
+    ASSERT_TRUE(runs.back().end.has_value());
+    EXPECT_GE(runs.back().summary.covered_area_m2, 0.97 * runs.back().summary.reachable_area_m2);
+    EXPECT_EQ(mission.evidence().own_looks({5.0, 2.5}, 200).empty(), false);
+  }
+  EXPECT_EQ(runs[0].path_m, runs[1].path_m) << "who looked for something else has proved nothing";
+  EXPECT_LT(runs[2].path_m, 0.7 * runs[0].path_m);
+  EXPECT_LT(runs[2].images, runs[0].images);
+}
+
 TEST(SearchMission, SeveralPicturesOfOnePlaceAreOneLook) {
   ToyRun runs[2];
   for (std::size_t k = 0; k < 2; ++k) {
