@@ -194,9 +194,10 @@ std::vector<MergeHypothesis> Question::hypotheses() {
   return made;
 }
 
-/// Whether a second hypothesis is good enough to doubt the best one.
+/// Whether a second hypothesis is good enough to doubt the best one. One that may be slid along a corridor says only
+/// that both have seen corridors.
 bool rivals(const MergeHypothesis& best, const MergeHypothesis& other, const MergeParams& params) {
-  return other.contradiction <= params.max_rival_contradiction &&
+  return other.weak_wall_m >= params.min_weak_wall_m && other.contradiction <= params.max_rival_contradiction &&
          other.denied_piece_m <= params.max_rival_denied_piece_m &&
          other.support() > params.rival_ratio * best.support();
 }

@@ -79,7 +79,8 @@ struct MergeParams {
   double sure_contradiction = 0.18;  ///< more is not certain
   /// Noise denies walls here and there; where one has looked through a wall of the other this long, it is not certain.
   double sure_denied_piece_m = 1.5;
-  /// Another hypothesis with this share of the best one's support, denied by no more than this, makes it ambiguous.
+  /// Another hypothesis with this share of the best one's support, denied by no more than this, makes it ambiguous, if
+  /// it has min_weak_wall_m.
   double rival_ratio = 0.35;
   double max_rival_contradiction = 0.4;
   double max_rival_denied_piece_m = 1.5;

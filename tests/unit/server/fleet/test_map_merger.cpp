@@ -152,6 +152,11 @@ TEST(MergeJudge, AWallThatTheOtherLookedThroughDeniesWhatManyOthersAffirm) {
   EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05), looked_through}), MergeVerdict::kMerged);
 }
 
+TEST(MergeJudge, WhatMayBeSlidAlongACorridorIsNoRival) {
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05), hypothesis(50.0, 2.0, 0.0)}), MergeVerdict::kMerged);
+  EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05), hypothesis(50.0, 8.0, 0.0)}), MergeVerdict::kAmbiguous);
+}
+
 TEST(MergeJudge, LongCorridorsWithManyDoorsAreNotSure) {
   EXPECT_EQ(verdict_of({hypothesis(90.0, 12.0, 0.05)}), MergeVerdict::kAmbiguous);
 }

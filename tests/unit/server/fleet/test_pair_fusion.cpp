@@ -1,6 +1,7 @@
 #include "server/fleet/pair_fusion.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "common/core/rng.hpp"
 #include "tests/support/matchers.hpp"
