@@ -14,6 +14,7 @@
 #include "server/fleet/map_merger.hpp"
 #include "server/fleet/topology_map.hpp"
 #include "server/lab/experiment.hpp"
+#include "server/lab/fleet_traffic.hpp"
 #include "server/lab/fleet_watch.hpp"
 #include "server/lab/json_printer.hpp"
 #include "server/lab/resumable.hpp"
@@ -45,12 +46,26 @@ struct Relation {
 };
 
 constexpr Duration kFloorPeriod = std::chrono::seconds(5);
+constexpr Duration kSharePeriod = std::chrono::seconds(1);
+
+/// Floor that is neither unknown nor occupied.
+double seen_m2(const std::optional<Grid<std::uint8_t>>& map) {
+  if (!map) {
+    return 0.0;
+  }
+  const auto free = std::count_if(map->cells().begin(), map->cells().end(),
+                                  [](std::uint8_t cell) { return cell != kUnknownCell && cell < kOccupiedCell / 2; });
+  return static_cast<double>(free) * map->frame().resolution_m * map->frame().resolution_m;
+}
 
 /// What the robots tell each other between two ticks.
 class Exchange {
  public:
-  Exchange(Members& members, double merge_period_s)
-      : members_(members), period_(seconds(merge_period_s)), floors_(members.size()) {
+  Exchange(Members& members, const FleetSpec& spec)
+      : members_(members), period_(seconds(spec.merge_period_s)), floors_(members.size()) {
+    for (std::size_t k = 0; spec.count_traffic && k < members_.size(); ++k) {
+      traffic_.emplace_back(members_[k]->id);
+    }
     for (std::size_t a = 0; a < members_.size(); ++a) {
       for (std::size_t b = a + 1; b < members_.size(); ++b) {
         relations_.push_back({a, b, {}, {}});
@@ -70,10 +85,21 @@ class Exchange {
     for (std::size_t k = 0; k < members_.size(); ++k) {
       tell(k);
     }
+    if (now >= next_share_) {
+      next_share_ = now + kSharePeriod;
+      for (std::size_t k = 0; k < traffic_.size(); ++k) {
+        traffic_[k].share(members_[k]->loop->own_topology());
+      }
+    }
   }
   void fill(FleetResult& result) const {
     result.pairs = static_cast<int>(relations_.size());
     result.wrong = wrong_;
+    for (std::size_t k = 0; k < traffic_.size(); ++k) {
+      const auto robots = static_cast<double>(traffic_.size());
+      result.sent_bytes += static_cast<double>(traffic_[k].bytes()) / robots;
+      result.seen_m2 += seen_m2(members_[k]->loop->map().snapshot()) / robots;
+    }
     for (const Relation& relation : relations_) {
       if (relation.a_T_b) {
         const auto [error_m, error_rad] = error_of(relation);
@@ -87,8 +113,12 @@ class Exchange {
 
  private:
   void merge(RobotTime now) {
-    for (const auto& member : members_) {
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      const auto& member = members_[k];
       if (Result<LineMap> map = member->loop->robot_map().map()) {
+        if (!traffic_.empty()) {
+          traffic_[k].announce(*map);
+        }
         (void)member->map.update(*std::move(map));  // a map without walls yet is not to be merged
       }
     }
@@ -136,6 +166,10 @@ class Exchange {
         }
       }
       floors_[to] = nav::carried(floors);
+      if (!traffic_.empty()) {
+        const api::TileUpdate all = members_[to]->loop->robot_map().tiles_since(0);
+        traffic_[to].floor(api::within_limits(all.tiles, members_[to]->loop->status().pose.map_T_base.translation()));
+      }
     }
   }
 
@@ -149,7 +183,9 @@ class Exchange {
   Duration period_;
   RobotTime next_merge_;
   RobotTime next_floors_;
+  RobotTime next_share_;
   std::vector<std::shared_ptr<const Grid<std::uint8_t>>> floors_;  ///< by member, in its frame `map`
+  std::vector<FleetTraffic> traffic_;                              ///< by member; empty where it is not counted
   fleet::MapMerger merger_;
   std::vector<Relation> relations_;
   int wrong_ = 0;
@@ -271,7 +307,7 @@ Result<FleetResult> run_fleet(const FleetSpec& spec) {
     }
     members.push_back(*std::move(member));
   }
-  Exchange exchange(members, spec.merge_period_s);
+  Exchange exchange(members, spec);
   FleetWatch watch;
   for (const auto& member : members) {
     watch.add(member->id, *member->loop, *member->simulation);

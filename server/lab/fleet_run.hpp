@@ -15,6 +15,7 @@ namespace seeker::lab {
 struct FleetSpec : SimSpec {
   int robots = 2;               ///< at the first starts of the world
   double merge_period_s = 5.0;  ///< robot time between two attempts to merge, as between announcements of a map
+  bool count_traffic = false;   ///< costs time; see FleetResult::sent_bytes
 };
 
 struct FleetResult {
@@ -38,6 +39,9 @@ struct FleetResult {
   double merged_at_s = 0.0;  ///< the last first merge; 0: none
   double error_m = 0.0;      ///< largest, of the merges at the end
   double error_deg = 0.0;
+  // Where traffic is counted; not kept on disk.
+  double sent_bytes = 0.0;  ///< that each robot would have sent to the main one, mean
+  double seen_m2 = 0.0;     ///< of floor that each has seen, mean
 };
 void describe(config::Fields& f, FleetResult& result);
 

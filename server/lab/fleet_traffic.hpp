@@ -1,0 +1,35 @@
+/// \file
+/// What a robot that joins a fleet sends to the main one (app::FleetFollower), counted without a network.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/api/fleet.hpp"
+#include "common/core/line_map.hpp"
+#include "common/core/occupancy_tile.hpp"
+#include "common/core/topology.hpp"
+
+namespace seeker::lab {
+
+/// Payloads of all messages of one robot so far; frames and what the network adds are left out.
+class FleetTraffic {
+ public:
+  explicit FleetTraffic(std::string robot_id) : robot_id_(std::move(robot_id)) {}
+
+  /// The manifest, and the pieces that were not sent yet. A map that cannot be packed sends nothing.
+  void announce(const LineMap& map);
+  void share(const RobotTopology& topology);
+  void floor(const std::vector<OccupancyTile>& tiles);
+
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  std::string robot_id_;
+  std::set<api::PieceHash> sent_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace seeker::lab
