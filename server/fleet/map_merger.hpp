@@ -79,6 +79,8 @@ struct MergeParams {
   double sure_contradiction = 0.18;  ///< more is not certain
   /// Noise denies walls here and there; where one has looked through a wall of the other this long, it is not certain.
   double sure_denied_piece_m = 1.5;
+  /// The same for maps that are merged already: doors are shut and things are moved while robots drive.
+  double kept_denied_piece_m = 3.0;
   /// Another hypothesis with this share of the best one's support, denied by no more than this, makes it ambiguous, if
   /// it has min_weak_wall_m.
   double rival_ratio = 0.35;

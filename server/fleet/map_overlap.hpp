@@ -23,12 +23,13 @@ struct OverlapParams {
 };
 
 struct MapOverlap {
-  double shared_wall_m = 0.0;   ///< that both have seen
-  double weak_wall_m = 0.0;     ///< of it, what tells the place along the direction told worst: little in a corridor
-  double contradiction = 0.0;   ///< 0 to 1: walls where the other looked through, and beams through its walls
-  double denied_piece_m = 0.0;  ///< the longest piece of wall of b that a has looked through
-  double residual_m = 0.0;      ///< root mean square distance of the shared walls
-  std::size_t nodes = 0;        ///< of b that share something with a
+  double shared_wall_m = 0.0;  ///< that both have seen
+  double weak_wall_m = 0.0;    ///< of it, what tells the place along the direction told worst: little in a corridor
+  double contradiction = 0.0;  ///< 0 to 1: walls where the other looked through, and beams through its walls
+  /// The longest piece of wall of b that a has looked through, counted by cells of OverlapParams::cell_m.
+  double denied_piece_m = 0.0;
+  double residual_m = 0.0;  ///< root mean square distance of the shared walls
+  std::size_t nodes = 0;    ///< of b that share something with a
 };
 
 /// What the nodes of b find in a. `map_a_T_node`: pose of a node of b, by index, in the frame `map` of a. The other

@@ -32,12 +32,11 @@ void judge_again(MergeAnswer& answer, const MergeAnswer& before, const MergePara
   if (!still) {
     return;
   }
-  constexpr double kPatience = 2.0;  // doors are shut and things are moved while robots drive
   MergeParams enough = params;
   enough.sure_shared_wall_m = params.min_shared_wall_m;
   enough.sure_weak_wall_m = params.min_weak_wall_m;
   enough.sure_weak_share = 0.0;
-  enough.sure_denied_piece_m = kPatience * params.sure_denied_piece_m;
+  enough.sure_denied_piece_m = params.kept_denied_piece_m;
   enough.sure_contradiction = params.max_contradiction;
   judge(answer, enough);
 }

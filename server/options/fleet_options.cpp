@@ -116,6 +116,9 @@ void describe(config::Fields& f, MergeParams& params) {
   f.field("max_contradiction", params.max_contradiction);
   f.field("sure_contradiction", params.sure_contradiction);
   f.field("sure_denied_piece_m", params.sure_denied_piece_m);
+  f.field("kept_denied_piece_m", params.kept_denied_piece_m);
+  f.check("kept_denied_piece_m", params.kept_denied_piece_m >= params.sure_denied_piece_m,
+          "must be sure_denied_piece_m or more");
   f.field("rival_ratio", params.rival_ratio);
   f.field("max_rival_contradiction", params.max_rival_contradiction);
   f.field("max_rival_denied_piece_m", params.max_rival_denied_piece_m);
