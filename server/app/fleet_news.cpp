@@ -1,11 +1,10 @@
 #include "server/app/fleet_news.hpp"
 
 #include <cstdio>
+#include <utility>
 
 namespace seeker::app {
 namespace {
-
-constexpr std::size_t kMaxTold = 4096;  // a main robot that makes findings up does not fill the memory
 
 std::string text_of(const api::FleetFinding& finding) {
   const api::Detection& found = finding.detection;
@@ -22,17 +21,19 @@ std::string text_of(const api::FleetFinding& finding) {
 }  // namespace
 
 void FleetNews::tell(const std::vector<api::FleetFinding>& findings, const FleetHost& host) {
+  std::map<Key, bool> told;
   for (const api::FleetFinding& finding : findings) {
-    if (told_.size() >= kMaxTold) {
-      return;
-    }
+    const Key key{finding.robot_id, finding.detection.id};
+    const auto before = told_.find(key);
+    const auto [known, is_first] = told.try_emplace(key, before != told_.end() && before->second);
+    const bool is_new = is_first && before == told_.end();
     const bool placed = finding.detection.position.has_value();
-    const auto [known, is_new] = told_.try_emplace({finding.robot_id, finding.detection.id}, placed);
     if (is_new || (placed && !known->second)) {
       known->second = placed;
       host.tell_operator("fleet-found", text_of(finding), api::Severity::kInfo);
     }
   }
+  told_ = std::move(told);
 }
 
 }  // namespace seeker::app

@@ -18,11 +18,14 @@ namespace seeker::app {
 class FleetNews {
  public:
   /// An event `fleet-found` for each finding that is new, and again where a target whose bearing alone was known has
-  /// got a place. `findings` are in the robot's own frame `map`.
+  /// got a place. `findings` are in the robot's own frame `map`, all that there are: one that is not among them any
+  /// more is forgotten, and news if it comes back. So no more is remembered than fits into one answer.
   void tell(const std::vector<api::FleetFinding>& findings, const FleetHost& host);
 
  private:
-  std::map<std::pair<std::string, std::uint64_t>, bool> told_;  ///< by robot and its id: with a place
+  using Key = std::pair<std::string, std::uint64_t>;  ///< robot and its id
+
+  std::map<Key, bool> told_;  ///< with a place
 };
 
 }  // namespace seeker::app
