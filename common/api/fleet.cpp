@@ -12,9 +12,14 @@ void keep_newest(std::vector<T>& all, std::size_t at_most) {
   }
 }
 
+}  // namespace
+
 bool in_reach(const Point2& p_map) { return p_map.cwiseAbs().maxCoeff() <= kMaxFleetReach_m; }
 
-}  // namespace
+bool in_reach(const Detection& detection) {
+  return in_reach(detection.map_T_base.translation()) && (!detection.position || in_reach(*detection.position)) &&
+         detection.position_covariance.cwiseAbs().maxCoeff() <= kMaxFleetCovariance_m2;
+}
 
 RobotTopology within_limits(RobotTopology robot) {
   Topology& topology = robot.topology;
@@ -56,11 +61,9 @@ std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const
 }
 
 std::vector<Detection> within_limits(std::vector<Detection> detections) {
-  std::erase_if(detections, [](const Detection& one) {
-    return !in_reach(one.map_T_base.translation()) || (one.position && !in_reach(*one.position));
-  });
+  std::erase_if(detections, [](const Detection& one) { return !in_reach(one); });
   std::stable_sort(detections.begin(), detections.end(),
-                   [](const Detection& a, const Detection& b) { return a.stamp < b.stamp; });
+                   [](const Detection& a, const Detection& b) { return a.id < b.id; });
   keep_newest(detections, kMaxFleetDetections);
   return detections;
 }

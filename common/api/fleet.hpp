@@ -40,6 +40,7 @@ inline constexpr int kMaxFleetSearchedSide_cells = 512;  ///< of what one robot 
 inline constexpr std::size_t kMaxFleetTargets = 64;      ///< that it was for
 inline constexpr double kMaxFleetReach_m = 10'000.0;     ///< a place is not farther from the origin of any map
 inline constexpr double kMaxFleetGoal_m = 200.0;         ///< nor a goal from its place
+inline constexpr double kMaxFleetCovariance_m2 = 1e6;    ///< an entry of a found target's covariance is not larger
 
 /// A local map by its piece: segments and scans in its own frame, so that it stays the same when the map around moves.
 struct FleetNode {
@@ -144,6 +145,7 @@ struct FleetShared {
 struct FleetSeen {
   std::string robot_id;
   std::uint64_t instance = 0;             ///< as in FleetManifest
+  bool placed = false;                    ///< it knows its place; else what it told before holds
   std::vector<OccupancyTile> tiles;       ///< of the floor, all of them
   std::vector<Detection> detections;      ///< of its missions since it was started
   std::optional<SearchedFloor> searched;  ///< by its last search
@@ -169,7 +171,11 @@ struct FleetSightings {
 /// Those next to `p_map`, as many as the limits above let through.
 [[nodiscard]] std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const Point2& p_map);
 
-/// The newest.
+[[nodiscard]] bool in_reach(const Point2& p_map);
+/// Whether a target and the robot that saw it lie within reach, with a covariance that is no nonsense.
+[[nodiscard]] bool in_reach(const Detection& detection);
+
+/// Those within reach with the highest ids, by rising id: ids rise over the programs of a robot, stamps begin anew.
 [[nodiscard]] std::vector<Detection> within_limits(std::vector<Detection> detections);
 
 /// The same topology within the limits above: places beyond them are left out with what speaks of them, of sectors the

@@ -148,9 +148,8 @@ void read_covariance(const CovarianceField& from, Matrix3& to, Check& check) {
 }
 
 void check_reach(const api::Detection& detection, Check& check) {
-  const auto far = [](const Point2& p) { return p.cwiseAbs().maxCoeff() > api::kMaxFleetReach_m; };
-  if (check.ok() && (far(detection.map_T_base.translation()) || (detection.position && far(*detection.position)))) {
-    check.refuse("position", Errc::kInvalidArgument, "is out of reach");
+  if (check.ok() && !api::in_reach(detection)) {
+    check.refuse("position", Errc::kInvalidArgument, "is out of reach, or its covariance is above 1e6 m^2");
   }
 }
 

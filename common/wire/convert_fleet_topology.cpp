@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "common/core/angle.hpp"
 #include "common/wire/convert.hpp"
@@ -17,7 +19,6 @@ constexpr double kMaxSpan_rad = kTwoPi + 1e-5;
 /// Of a robot of a fleet.
 constexpr double kMaxSpeed_m_s = 10.0;
 constexpr double kMaxTurn_rad_s = 20.0;
-constexpr double kMaxCell_m = 1.0;  // of what was searched
 
 void write_place(const TopologyNode& from, pb::FleetPlace* to) {
   to->set_id(from.id);
@@ -262,7 +263,9 @@ void write(const SearchedFloor& from, pb::SearchedFloor* to) {
     to->add_targets(clean_text(target, kMaxNameBytes));
   }
   write(from.map_T_grid, to->mutable_map_t_grid());
-  write(from.probability, to->mutable_probability());
+  if (from.probability) {
+    write(*from.probability, to->mutable_probability());
+  }
 }
 
 void read(const pb::SearchedFloor& from, SearchedFloor& to, Check& check) {
@@ -278,17 +281,20 @@ void read(const pb::SearchedFloor& from, SearchedFloor& to, Check& check) {
     to.targets.push_back(check.text("targets", target, kMaxNameBytes));
   }
   to.map_T_grid = read_place_pose(from.has_map_t_grid(), from.map_t_grid(), "map_t_grid", check);
+  Grid<std::uint8_t> probability;
+  read_required(from.has_probability(), from.probability(), probability, "probability", check);
   const auto scope = check.in("probability");
-  read(from.probability(), to.probability, check);
-  const Point2& origin = to.probability.frame().origin;
+  const Point2& origin = probability.frame().origin;
   within(origin.x(), api::kMaxFleetReach_m, "origin_x_m", check);
   within(origin.y(), api::kMaxFleetReach_m, "origin_y_m", check);
-  within(to.probability.frame().resolution_m, kMaxCell_m, "resolution_m", check);
+  within(probability.frame().resolution_m, kMaxSearchedCell_m, "resolution_m", check);
+  to.probability = std::make_shared<const Grid<std::uint8_t>>(std::move(probability));
 }
 
 void write(const api::FleetSeen& from, pb::FleetSeen* to) {
   to->set_robot_id(from.robot_id);
   to->set_instance(from.instance);
+  to->set_placed(from.placed);
   write_tiles(from.tiles, to->mutable_tiles());
   write_detections(from.detections, to->mutable_detections());
   if (from.searched) {
@@ -299,6 +305,7 @@ void write(const api::FleetSeen& from, pb::FleetSeen* to) {
 void read(const pb::FleetSeen& from, api::FleetSeen& to, Check& check) {
   to.robot_id = read_robot_id(from.robot_id(), check);
   to.instance = from.instance();
+  to.placed = from.placed();
   read_tiles(from.tiles(), to.tiles, check);
   read_detections(from.detections(), to.detections, check);
   if (from.has_searched()) {

@@ -25,7 +25,7 @@ void read_covariance(const CovarianceField& from, Matrix3& to, Check& check);
 using DetectionField = google::protobuf::RepeatedPtrField<v1::Detection>;
 void write_detections(const std::vector<api::Detection>& from, DetectionField* to);
 void read_detections(const DetectionField& from, std::vector<api::Detection>& to, Check& check);
-/// Refuses what lies out of reach.
+/// Refuses what lies out of reach or has a covariance beyond all reason.
 void check_reach(const api::Detection& detection, Check& check);
 
 }  // namespace seeker::wire

@@ -14,6 +14,9 @@ constexpr std::string_view kPart = "fleet";
 /// Small enough that a piece is not sent for long in vain when the link is cut.
 constexpr std::size_t kChunkBytes = 256UL << 10U;
 
+/// Nothing else would come through either.
+bool is_of_link(Errc code) { return code == Errc::kLinkLost || code == Errc::kTimeout; }
+
 }  // namespace
 
 FleetFollower::FleetFollower(FleetFollowerParams params, FleetHost host)
@@ -79,13 +82,19 @@ Status FleetFollower::once() {
     }
     announce_at_ = std::chrono::steady_clock::now() + params_.period;
   }
+  Status exchanged;
   if (std::chrono::steady_clock::now() >= floor_at_) {
-    if (Status exchanged = exchange_seen(); !exchanged) {
+    exchanged = exchange_seen();
+    if (!exchanged && is_of_link(exchanged.error().code)) {
       return exchanged;
     }
-    floor_at_ = std::chrono::steady_clock::now() + params_.floor_period;
+    if (exchanged) {
+      floor_at_ = std::chrono::steady_clock::now() + params_.floor_period;
+    }
   }
-  return share();
+  // Where what others have seen cannot be read, where they go is heard all the same.
+  const Status shared = share();
+  return shared ? exchanged : shared;
 }
 
 /// What the others have seen goes to the robot with the next share.
@@ -94,8 +103,12 @@ Status FleetFollower::exchange_seen() {
   if (!own) {
     return tl::unexpected<Error>(own.error());
   }
-  Result<api::FleetSightings> others = main_.seen(
-      {params_.robot_id, instance_, std::move(own->floor), std::move(own->detections), std::move(own->searched)});
+  Result<api::FleetSightings> others = main_.seen({.robot_id = params_.robot_id,
+                                                   .instance = instance_,
+                                                   .placed = own->placed,
+                                                   .tiles = std::move(own->floor),
+                                                   .detections = std::move(own->detections),
+                                                   .searched = std::move(own->searched)});
   if (others) {
     floor_ = floor_of(others->floor);
     searched_ = shared_search(std::move(others->searched), searched_);

@@ -85,6 +85,7 @@ void FleetLeader::judge(const std::string& robot_id) {
     member.waits = false;
     if (missing_of(member).empty()) {
       member.judged = std::chrono::steady_clock::now();
+      member.begun_anew = false;
       manifest = member.manifest;
       pieces = member.pieces;
       slot = member.slot;
@@ -131,8 +132,8 @@ Status FleetLeader::take_own_map(Result<OwnMap> own) {
     const std::lock_guard lock(mutex_);
     own_map_T_base_ = own->map_T_base;
     own_places_ = places_of(own->map);
-    if (new_map && remembers_own_) {
-      own_topology_.reset();  // places in a map that is no more
+    if (new_map && !before.nodes.empty()) {
+      forget_own();
     }
     remembers_own_ = false;
   }
@@ -144,6 +145,16 @@ Status FleetLeader::take_own_map(Result<OwnMap> own) {
   }
   keep_own_pieces();
   return {};
+}
+
+/// Places in a map that is no more; those of the new one are told soon.
+void FleetLeader::forget_own() {
+  if (remembers_own_) {
+    own_topology_.reset();  // else the loop has told it since
+  }
+  own_floor_.reset();
+  own_finds_ = {};
+  own_search_ = {};
 }
 
 Status FleetLeader::compare(std::uint8_t slot, LineMap map) {
@@ -202,7 +213,7 @@ std::vector<fleet::PairAnswer> FleetLeader::pairs_now() {
   const std::lock_guard lock(mutex_);
   std::map<std::uint8_t, Member*> of_slot;
   for (auto& [id, member] : members_) {
-    if (!member.split && member.trouble.empty()) {
+    if (!member.split && !member.begun_anew && member.trouble.empty()) {
       of_slot[member.slot] = &member;
     }
   }

@@ -7,6 +7,7 @@
 #include "common/wire/convert.hpp"
 #include "common/wire/convert_fleet.hpp"
 #include "common/wire/envelope.hpp"
+#include "common/wire/fleet_fields.hpp"
 #include "common/wire/sha256.hpp"
 #include "seeker/v1/fleet.pb.h"
 #include "server/app/fleet_leader.hpp"
@@ -30,6 +31,17 @@ std::string piece_name(const api::PieceHash& hash) { return wire::to_hex(hash) +
 void FleetLeader::tell_damage(const std::string& what) {
   log::warning(kPart, what);
   host_.tell_operator("fleet-memory-damaged", what, api::Severity::kWarning);
+}
+
+std::vector<api::Detection> FleetLeader::load_found(const DetectionField& kept, const std::string& robot_id) {
+  std::vector<api::Detection> found;
+  wire::Check check;
+  wire::read_detections(kept, found, check);
+  if (!check.ok()) {
+    tell_damage("what robot '" + robot_id + "' had found cannot be read again: " + check.status().error().message);
+    return {};
+  }
+  return found;
 }
 
 Pieces FleetLeader::load_pieces(const fs::path& folder, const api::FleetManifest& manifest) const {
@@ -76,17 +88,8 @@ void FleetLeader::load_member(const fs::path& folder) {
       member.topology->velocity.reset();
     }
   }
-  for (const v1::Detection& kept : record->detections()) {
-    if (Result<api::Detection> one = wire::from_message<api::Detection>(kept)) {
-      member.found_before.push_back(std::move(*one));
-    }
-  }
-  member.found_before = api::within_limits(std::move(member.found_before));
-  if (record->has_searched()) {
-    if (Result<SearchedFloor> searched = wire::from_message<SearchedFloor>(record->searched())) {
-      member.searched = std::move(*searched);
-    }
-  }
+  member.finds = {load_found(record->detections(), member.manifest.robot_id),
+                  load_found(record->earlier_detections(), member.manifest.robot_id)};
   const std::lock_guard lock(mutex_);
   const std::string id = member.manifest.robot_id;
   if (members_.size() + 1 < api::kMaxFleetRobots && !members_.contains(id)) {
@@ -132,12 +135,8 @@ void FleetLeader::keep_record(const std::string& robot_id) {
     if (member.topology) {
       wire::write(*member.topology, record.mutable_topology());
     }
-    for (const api::Detection& one : all_found(member)) {
-      wire::write(one, record.add_detections());
-    }
-    if (member.searched) {
-      wire::write(*member.searched, record.mutable_searched());
-    }
+    wire::write_detections(api::within_limits(member.finds.now), record.mutable_detections());
+    wire::write_detections(api::within_limits(member.finds.before), record.mutable_earlier_detections());
     needed = member.pieces;
   }
   const fs::path file = params_.folder / robot_id / kRecordFile;

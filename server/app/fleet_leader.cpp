@@ -24,6 +24,14 @@ api::FleetHypothesis describe(const fleet::MergeHypothesis& from) {
 
 }  // namespace
 
+std::vector<api::Detection> carried(std::vector<api::Detection> found, const Pose2& new_T_old) {
+  for (api::Detection& one : found) {
+    one = api::moved(std::move(one), new_T_old);
+  }
+  std::erase_if(found, [](const api::Detection& one) { return !api::in_reach(one); });
+  return found;
+}
+
 FleetLeader::FleetLeader(FleetLeaderParams params, FleetHost host)
     : params_(std::move(params)), host_(std::move(host)), merger_(params_.merge), worker_(kMaxWaiting, "the fleet") {
   load();
@@ -68,15 +76,10 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
   member.seen = now;
   const bool changed = is_new || member.manifest.nodes != manifest.nodes || member.manifest.edges != manifest.edges;
   if (!same_frame(member.manifest.nodes, manifest.nodes)) {
-    member.topology.reset();  // places in a map that is no more; those of the new one are told soon
-    member.floor.reset();
-    member.found.clear();
-    member.found_before.clear();
-    member.searched.reset();
+    begin_anew(member, manifest);
   }
   if (member.manifest.instance != manifest.instance) {
-    member.found_before = all_found(member);  // a program that was started anew has forgotten them
-    member.found.clear();
+    member.finds = {{}, member.finds.all()};  // a program that was started anew has forgotten them
   }
   take(member, manifest);
   api::FleetAnswer answer{missing_of(member), {}};
@@ -86,6 +89,27 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
   }
   answer.fleet = status_now();
   return answer;
+}
+
+/// All that was told are places in a map that is no more; those of the new one are told soon.
+void FleetLeader::begin_anew(Member& member, const api::FleetManifest& manifest) {
+  member.topology.reset();
+  member.floor.reset();
+  member.finds = {};
+  member.search = {};
+  if (member.manifest.nodes.empty() || manifest.nodes.empty()) {
+    return;  // its first map, or none yet
+  }
+  member.begun_anew = true;
+  member.trouble.clear();
+  member.main_T_map.reset();  // what is told in the new map must not be carried as if it were the old one
+  member.hypotheses.clear();
+  member.confidence = 0.0;
+  ++revision_;
+  if (!member.split) {
+    member.state = api::FleetState::kWaiting;
+    member.reason = "it has begun a new map, which has not been looked at yet";
+  }
 }
 
 void FleetLeader::take(Member& member, const api::FleetManifest& manifest) {
@@ -174,7 +198,7 @@ api::FleetStatus FleetLeader::status_now() const {
   own.main_T_map = Pose2{};
   own.main_T_base = own_map_T_base_;
   own.places = own_places_;
-  own.detections = own_found_;
+  own.detections = own_finds_.all();
   status.members.push_back(std::move(own));
   const WallTime now = std::chrono::steady_clock::now();
   for (const auto& [id, member] : members_) {
@@ -201,8 +225,8 @@ api::FleetMember FleetLeader::describe(const Member& member, WallTime now) const
     if (member.main_T_map && member.manifest.map_T_base) {
       out.main_T_base = *member.main_T_map * *member.manifest.map_T_base;
     }
-    for (const api::Detection& one : member.main_T_map ? all_found(member) : std::vector<api::Detection>()) {
-      out.detections.push_back(api::moved(one, *member.main_T_map));
+    if (member.main_T_map) {
+      out.detections = carried(member.finds.all(), *member.main_T_map);
     }
   }
   for (const api::FleetNode& node : member.manifest.nodes) {

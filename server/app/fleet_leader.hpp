@@ -24,8 +24,12 @@
 #include "server/fleet/map_merger.hpp"
 #include "server/nav/shared_floor.hpp"
 
+namespace google::protobuf {
+template <class T>
+class RepeatedPtrField;
+}  // namespace google::protobuf
 namespace seeker::v1 {
-class FleetRecord;
+class Detection;
 class KeptFleet;
 }  // namespace seeker::v1
 
@@ -38,6 +42,7 @@ struct FleetLeaderParams {
   Duration silence_limit = std::chrono::seconds(5);  ///< see FleetSettings
   Duration retry_period = std::chrono::seconds(10);  ///< wall time until the same map is looked at again
   Duration floor_period = std::chrono::seconds(5);  ///< wall time between what its own robot hears of the others' floor
+  Duration search_age = std::chrono::hours(1);      ///< see FleetSettings
   fleet::MergeParams merge;
 };
 
@@ -45,6 +50,9 @@ inline constexpr const char* kSplitReason = "taken out by the operator; 'seeker 
 
 /// Whether two manifests of a robot have a local map in common, at the same place: else it has begun a new map.
 [[nodiscard]] bool same_frame(const std::vector<api::FleetNode>& a, const std::vector<api::FleetNode>& b);
+
+/// What was found, in another frame; without what lies out of reach there: whoever is told would refuse all of it.
+[[nodiscard]] std::vector<api::Detection> carried(std::vector<api::Detection> found, const Pose2& new_T_old);
 
 /// Thread-safe; called by the network. Nothing that a robot sends changes what another one sent.
 class FleetLeader {
@@ -71,21 +79,36 @@ class FleetLeader {
  private:
   using WallTime = std::chrono::steady_clock::time_point;
 
+  /// What a robot has found, in its own frame `map`.
+  struct Finds {
+    std::vector<api::Detection> now;     ///< told by the program that runs
+    std::vector<api::Detection> before;  ///< told by programs that have ended
+    /// Within the limits of a fleet, each id once.
+    [[nodiscard]] std::vector<api::Detection> all() const;
+  };
+  /// What a robot has searched, in its own frame `map`.
+  struct DatedSearch {
+    std::optional<SearchedFloor> floor;
+    WallTime changed;  ///< when it last told something else
+    /// Nothing told changes nothing: a robot that was started anew has forgotten what it searched, the floor has not.
+    void hear(std::optional<SearchedFloor> told, WallTime now);
+  };
   struct Member {
     api::FleetManifest manifest;
     Pieces pieces;  ///< complete ones of the manifest
     std::map<api::PieceHash, std::vector<std::uint8_t>> partial;
     std::uint8_t slot = 1;  ///< in the joint map
     std::optional<WallTime> seen;
-    std::optional<RobotTopology> topology;     ///< last told, in its own frame `map`
-    nav::SharedFloor floor;                    ///< so, too; null: nothing yet
-    std::vector<api::Detection> found;         ///< so, too
-    std::vector<api::Detection> found_before;  ///< told by programs of it that have ended
-    std::optional<SearchedFloor> searched;     ///< in its own frame `map`
-    std::optional<WallTime> shared;            ///< when it was told
+    std::optional<RobotTopology> topology;  ///< last told, in its own frame `map`
+    nav::SharedFloor floor;                 ///< so, too; null: nothing yet
+    Finds finds;                            ///< so, too
+    DatedSearch search;                     ///< so, too
+    std::optional<WallTime> shared;         ///< when its topology was told
     std::optional<WallTime> judged;
-    bool waits = false;   ///< to be judged by the worker
-    std::string trouble;  ///< why its map cannot be judged; empty: it can
+    bool waits = false;         ///< to be judged by the worker
+    bool record_waits = false;  ///< to be written by the worker
+    bool begun_anew = false;    ///< in a map that has not been looked at yet: what is known of its pairs is of another
+    std::string trouble;        ///< why its map cannot be judged; empty: it can
     bool split = false;
     std::optional<Pose2> accepted;  ///< main_T_map that the operator has accepted
     api::FleetState state = api::FleetState::kWaiting;
@@ -149,10 +172,14 @@ class FleetLeader {
                                                                                  const Pose2& main_T_map) const;
   [[nodiscard]] std::vector<api::FleetFinding> findings_of_others(const std::string& robot_id,
                                                                   const Pose2& main_T_map) const;
-  [[nodiscard]] std::vector<SearchedFloor> searched_by_others(const std::string& robot_id,
-                                                              const Pose2& main_T_map) const;
-  [[nodiscard]] static std::vector<api::Detection> all_found(const Member& member);
+  [[nodiscard]] std::vector<SearchedFloor> searched_by_others(const std::string& robot_id, const Pose2& main_T_map,
+                                                              WallTime now) const;
+  void begin_anew(Member& member, const api::FleetManifest& manifest);
+  void ask_for_record(const std::string& robot_id, Member& member);
+  void hear_seen(Member& member, const api::FleetSeen& seen, WallTime now);
+  [[nodiscard]] bool take_own_seen(const OwnSeen& own);
   void recall_own(const api::FleetManifest& own, const v1::KeptFleet& kept);
+  void forget_own();
   [[nodiscard]] bool silent(const std::optional<WallTime>& heard, WallTime now) const;
   void set_state(Member& member, api::FleetState state, std::string reason);
   void settle(Member& member, const Round& round);
@@ -161,6 +188,9 @@ class FleetLeader {
   void load();
   void load_slots(const v1::KeptFleet& kept);
   void load_member(const std::filesystem::path& folder);
+  using DetectionField = google::protobuf::RepeatedPtrField<v1::Detection>;
+  /// Nothing where it is damaged, which is told.
+  [[nodiscard]] std::vector<api::Detection> load_found(const DetectionField& kept, const std::string& robot_id);
   [[nodiscard]] Pieces load_pieces(const std::filesystem::path& folder, const api::FleetManifest& manifest) const;
   [[nodiscard]] std::uint8_t free_slot(const std::string& robot_id) const;
   void tell_damage(const std::string& what);
@@ -197,8 +227,8 @@ class FleetLeader {
   std::optional<Pose2> own_map_T_base_;
   std::optional<RobotTopology> own_topology_;
   nav::SharedFloor own_floor_;
-  std::vector<api::Detection> own_found_;
-  std::optional<SearchedFloor> own_searched_;
+  Finds own_finds_;
+  DatedSearch own_search_;
   /// The main robot has not taken up its map again since it was started: what it was holds, not where its loop is now.
   bool remembers_own_ = false;
   std::map<std::string, std::uint8_t> kept_slots_;

@@ -7,6 +7,7 @@
 #include "common/log/log.hpp"
 #include "common/wire/convert.hpp"
 #include "common/wire/convert_fleet.hpp"
+#include "common/wire/fleet_fields.hpp"
 #include "seeker/v1/kept.pb.h"
 #include "server/app/fleet_leader.hpp"
 #include "server/app/fleet_records.hpp"
@@ -141,6 +142,7 @@ void FleetLeader::recall_own(const api::FleetManifest& own, const v1::KeptFleet&
     own_topology_->velocity.reset();
     own_topology_->active = false;
   }
+  own_finds_.before = load_found(kept.own_detections(), params_.robot_id);
 }
 
 void FleetLeader::recall_pairs(const v1::KeptFleet& kept) {
@@ -197,6 +199,7 @@ void FleetLeader::keep_memory() {
     if (own_topology_) {
       wire::write(api::within_limits(*own_topology_), kept.mutable_own_topology());
     }
+    wire::write_detections(own_finds_.all(), kept.mutable_own_detections());
     for (const auto& [id, member] : members_) {
       kept_slots_[id] = member.slot;
     }

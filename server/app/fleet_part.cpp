@@ -36,6 +36,7 @@ Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& 
     params.software_version = software_version;
     params.silence_limit = settings.silence_limit;
     params.floor_period = settings.floor_period;
+    params.search_age = settings.search_age;
     params.merge = settings.merge;
     part.leader = std::make_unique<FleetLeader>(std::move(params), host);
     if (const Status started = lead(settings, folder, part); !started) {

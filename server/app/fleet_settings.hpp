@@ -20,6 +20,8 @@ struct FleetSettings {
   Duration floor_period = std::chrono::seconds(5);  ///< wall time between those of the floor that it has seen
   /// Wall time of silence after which a robot counts as gone: its goals are anybody's, and its id may be taken over.
   Duration silence_limit = std::chrono::seconds(5);
+  /// Wall time after which what a robot has searched proves nothing to the others any more, unless it searches on.
+  Duration search_age = std::chrono::hours(1);
   fleet::MergeParams merge;
 };
 

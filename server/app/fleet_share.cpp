@@ -1,5 +1,6 @@
 // What the main robot passes on of where each robot goes (FleetLeader).
 
+#include <algorithm>
 #include <utility>
 
 #include "server/app/fleet_leader.hpp"
@@ -66,8 +67,13 @@ std::vector<RobotTopology> FleetLeader::others_of(const std::string& robot_id, c
                                                   WallTime now) const {
   std::vector<RobotTopology> others;
   const Pose2 map_T_main = inverse(main_T_map);
+  const auto add = [&](RobotTopology other) {
+    if (api::in_reach(other.map_T_base.translation())) {  // else whoever is told would refuse all of them
+      others.push_back(api::within_limits(std::move(other)));
+    }
+  };
   if (own_topology_ && robot_id != params_.robot_id) {
-    others.push_back(api::within_limits(fleet::moved(*own_topology_, map_T_main)));
+    add(fleet::moved(*own_topology_, map_T_main));
   }
   for (const auto& [id, member] : members_) {
     const bool merged = member.state == api::FleetState::kMerged && member.main_T_map;
@@ -77,21 +83,42 @@ std::vector<RobotTopology> FleetLeader::others_of(const std::string& robot_id, c
         other.active = false;
         other.velocity.reset();
       }
-      others.push_back(api::within_limits(std::move(other)));
+      add(std::move(other));
     }
   }
   return others;
 }
 
-/// What is told now, and what programs of the robot told that have ended.
-std::vector<api::Detection> FleetLeader::all_found(const Member& member) {
-  std::vector<api::Detection> all = member.found;
-  for (const api::Detection& earlier : member.found_before) {
-    if (std::none_of(all.begin(), all.end(), [&](const api::Detection& one) { return one.id == earlier.id; })) {
+std::vector<api::Detection> FleetLeader::Finds::all() const {
+  std::vector<api::Detection> all = now;
+  for (const api::Detection& earlier : before) {
+    if (std::none_of(now.begin(), now.end(), [&](const api::Detection& one) { return one.id == earlier.id; })) {
       all.push_back(earlier);
     }
   }
   return api::within_limits(std::move(all));
+}
+
+void FleetLeader::DatedSearch::hear(std::optional<SearchedFloor> told, WallTime now) {
+  if (told && told != floor) {
+    floor = std::move(told);
+    changed = now;
+  }
+}
+
+/// A full queue only delays it: it is written with the next map that is looked at, too.
+void FleetLeader::ask_for_record(const std::string& robot_id, Member& member) {
+  if (!member.record_waits) {
+    member.record_waits = worker_
+                              .post([this, robot_id] {
+                                {
+                                  const std::lock_guard lock(mutex_);
+                                  members_.at(robot_id).record_waits = false;
+                                }
+                                keep_record(robot_id);
+                              })
+                              .has_value();
+  }
 }
 
 Result<api::FleetSightings> FleetLeader::seen(const api::FleetSeen& seen) {
@@ -105,24 +132,30 @@ Result<api::FleetSightings> FleetLeader::seen(const api::FleetSeen& seen) {
       return fail(Errc::kNotFound, "robot '" + seen.robot_id + "' has to announce its map first");
     }
     Member& member = known->second;
-    member.seen = std::chrono::steady_clock::now();
-    member.floor = floor_of(seen.tiles);
-    if (member.found != seen.detections || (seen.searched && member.searched != seen.searched)) {
-      member.found = seen.detections;
-      member.searched = seen.searched ? seen.searched : member.searched;  // one that was started anew has forgotten it
-      // A full queue only delays it: it is written with the next map that is looked at, too.
-      static_cast<void>(worker_.post([this, id = seen.robot_id] { keep_record(id); }));
+    const WallTime now = std::chrono::steady_clock::now();
+    member.seen = now;
+    if (seen.placed) {
+      hear_seen(member, seen, now);
     }
     if (member.state == api::FleetState::kMerged && member.main_T_map) {
       others = floors_of_others(seen.robot_id, *member.main_T_map);
       sightings.findings = findings_of_others(seen.robot_id, *member.main_T_map);
-      sightings.searched = searched_by_others(seen.robot_id, *member.main_T_map);
+      sightings.searched = searched_by_others(seen.robot_id, *member.main_T_map, now);
     }
     p_map = member.manifest.map_T_base.value_or(Pose2{}).translation();
   }
   const nav::SharedFloor all = nav::carried(others);
   sightings.floor = all ? api::within_limits(cut(*all), p_map) : std::vector<OccupancyTile>();
   return sightings;
+}
+
+void FleetLeader::hear_seen(Member& member, const api::FleetSeen& seen, WallTime now) {
+  member.floor = floor_of(seen.tiles);
+  member.search.hear(seen.searched, now);
+  if (member.finds.now != seen.detections) {
+    member.finds.now = seen.detections;
+    ask_for_record(seen.robot_id, member);
+  }
 }
 
 /// With the poses of their frames in that of the robot that asks.
@@ -146,41 +179,62 @@ std::vector<api::FleetFinding> FleetLeader::findings_of_others(const std::string
                                                                const Pose2& main_T_map) const {
   std::vector<api::FleetFinding> findings;
   const Pose2 map_T_main = inverse(main_T_map);
-  const auto add = [&](const std::string& id, const std::vector<api::Detection>& found, const Pose2& main_T_found) {
-    for (const api::Detection& one : found) {
-      findings.push_back({id, api::moved(one, map_T_main * main_T_found)});
+  const auto add = [&](const std::string& id, std::vector<api::Detection> found, const Pose2& main_T_found) {
+    for (api::Detection& one : carried(std::move(found), map_T_main * main_T_found)) {
+      findings.push_back({id, std::move(one)});
     }
   };
   if (robot_id != params_.robot_id) {
-    add(params_.robot_id, own_found_, Pose2{});
+    add(params_.robot_id, own_finds_.all(), Pose2{});
   }
   for (const auto& [id, member] : members_) {
     if (member.state == api::FleetState::kMerged && member.main_T_map && id != robot_id) {
-      add(id, all_found(member), *member.main_T_map);
+      add(id, member.finds.all(), *member.main_T_map);
     }
   }
   return findings;
 }
 
-/// In the frame of the robot that asks.
-std::vector<SearchedFloor> FleetLeader::searched_by_others(const std::string& robot_id, const Pose2& main_T_map) const {
+/// In the frame of the robot that asks. What is old proves nothing any more: things and people move.
+std::vector<SearchedFloor> FleetLeader::searched_by_others(const std::string& robot_id, const Pose2& main_T_map,
+                                                           WallTime now) const {
   std::vector<SearchedFloor> all;
   const Pose2 map_T_main = inverse(main_T_map);
-  const auto add = [&](const std::optional<SearchedFloor>& searched, const Pose2& main_T_theirs) {
-    if (searched) {
-      all.push_back(*searched);
-      all.back().map_T_grid = map_T_main * main_T_theirs * all.back().map_T_grid;
+  const auto add = [&](const DatedSearch& search, const Pose2& main_T_theirs) {
+    if (!search.floor || now - search.changed >= params_.search_age) {
+      return;
+    }
+    const Pose2 map_T_grid = map_T_main * main_T_theirs * search.floor->map_T_grid;
+    if (api::in_reach(map_T_grid.translation())) {
+      all.push_back({search.floor->targets, map_T_grid, search.floor->probability});
     }
   };
   if (robot_id != params_.robot_id) {
-    add(own_searched_, Pose2{});
+    add(own_search_, Pose2{});
   }
   for (const auto& [id, member] : members_) {
     if (member.state == api::FleetState::kMerged && member.main_T_map && id != robot_id) {
-      add(member.searched, *member.main_T_map);
+      add(member.search, *member.main_T_map);
     }
   }
   return all;
+}
+
+/// Whether it has found something else than it told before.
+bool FleetLeader::take_own_seen(const OwnSeen& own) {
+  if (!own.placed || remembers_own_) {
+    return false;
+  }
+  own_floor_ = floor_of(own.floor);
+  own_search_.hear(own.searched, std::chrono::steady_clock::now());
+  if (!own.searched) {
+    own_search_ = {};  // its program is this one: it has forgotten nothing, but is in another map
+  }
+  if (own_finds_.now == own.detections) {
+    return false;
+  }
+  own_finds_.now = own.detections;
+  return true;
 }
 
 /// Floors of buildings are large: they are looked at less often than where everybody goes.
@@ -189,18 +243,19 @@ void FleetLeader::refresh_seen() {
   std::vector<std::pair<Pose2, nav::SharedFloor>> others;
   std::vector<api::FleetFinding> findings;
   std::vector<SearchedFloor> searched;
+  bool found_more = false;
   {
     const std::lock_guard lock(mutex_);
-    if (own && !remembers_own_) {
-      own_floor_ = floor_of(own->floor);
-      own_found_ = own->detections;
-      own_searched_ = own->searched;
-    }
+    found_more = own && take_own_seen(*own);
     if (!remembers_own_) {
       others = floors_of_others(params_.robot_id, Pose2{});
       findings = findings_of_others(params_.robot_id, Pose2{});
-      searched = searched_by_others(params_.robot_id, Pose2{});
+      searched = searched_by_others(params_.robot_id, Pose2{}, std::chrono::steady_clock::now());
     }
+  }
+  if (found_more) {
+    // A full queue only delays it: it is written with the next map that is looked at, too.
+    static_cast<void>(worker_.post([this] { keep_memory(); }));
   }
   others_floor_ = nav::carried(others);
   others_searched_ = shared_search(std::move(searched), others_searched_);

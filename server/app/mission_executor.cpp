@@ -44,6 +44,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.status.started = situation.now;
   active.status.link_policy = request.link_policy;
   active.detection_base = highest_detection_id_;
+  active.pose = situation.pose.map_T_base;
   active.map_epoch = situation.pose.map_epoch;
   active_ = std::move(active);
   event_sequence_ = 0;
@@ -210,7 +211,7 @@ void MissionExecutor::take(const Decision& decision, const Situation& situation)
   if (active_->last_pose) {
     status.path_length_m += distance_m(*active_->last_pose, pose);
   }
-  active_->last_pose = pose;
+  active_->last_pose = active_->pose = pose;
   active_->map_epoch = situation.pose.map_epoch;
   const bool new_phase = status.phase != decision.phase;
   status.phase = decision.phase;
@@ -251,15 +252,33 @@ void MissionExecutor::on_look(const Result<StereoLook>& look) {
   }
 }
 
-void MissionExecutor::map_moved(const Pose2& new_T_old, RobotTime now) {
+void MissionExecutor::map_moved(const MapMove& move, RobotTime now) {
   if (active_) {
-    active_->behaviour->map_moved(new_T_old);
+    active_->behaviour->map_moved(move.new_T_old);
     active_->last_pose.reset();
+    active_->pose = move.new_T_old * active_->pose;
+    active_->map_epoch = move.to_epoch;
     log(now, "map-moved", "the map was corrected; what was searched and found moved with it");
+    collect_detections();  // moved by the behaviour, which knows best how
+  }
+  for (api::Detection& detection : detections_) {
+    if (detection.map_epoch == move.from_epoch) {
+      detection = api::moved(std::move(detection), move.new_T_old);
+      detection.map_epoch = move.to_epoch;
+    }
+  }
+  if (searched_ && searched_epoch_ == move.from_epoch) {
+    searched_->map_T_grid = move.new_T_old * searched_->map_T_grid;
+    searched_epoch_ = move.to_epoch;
   }
 }
 
 void MissionExecutor::collect() {
+  collect_grid();
+  collect_detections();
+}
+
+void MissionExecutor::collect_grid() {
   if (std::optional<api::GridReport> grid = active_->behaviour->grid()) {
     active_->status.cells_searched = static_cast<int>(grid->lists.searched.size());
     active_->status.cells_unsearched = static_cast<int>(grid->lists.unsearched.size());
@@ -267,6 +286,9 @@ void MissionExecutor::collect() {
     grid->map_epoch = grid->evidence.map_epoch = active_->map_epoch;
     grid_ = std::move(grid);
   }
+}
+
+void MissionExecutor::collect_detections() {
   for (api::Detection& detection : active_->behaviour->detections()) {
     detection.id += active_->detection_base;
     detection.map_epoch = active_->map_epoch;
@@ -286,8 +308,7 @@ void MissionExecutor::collect() {
 }
 
 void MissionExecutor::keep_searched() {
-  const Point2 about = active_->last_pose.value_or(Pose2{}).translation();
-  if (auto searched = active_->behaviour->searched(about, kSearchedSide_cells)) {
+  if (auto searched = active_->behaviour->searched(active_->pose.translation(), kSearchedSide_cells)) {
     searched_ = std::move(searched);
     searched_epoch_ = active_->map_epoch;
   }

@@ -34,6 +34,13 @@ struct MissionOutputs {
   std::function<void(const api::Detection&)> detection;
 };
 
+/// A correction of the map that is in use.
+struct MapMove {
+  Pose2 new_T_old;               ///< takes places in the map before to places in the map now
+  std::uint32_t from_epoch = 0;  ///< of the map before: only what belongs to it moves
+  std::uint32_t to_epoch = 0;    ///< of the map now
+};
+
 class MissionExecutor {
  public:
   MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs);
@@ -52,8 +59,9 @@ class MissionExecutor {
   [[nodiscard]] Decision step(const Situation& situation, const api::Fault* blocking, WallTime wall_now);
   void on_recognition(const Recognition& recognition);
   void on_look(const Result<StereoLook>& look);
-  /// What a running mission knows of places moves with the map; what ended missions left keeps its old epoch.
-  void map_moved(const Pose2& new_T_old, RobotTime now);
+  /// What a running mission knows of places moves with the map, and so does what ended ones have found and searched in
+  /// it: others are told of it as long as the map lives. Only grid() of an ended mission keeps its epoch.
+  void map_moved(const MapMove& move, RobotTime now);
 
   /// What the behaviour knew when the program was cut off; before its first step.
   void remember(const TopologyMemory& memory);
@@ -86,8 +94,9 @@ class MissionExecutor {
     std::optional<api::MissionEnd> end_after;  ///< the outcome once the robot is back (link policy RETURN)
     std::optional<RobotTime> blocked_since;
     std::optional<RobotTime> unlocalised_since;
-    bool decision_told = true;  ///< the status' decision was in a report
-    std::optional<Pose2> last_pose;
+    bool decision_told = true;       ///< the status' decision was in a report
+    std::optional<Pose2> last_pose;  ///< that the way is measured from; none after the map has moved
+    Pose2 pose;                      ///< where it was last, frame `map`
     RobotTime last_report;
     std::uint32_t map_epoch = 0;  ///< that results belong to
   };
@@ -98,6 +107,8 @@ class MissionExecutor {
   void take(const Decision& decision, const Situation& situation);
   void finish(const api::MissionEnd& end, RobotTime now);
   void collect();
+  void collect_grid();
+  void collect_detections();
   void keep_searched();
   void report(RobotTime now);
   void log(RobotTime now, const std::string& kind, const std::string& text,

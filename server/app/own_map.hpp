@@ -23,8 +23,9 @@ struct OwnMap {
 /// What it tells of where it has been and means to go, frame `map`; nothing where it does not know its place.
 using OwnTopology = std::optional<RobotTopology>;
 
-/// What it has seen, frame `map`, within the limits of a fleet; empty where it does not know its place.
+/// What it has seen, frame `map`, within the limits of a fleet.
 struct OwnSeen {
+  bool placed = false;  ///< it knows its place; else the rest is empty, and what it told before holds
   std::vector<OccupancyTile> floor;
   std::vector<api::Detection> detections;  ///< that belong to the map as it is now
   std::optional<SearchedFloor> searched;

@@ -250,8 +250,10 @@ void Robot::give_own_seen(const api::Reply<OwnSeen>& reply) {
     const PoseEstimate pose = loop_.status().pose;
     std::vector<api::Detection> found = loop_.missions().detections();
     std::erase_if(found, [&](const api::Detection& one) { return one.map_epoch != pose.map_epoch; });
-    reply(OwnSeen{api::within_limits(loop_.robot_map().tiles_since(0).tiles, place->translation()),
-                  api::within_limits(std::move(found)), loop_.missions().searched(pose)});
+    reply(OwnSeen{.placed = true,
+                  .floor = api::within_limits(loop_.robot_map().tiles_since(0).tiles, place->translation()),
+                  .detections = api::within_limits(std::move(found)),
+                  .searched = loop_.missions().searched(pose)});
   });
   if (!posted) {
     reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));

@@ -66,8 +66,15 @@ void RobotLoop::note_topology() {
 void RobotLoop::move_fleet(const Pose2& new_T_old) {
   own_topology_.topology = fleet::moved(std::move(own_topology_.topology), new_T_old);
   if (fleet_) {
-    fleet_->floor.reset();  // the next view brings both anew
-    fleet_->searched.reset();
+    fleet_->floor.reset();  // the next view brings it anew
+    if (fleet_->searched) {
+      // What was proved stays proved until then: a search would else drive to floor that others have searched.
+      std::vector<SearchedFloor> searched = *fleet_->searched;
+      for (SearchedFloor& one : searched) {
+        one.map_T_grid = new_T_old * one.map_T_grid;
+      }
+      fleet_->searched = std::make_shared<const std::vector<SearchedFloor>>(std::move(searched));
+    }
     for (RobotTopology& other : fleet_->others) {
       other = fleet::moved(std::move(other), new_T_old);
     }

@@ -91,7 +91,7 @@ void RobotLoop::follow_map(const std::optional<Pose2>& old_map_T_base) {
   const Pose2 new_T_old = pose_.map_T_base * inverse(*old_map_T_base);
   const int moved_mm = static_cast<int>(1e3 * distance_m(*old_map_T_base, pose_.map_T_base));
   log("map-moved", "the map was corrected; the robot's place in it moved by " + std::to_string(moved_mm) + " mm");
-  missions_.map_moved(new_T_old, now());
+  missions_.map_moved({.new_T_old = new_T_old, .from_epoch = before, .to_epoch = pose_.map_epoch}, now());
   move_fleet(new_T_old);
 }
 

@@ -163,6 +163,8 @@ void describe(config::Fields& f, FleetSettings& settings) {
   f.check("floor_period_s", settings.floor_period > Duration::zero(), "must be above 0");
   f.seconds("silence_s", settings.silence_limit);
   f.check("silence_s", settings.silence_limit > settings.share_period, "must be above share_period_s");
+  f.seconds("search_age_s", settings.search_age);
+  f.check("search_age_s", settings.search_age >= Duration::zero(), "must be 0 or more");
   f.section("merge", settings.merge);
 }
 

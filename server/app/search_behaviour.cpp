@@ -1,6 +1,7 @@
 #include "server/app/search_behaviour.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "server/app/target_values.hpp"
 
@@ -205,11 +206,15 @@ std::optional<api::GridReport> SearchBehaviour::grid() const {
 }
 
 std::optional<SearchedFloor> SearchBehaviour::searched(const Point2& middle_map, int side_cells) const {
-  SearchedFloor searched;
-  searched.probability = mission_.evidence().own_looks(middle_map, side_cells);
-  if (searched.probability.empty()) {
+  if (mission_.request().gaps_only) {
+    return std::nullopt;  // it goes on from the looks of earlier searches, which may have been for other targets
+  }
+  Grid<std::uint8_t> looks = mission_.evidence().own_looks(middle_map, side_cells);
+  if (looks.empty()) {
     return std::nullopt;
   }
+  SearchedFloor searched;
+  searched.probability = std::make_shared<const Grid<std::uint8_t>>(std::move(looks));
   for (const search::SearchTarget& target : mission_.request().targets) {
     searched.targets.push_back(target.name);
   }

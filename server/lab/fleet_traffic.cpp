@@ -31,7 +31,7 @@ void FleetTraffic::share(const RobotTopology& topology) {
 }
 
 void FleetTraffic::floor(const std::vector<OccupancyTile>& tiles) {
-  bytes_ += size_of<v1::FleetSeen>(api::FleetSeen{robot_id_, 1, tiles, {}, {}});
+  bytes_ += size_of<v1::FleetSeen>(api::FleetSeen{robot_id_, 1, true, tiles, {}, {}});
 }
 
 }  // namespace seeker::lab

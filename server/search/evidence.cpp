@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "server/nav/visibility.hpp"
 
@@ -10,6 +14,7 @@ namespace seeker::search {
 namespace {
 
 constexpr std::uint32_t kNewPlace = std::numeric_limits<std::uint32_t>::max();
+constexpr double kProbabilityScale = 254.0;  // of SearchedFloor::probability
 
 /// Calls f(cell, probability) for every cell that one look from `camera_map` can show.
 template <class F>
@@ -24,26 +29,6 @@ void for_each_seen(const Grid<std::uint8_t>& occupancy, const GridFrame& frame, 
       if (p > 0.0 && nav::line_of_sight(occupancy, camera_map, centre)) {
         f(cell, p);
       }
-    }
-  }
-}
-
-/// Calls f(cell) for each cell of `frame` once whose centre may lie in a grid.
-template <class F>
-void for_each_cell_under(const Grid<std::uint8_t>& grid, const Pose2& map_T_grid, const GridFrame& frame, F&& f) {
-  const GridFrame& theirs = grid.frame();
-  Point2 low = map_T_grid * theirs.origin;
-  Point2 high = low;
-  for (const CellIndex corner : {CellIndex{grid.width(), 0}, {0, grid.height()}, {grid.width(), grid.height()}}) {
-    const Point2 p = map_T_grid * Point2(theirs.origin + theirs.resolution_m * Point2(corner.i, corner.j));
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const CellIndex first = frame.cell_of(low);
-  const CellIndex last = frame.cell_of(high);
-  for (CellIndex cell = first; cell.j <= last.j; ++cell.j) {
-    for (cell.i = first.i; cell.i <= last.i; ++cell.i) {
-      f(cell);
     }
   }
 }
@@ -90,9 +75,7 @@ double EvidenceGrid::combined(Key key, const CellEvidence* evidence) const {
 
 double EvidenceGrid::combined_with(Key key, const CellEvidence* evidence, std::uint32_t place, double p) const {
   const double own = evidence != nullptr ? miss_of(*evidence, place, p) : 1.0 - p;
-  const auto others = others_miss_.find(key);
-  const double miss = others == others_miss_.end() ? own : own * others->second;
-  return std::min(1.0 - miss, params_.max_probability);
+  return std::min(1.0 - own * others_miss(cell_of(key)), params_.max_probability);
 }
 
 double EvidenceGrid::add_look(const Grid<std::uint8_t>& occupancy, const Point2& camera_map, double target_size_m) {
@@ -141,48 +124,63 @@ double EvidenceGrid::probability(CellIndex cell) const {
   return combined(key_of(cell), found == cells_.end() ? nullptr : &found->second);
 }
 
+EvidenceGrid::Other EvidenceGrid::other_from(SearchedFloor floor) {
+  const Pose2 grid_T_map = inverse(floor.map_T_grid);
+  const Matrix2 grid_R_map = Eigen::Rotation2Dd(grid_T_map.theta_rad).toRotationMatrix();
+  return {std::move(floor), grid_R_map, grid_T_map.translation()};
+}
+
 void EvidenceGrid::set_others(const std::vector<SearchedFloor>& others) {
-  constexpr double kScale = 254.0;
-  others_miss_.clear();
+  others_.clear();
   for (const SearchedFloor& other : others) {
-    const GridFrame& theirs = other.probability.frame();
-    if (theirs.resolution_m != params_.cell_m) {
-      continue;
+    if (other.probability && other.probability->frame().resolution_m == params_.cell_m) {
+      others_.push_back(other_from(other));
     }
-    const Pose2 grid_T_map = inverse(other.map_T_grid);
-    for_each_cell_under(other.probability, other.map_T_grid, frame(), [&](CellIndex cell) {
-      const CellIndex under = theirs.cell_of(grid_T_map * frame().centre_of(cell));
-      const double seen = other.probability.contains(under) ? other.probability[under] / kScale : 0.0;
-      if (seen > 0.0) {
-        others_miss_.try_emplace(key_of(cell), 1.0).first->second *= 1.0 - std::min(seen, 1.0);
-      }
-    });
   }
 }
 
-Grid<std::uint8_t> EvidenceGrid::own_looks(const Point2& middle_map, int side_cells) const {
-  constexpr double kScale = 254.0;
-  const CellIndex middle = frame().cell_of(middle_map);
-  const CellIndex low{middle.i - side_cells / 2, middle.j - side_cells / 2};
-  const CellIndex high{low.i + side_cells, low.j + side_cells};
-  const auto inside = [&](CellIndex c) { return c.i >= low.i && c.j >= low.j && c.i < high.i && c.j < high.j; };
-  CellIndex first = high;
-  CellIndex last = low;
-  for (const auto& [key, evidence] : cells_) {
-    if (const CellIndex c = cell_of(key); inside(c)) {
-      first = {std::min(first.i, c.i), std::min(first.j, c.j)};
-      last = {std::max(last.i, c.i), std::max(last.j, c.j)};
+double EvidenceGrid::others_miss(CellIndex cell) const {
+  double miss = 1.0;
+  const Point2 centre = frame().centre_of(cell);
+  for (const Other& other : others_) {
+    const Grid<std::uint8_t>& grid = *other.floor.probability;
+    const CellIndex under = grid.frame().cell_of(other.grid_R_map * centre + other.grid_t_map);
+    if (grid.contains(under)) {
+      miss *= 1.0 - std::min(grid[under] / kProbabilityScale, 1.0);
     }
   }
-  if (first.i > last.i || first.j > last.j) {
-    return {};
-  }
-  const GridFrame own{params_.cell_m * Point2(first.i, first.j), params_.cell_m};
-  Grid<std::uint8_t> looks(own, last.i - first.i + 1, last.j - first.j + 1, 0);
+  return miss;
+}
+
+EvidenceGrid::CellBox EvidenceGrid::box_of_looks(const CellBox& within) const {
+  CellBox box{within.last, within.first};
+  bool any = false;
   for (const auto& [key, evidence] : cells_) {
-    if (const CellIndex c = cell_of(key); inside(c)) {
+    if (const CellIndex c = cell_of(key); within.contains(c)) {
+      box.first = {std::min(box.first.i, c.i), std::min(box.first.j, c.j)};
+      box.last = {std::max(box.last.i, c.i), std::max(box.last.j, c.j)};
+      any = true;
+    }
+  }
+  return any ? box : CellBox{{0, 0}, {-1, -1}};
+}
+
+Grid<std::uint8_t> EvidenceGrid::own_looks(const Point2& middle_map, int side_cells) const {
+  constexpr int kLowest = std::numeric_limits<int>::min();
+  constexpr int kHighest = std::numeric_limits<int>::max();
+  CellBox box = box_of_looks({{kLowest, kLowest}, {kHighest, kHighest}});
+  const auto too_long = [side_cells](int first, int last) { return std::int64_t{last} - first >= side_cells; };
+  if (too_long(box.first.i, box.last.i) || too_long(box.first.j, box.last.j)) {
+    const CellIndex middle = frame().cell_of(middle_map);
+    const CellIndex low{middle.i - side_cells / 2, middle.j - side_cells / 2};
+    box = box_of_looks({low, {low.i + side_cells - 1, low.j + side_cells - 1}});
+  }
+  const GridFrame own{params_.cell_m * Point2(box.first.i, box.first.j), params_.cell_m};
+  Grid<std::uint8_t> looks(own, box.last.i - box.first.i + 1, box.last.j - box.first.j + 1, 0);
+  for (const auto& [key, evidence] : cells_) {
+    if (const CellIndex c = cell_of(key); box.contains(c)) {
       const double seen = std::min(1.0 - miss_of(evidence, kNewPlace, 0.0), params_.max_probability);
-      looks[{c.i - first.i, c.j - first.j}] = static_cast<std::uint8_t>(std::lround(seen * kScale));
+      looks[{c.i - box.first.i, c.j - box.first.j}] = static_cast<std::uint8_t>(std::lround(seen * kProbabilityScale));
     }
   }
   return looks;
@@ -205,7 +203,10 @@ void EvidenceGrid::transform(const Pose2& new_T_old) {
     }
   }
   cells_ = std::move(moved);
-  others_miss_.clear();
+  for (Other& other : others_) {
+    other.floor.map_T_grid = new_T_old * other.floor.map_T_grid;
+    other = other_from(std::move(other.floor));
+  }
   for (Point2& place : places_) {
     place = new_T_old * place;
   }
@@ -214,7 +215,7 @@ void EvidenceGrid::transform(const Pose2& new_T_old) {
 void EvidenceGrid::clear() {
   cells_.clear();
   places_.clear();
-  others_miss_.clear();
+  others_.clear();
 }
 
 }  // namespace seeker::search

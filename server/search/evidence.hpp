@@ -37,10 +37,10 @@ class EvidenceGrid {
   double add_look(const Grid<std::uint8_t>& occupancy, const Point2& camera_map, double target_size_m);
 
   /// Takes what other robots have searched, with the same cells, for looks from places of their own; replaces what was
-  /// said of them before. Floor with cells of another size says nothing.
+  /// said of them before. Floor with cells of another size, or without any, says nothing. Copies no cells.
   void set_others(const std::vector<SearchedFloor>& others);
-  /// What this grid's own looks tell, within a square of `side_cells` around `middle_map`; empty where they tell
-  /// nothing there.
+  /// What this grid's own looks tell: all of it where that fits into a square of `side_cells`, else what lies within
+  /// such a square around `middle_map`; empty where they tell nothing there.
   [[nodiscard]] Grid<std::uint8_t> own_looks(const Point2& middle_map, int side_cells) const;
 
   /// What add_look would add within the cells of `wanted` (same cell size, 1 = count), without adding it.
@@ -54,9 +54,10 @@ class EvidenceGrid {
   /// Cells lie on multiples of cell_m, indices may be negative.
   [[nodiscard]] GridFrame frame() const { return {Point2::Zero(), params_.cell_m}; }
 
-  /// Moves everything when a map epoch moved the map: `new_T_old` takes old map coordinates to new ones. What others
-  /// have searched is forgotten: they say it anew.
+  /// Moves everything when a map epoch moved the map, what others have searched with it: `new_T_old` takes old map
+  /// coordinates to new ones.
   void transform(const Pose2& new_T_old);
+  /// Forgets all looks, those of others too.
   void clear();
 
   /// The certificate. `reachable`: grid of cell_m cells on multiples of cell_m, 1 = reachable floor (see
@@ -75,10 +76,29 @@ class EvidenceGrid {
   struct CellEvidence {
     std::vector<std::pair<std::uint32_t, float>> by_place;
   };
+  /// Floor that another robot has searched, and where a place of the map lies in the frame of its grid.
+  struct Other {
+    SearchedFloor floor;
+    Matrix2 grid_R_map;
+    Point2 grid_t_map;
+  };
+  /// Cells, both ends included; nothing where `first` lies behind `last`.
+  struct CellBox {
+    CellIndex first;
+    CellIndex last;
+    [[nodiscard]] bool contains(CellIndex c) const {
+      return c.i >= first.i && c.j >= first.j && c.i <= last.i && c.j <= last.j;
+    }
+  };
   using Key = std::uint64_t;
   [[nodiscard]] static Key key_of(CellIndex cell);
   [[nodiscard]] static CellIndex cell_of(Key key);
   [[nodiscard]] std::uint32_t place_of(const Point2& camera_map) const;
+  [[nodiscard]] static Other other_from(SearchedFloor floor);
+  /// That all others would have missed a target in a cell of frame().
+  [[nodiscard]] double others_miss(CellIndex cell) const;
+  /// Of this grid's own looks, as far as they lie in `within`.
+  [[nodiscard]] CellBox box_of_looks(const CellBox& within) const;
   /// With what others say of the cell.
   [[nodiscard]] double combined(Key key, const CellEvidence* evidence) const;
   [[nodiscard]] double combined_with(Key key, const CellEvidence* evidence, std::uint32_t place, double p) const;
@@ -89,7 +109,7 @@ class EvidenceGrid {
   HitRate rate_;
   std::vector<Point2> places_;
   std::unordered_map<Key, CellEvidence> cells_;  ///< looked up only, never walked in an order that matters
-  std::unordered_map<Key, double> others_miss_;  ///< that all others would have missed it
+  std::vector<Other> others_;
 };
 
 }  // namespace seeker::search

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "common/core/searched_floor.hpp"
+
 namespace seeker::search {
 namespace {
 
@@ -60,6 +62,10 @@ Status validate(const SearchParams& params) {
                              {"plan.cell_target_probability", params.plan.cell_target_probability}});
       !probabilities) {
     return probabilities;
+  }
+  if (params.evidence.cell_m > kMaxSearchedCell_m) {
+    return fail(Errc::kInvalidArgument,
+                "evidence.cell_m must be at most 1 m");  // others would refuse what was searched
   }
   if (params.paper.passes_limit < 0 || params.detection.confirm_places < 1) {
     return fail(Errc::kInvalidArgument,

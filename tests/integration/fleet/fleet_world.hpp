@@ -175,6 +175,18 @@ inline api::Detection found_at(std::uint64_t id, const Point2& p_map, const std:
   return found;
 }
 
+/// Square floor that a robot has searched for a mug; every cell says the same.
+inline SearchedFloor searched_at(const Pose2& map_T_grid, int side_cells, std::uint8_t probability) {
+  const GridFrame frame{Point2::Zero(), 0.2};
+  return {{"mug"}, map_T_grid, std::make_shared<const Grid<std::uint8_t>>(frame, side_cells, side_cells, probability)};
+}
+
+/// What a robot that knows its place tells.
+inline api::FleetSeen seen_by(const std::string& robot_id, std::vector<api::Detection> found = {},
+                              std::optional<SearchedFloor> searched = std::nullopt, std::uint64_t instance = 1) {
+  return {robot_id, instance, true, {}, std::move(found), std::move(searched)};
+}
+
 /// Where the only occupied cell is.
 inline std::optional<Point2> occupied_in(const Grid<std::uint8_t>& floor) {
   for (CellIndex c{0, 0}; c.j < floor.height(); ++c.j) {

@@ -97,8 +97,9 @@ TEST(FleetLink, ARobotKeepsThePlacesOfTheOthersWhenTheLinkDropsAndTakesUpTheirGo
 
 TEST(FleetLink, RobotsHearOfTheFloorAndTheTargetsThatTheOthersHaveSeen) {
   const Point2 seen_by_main(4.0, 0.5);
-  const ToyHost first(west(), at_place("main", {2.0, 1.0}), {floor_with(seen_by_main), {}, {}});
-  const ToyHost second(east(), at_place("r1", {1.0, 0.0}), {floor_with({2.0, -0.5}), {found_at(1, {2.0, -0.5})}, {}});
+  const ToyHost first(west(), at_place("main", {2.0, 1.0}), {true, floor_with(seen_by_main), {}, {}});
+  const ToyHost second(east(), at_place("r1", {1.0, 0.0}),
+                       {true, floor_with({2.0, -0.5}), {found_at(1, {2.0, -0.5})}, {}});
   const Main main("link_floor", first);
   const app::FleetPart robot = robot_at(main.port, "r1", second.host());
   const auto has_floor = [](const std::optional<FleetView>& view) { return view && view->floor; };

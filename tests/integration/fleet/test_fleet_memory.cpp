@@ -59,7 +59,7 @@ class FleetMemory : public ::testing::Test {
     merged = until(leader, "r2", [](const auto& m) { return m.main_T_map.has_value(); });
     static_cast<void>(until(leader, "stranger", [](const auto& m) { return m.state != api::FleetState::kWaiting; }));
     ASSERT_TRUE(leader.decide({"stranger", api::FleetVerb::kSplit, 0}));
-    ASSERT_TRUE(leader.seen({"r2", 1, {}, {found_at(5, {2.0, 0.5})}, {}}));
+    ASSERT_TRUE(leader.seen(seen_by("r2", {found_at(5, {2.0, 0.5})})));
     joint = joint_map(leader);
   }
   FleetLeaderParams same = leader_params("fleet_memory");
@@ -123,6 +123,64 @@ TEST_F(FleetMemory, ADamagedRecordIsToldAndTheOthersStay) {
   EXPECT_EQ(again.status().members.size(), 2U);
   EXPECT_TRUE(told(host, "fleet-memory-damaged"));
   EXPECT_TRUE(until(again, "r2", [](const auto& m) { return m.main_T_map.has_value(); }).main_T_map);
+}
+
+/// Ids of what the main robot, or another one, has found.
+std::vector<std::uint64_t> found_by(const FleetLeader& leader, const std::string& robot_id) {
+  std::vector<std::uint64_t> ids;
+  for (const api::FleetMember& member : leader.status().members) {
+    for (const api::Detection& one : member.robot_id == robot_id ? member.detections : std::vector<api::Detection>()) {
+      ids.push_back(one.id);
+    }
+  }
+  return ids;
+}
+
+using Ids = std::vector<std::uint64_t>;
+
+TEST_F(FleetMemory, AProgramThatRunsOnMayTakeBackWhatItHasFoundAnEndedOneMayNot) {
+  same.silence_limit = Duration::zero();
+  FleetLeader again(same, without_map(heard));
+  static_cast<void>(until(again, "r2", api::FleetState::kMerged));
+  ASSERT_TRUE(again.announce(packed(east(), "r2", 1).manifest));
+  ASSERT_TRUE(again.seen(seen_by("r2", {found_at(6, {2.0, 0.5})})));
+  EXPECT_EQ(found_by(again, "r2"), Ids({6}));
+  ASSERT_TRUE(again.announce(packed(east(), "r2", 3).manifest));
+  ASSERT_TRUE(again.seen(seen_by("r2", {found_at(7, {2.0, 0.5})}, {}, 3)));
+  EXPECT_EQ(found_by(again, "r2"), Ids({6, 7}));
+}
+
+TEST_F(FleetMemory, WhatTheMainRobotHasFoundSurvivesItsRestartButNotANewMap) {
+  same.silence_limit = same.floor_period = Duration::zero();
+  const auto tells = [](FleetLeader& leader, const Ids& ids) {
+    return [&leader, ids](const api::FleetMember&) {
+      leader.refresh();
+      return found_by(leader, "main") == ids;
+    };
+  };
+  {
+    const ToyHost host(west(), std::nullopt, {true, {}, {found_at(7, {4.0, 0.5})}, {}});
+    FleetLeader leader(same, host.host());
+    static_cast<void>(until(leader, "main", tells(leader, {7})));
+  }
+  {
+    FleetLeader again(same, without_map(heard));
+    static_cast<void>(until(again, "r2", api::FleetState::kMerged));
+    EXPECT_EQ(found_by(again, "main"), Ids({7})) << "before it has taken up its map";
+  }
+  {
+    const ToyHost host(west(), std::nullopt, {true, {}, {found_at(9, {4.0, 0.5})}, {}});
+    FleetLeader again(same, host.host());
+    static_cast<void>(until(again, "main", tells(again, {7, 9})));
+    join(again, packed(east(), "r2", 3));
+    static_cast<void>(until(again, "r2", api::FleetState::kMerged));
+    const auto heard_by_r2 = again.seen(seen_by("r2", {}, {}, 3));
+    ASSERT_TRUE(heard_by_r2) << heard_by_r2.error().message;
+    EXPECT_EQ(heard_by_r2->findings.size(), 2U);
+  }
+  FleetLeader elsewhere(same, holds(fleet::toy_map(fleet::office(1), fleet::drive(kWest), 31)));
+  static_cast<void>(joint_map(elsewhere));  // comes after all that was asked of the worker before
+  EXPECT_EQ(found_by(elsewhere, "main"), Ids());
 }
 
 TEST(FleetRecords, AnAnswerComesOutAsItWentIn) {

@@ -70,18 +70,18 @@ TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
 TEST(FleetSharing, EveryRobotIsToldTheFloorOfTheOthersInItsOwnFrame) {
   const Point2 seen_by_main(4.0, 0.5);
   const Point2 seen_by_r1(2.0, -0.5);
-  const ToyHost main(west(), at_place("main", kPlace), {floor_with(seen_by_main), {}, {}});
+  const ToyHost main(west(), at_place("main", kPlace), {true, floor_with(seen_by_main), {}, {}});
   FleetLeaderParams params = patient_params("share_floor");
   params.floor_period = Duration::zero();
   FleetLeader leader(params, main.host());
-  EXPECT_EQ(leader.seen({"r1", 1, {}, {}, {}}).error().code, Errc::kNotFound) << "it has to announce itself first";
+  EXPECT_EQ(leader.seen(seen_by("r1")).error().code, Errc::kNotFound) << "it has to announce itself first";
   join(leader, packed(east(), "r1"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
   EXPECT_EQ(told(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
   leader.refresh();
   leader.refresh();
 
-  const auto r1_hears = leader.seen({"r1", 1, floor_with(seen_by_r1), {}, {}});
+  const auto r1_hears = leader.seen({"r1", 1, true, floor_with(seen_by_r1), {}, {}});
   ASSERT_TRUE(r1_hears) << r1_hears.error().message;
   const auto of_main = assemble(r1_hears->floor);
   ASSERT_TRUE(of_main);
@@ -100,7 +100,7 @@ TEST(FleetSharing, EveryRobotIsToldTheFloorOfTheOthersInItsOwnFrame) {
 TEST(FleetSharing, WhatOneHasFoundAllHearOfOnceInTheirOwnFrames) {
   const Point2 by_main(4.0, 0.5);
   const Point2 by_r1(2.0, -0.5);
-  const ToyHost main(west(), at_place("main", kPlace), {{}, {found_at(7, by_main, "ball")}, {}});
+  const ToyHost main(west(), at_place("main", kPlace), {true, {}, {found_at(7, by_main, "ball")}, {}});
   FleetLeaderParams params = patient_params("share_found");
   params.floor_period = Duration::zero();
   FleetLeader leader(params, main.host());
@@ -108,7 +108,7 @@ TEST(FleetSharing, WhatOneHasFoundAllHearOfOnceInTheirOwnFrames) {
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
   leader.refresh();
   leader.refresh();
-  const auto r1_hears = leader.seen({"r1", 1, {}, {found_at(1, by_r1)}, {}});
+  const auto r1_hears = leader.seen(seen_by("r1", {found_at(1, by_r1)}));
   ASSERT_TRUE(r1_hears) << r1_hears.error().message;
   ASSERT_EQ(r1_hears->findings.size(), 1U);
   EXPECT_EQ(r1_hears->findings[0].robot_id, "main");
@@ -130,29 +130,111 @@ TEST(FleetSharing, WhatOneHasFoundAllHearOfOnceInTheirOwnFrames) {
 }
 
 TEST(FleetSharing, WhatOneHasSearchedTheOthersAreToldInTheirOwnFrames) {
-  const SearchedFloor by_main{{"mug"}, {1.0, 0.0, 0.0}, {{Point2::Zero(), 0.2}, 3, 3, 200}};
-  const SearchedFloor by_r1{{"mug"}, {0.0, 2.0, 0.5}, {{Point2::Zero(), 0.2}, 4, 4, 100}};
-  const ToyHost main(west(), at_place("main", kPlace), {{}, {}, by_main});
+  const SearchedFloor by_main = searched_at({1.0, 0.0, 0.0}, 3, 200);
+  const SearchedFloor by_r1 = searched_at({0.0, 2.0, 0.5}, 4, 100);
+  const ToyHost main(west(), at_place("main", kPlace), {true, {}, {}, by_main});
   FleetLeaderParams params = patient_params("share_searched");
-  params.floor_period = Duration::zero();
+  params.silence_limit = params.floor_period = Duration::zero();
   FleetLeader leader(params, main.host());
   join(leader, packed(east(), "r1"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
   EXPECT_EQ(told(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
   leader.refresh();
   leader.refresh();
-  const auto r1_hears = leader.seen({"r1", 1, {}, {}, by_r1});
+  const auto r1_hears = leader.seen(seen_by("r1", {}, by_r1));
   ASSERT_TRUE(r1_hears) << r1_hears.error().message;
   ASSERT_EQ(r1_hears->searched.size(), 1U);
-  EXPECT_EQ(r1_hears->searched[0].probability, by_main.probability);
+  EXPECT_EQ(*r1_hears->searched[0].probability, *by_main.probability);
   EXPECT_THAT(r1_hears->searched[0].map_T_grid, Pose2Near(inverse(west_T_r1) * by_main.map_T_grid, 1e-9, 1e-9));
   // A robot that was started anew has forgotten what it searched; the others have not.
-  ASSERT_TRUE(leader.seen({"r1", 1, {}, {}, {}}));
+  join(leader, packed(east(), "r1", 2));
+  static_cast<void>(until(leader, "r1", placed));
+  ASSERT_TRUE(leader.seen(seen_by("r1", {}, {}, 2)));
   leader.refresh();
   const auto main_hears = main.view();
   ASSERT_TRUE(main_hears && main_hears->searched);
   ASSERT_EQ(main_hears->searched->size(), 1U);
   EXPECT_THAT(main_hears->searched->front().map_T_grid, Pose2Near(west_T_r1 * by_r1.map_T_grid, 1e-9, 1e-9));
+}
+
+TEST(FleetSharing, FloorThatWasSearchedTooLongAgoIsNotPassedOn) {
+  const ToyHost main(west(), at_place("main", kPlace), {true, {}, {}, searched_at({}, 3, 200)});
+  FleetLeaderParams params = patient_params("share_searched_old");
+  params.floor_period = params.search_age = Duration::zero();
+  FleetLeader leader(params, main.host());
+  join(leader, packed(east(), "r1"));
+  static_cast<void>(until(leader, "r1", placed));
+  static_cast<void>(told(leader, "r1", at_place("r1", kPlace)));
+  leader.refresh();
+  leader.refresh();
+  const auto r1_hears = leader.seen(seen_by("r1", {found_at(1, kPlace)}, searched_at({}, 4, 100)));
+  ASSERT_TRUE(r1_hears) << r1_hears.error().message;
+  EXPECT_TRUE(r1_hears->searched.empty());
+  leader.refresh();
+  ASSERT_TRUE(main.view());
+  EXPECT_FALSE(main.view()->searched);
+}
+
+TEST(FleetSharing, WhoDoesNotKnowItsPlaceTakesNothingBackAndHearsOfTheOthers) {
+  const ToyHost main(west(), at_place("main", kPlace), {true, {}, {found_at(7, kPlace)}, {}});
+  FleetLeaderParams params = patient_params("share_lost");
+  params.floor_period = Duration::zero();
+  FleetLeader leader(params, main.host());
+  join(leader, packed(east(), "r1"));
+  static_cast<void>(until(leader, "r1", placed));
+  static_cast<void>(told(leader, "r1", at_place("r1", kPlace)));
+  leader.refresh();
+  leader.refresh();
+  ASSERT_TRUE(leader.seen({"r1", 1, true, floor_with(kPlace), {found_at(1, kPlace)}, searched_at({}, 4, 100)}));
+  const auto lost_hears = leader.seen({"r1", 1, false, {}, {}, {}});
+  ASSERT_TRUE(lost_hears) << lost_hears.error().message;
+  EXPECT_EQ(lost_hears->findings.size(), 1U);
+  EXPECT_EQ(leader.status().members[1].detections.size(), 1U);
+  leader.refresh();
+  ASSERT_TRUE(main.view());
+  EXPECT_TRUE(main.view()->floor);
+  EXPECT_TRUE(main.view()->searched);
+}
+
+TEST(FleetSharing, AMainRobotThatDoesNotKnowItsPlaceTakesNothingBackEither) {
+  const auto own = std::make_shared<app::OwnSeen>(app::OwnSeen{true, {}, {found_at(7, kPlace)}, {}});
+  app::FleetHost host = holds(west());
+  host.give_seen = [own](const api::Reply<app::OwnSeen>& reply) { reply(app::OwnSeen(*own)); };
+  FleetLeaderParams params = patient_params("share_main_lost");
+  params.floor_period = Duration::zero();
+  FleetLeader leader(params, host);
+  leader.refresh();
+  leader.refresh();
+  ASSERT_EQ(leader.status().members[0].detections.size(), 1U);
+  *own = {};
+  leader.refresh();
+  leader.refresh();
+  EXPECT_EQ(leader.status().members[0].detections.size(), 1U);
+}
+
+TEST(FleetSharing, WhatLiesOutOfReachInTheFrameOfAnotherIsNotToldThere) {
+  const ToyHost main(west(), at_place("main", kPlace));
+  FleetLeaderParams params = patient_params("share_far");
+  params.floor_period = Duration::zero();
+  FleetLeader leader(params, main.host());
+  join(leader, packed(east(), "r1"));
+  join(leader, packed(fleet::toy_map(fleet::office(1), fleet::drive(kWest), 21), "r2"));
+  const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
+  static_cast<void>(until(leader, "r2", placed));
+  const Point2 edge_west(api::kMaxFleetReach_m + 8.0, 0.0);
+  const Point2 edge_r1 = inverse(west_T_r1) * edge_west;
+  ASSERT_TRUE(api::in_reach(edge_r1)) << "the robot itself may tell of it";
+  SearchedFloor far = searched_at({}, 4, 100);
+  far.map_T_grid = {edge_r1.x(), edge_r1.y(), 0.0};
+  ASSERT_TRUE(leader.seen(seen_by("r1", {found_at(1, edge_r1), found_at(2, kPlace)}, far)));
+  const auto r2_hears = leader.seen(seen_by("r2"));
+  ASSERT_TRUE(r2_hears) << r2_hears.error().message;
+  ASSERT_EQ(r2_hears->findings.size(), 1U);
+  EXPECT_EQ(r2_hears->findings[0].detection.id, 2U);
+  EXPECT_TRUE(r2_hears->searched.empty());
+  const api::FleetMember r1 = until(leader, "r1", placed);
+  ASSERT_EQ(r1.detections.size(), 1U);
+  EXPECT_EQ(r1.detections[0].id, 2U);
 }
 
 TEST(FleetSharing, WhatARobotFoundBeforeItWasStartedAnewStaysFound) {
@@ -161,10 +243,10 @@ TEST(FleetSharing, WhatARobotFoundBeforeItWasStartedAnewStaysFound) {
   FleetLeader leader(impatient, holds(west()));
   join(leader, packed(east(), "r1"));
   static_cast<void>(until(leader, "r1", placed));
-  ASSERT_TRUE(leader.seen({"r1", 1, {}, {found_at(1, kPlace), found_at(2, kPlace)}, {}}));
-  ASSERT_TRUE(leader.seen({"r1", 1, {}, {found_at(2, kPlace)}, {}})) << "it takes the first one back";
+  ASSERT_TRUE(leader.seen(seen_by("r1", {found_at(1, kPlace), found_at(2, kPlace)})));
+  ASSERT_TRUE(leader.seen(seen_by("r1", {found_at(2, kPlace)}))) << "it takes the first one back";
   join(leader, packed(east(), "r1", 2));
-  ASSERT_TRUE(leader.seen({"r1", 2, {}, {found_at(3, kPlace)}, {}}));
+  ASSERT_TRUE(leader.seen(seen_by("r1", {found_at(3, kPlace)}, {}, 2)));
   const api::FleetMember r1 = until(leader, "r1", placed);
   ASSERT_EQ(r1.detections.size(), 2U);
   EXPECT_EQ(r1.detections[0].id, 2U);
@@ -172,14 +254,14 @@ TEST(FleetSharing, WhatARobotFoundBeforeItWasStartedAnewStaysFound) {
 }
 
 TEST(FleetSharing, ARobotOfAnotherBuildingIsToldNothingOfThisOne) {
-  const ToyHost main(west(), at_place("main", kPlace), {floor_with(kPlace), {found_at(1, kPlace)}, {}});
+  const ToyHost main(west(), at_place("main", kPlace), {true, floor_with(kPlace), {found_at(1, kPlace)}, {}});
   FleetLeader leader(patient_params("share_floor_apart"), main.host());
   join(leader, packed(east(7), "r1"));
   static_cast<void>(
       until(leader, "r1", [](const api::FleetMember& member) { return member.state != api::FleetState::kWaiting; }));
   leader.refresh();
   leader.refresh();
-  const auto heard = leader.seen({"r1", 1, floor_with(kPlace), {found_at(1, kPlace)}, {}});
+  const auto heard = leader.seen({"r1", 1, true, floor_with(kPlace), {found_at(1, kPlace)}, {}});
   ASSERT_TRUE(heard) << heard.error().message;
   EXPECT_TRUE(heard->floor.empty());
   EXPECT_TRUE(heard->findings.empty());
@@ -252,9 +334,17 @@ TEST(FleetSharing, PlacesAreKeptOverRestartsOfBothButNotInANewMap) {
   again.refresh();
   EXPECT_EQ(of(main.view()->others, "r1").topology.nodes.size(), 1U);
   EXPECT_FALSE(of(main.view()->others, "r1").active);
-  join(again, packed(fleet::toy_map(fleet::office(1), fleet::drive(kWest), 31), "r1", 2));
+  const app::PackedMap new_map = packed(fleet::toy_map(fleet::office(1), fleet::drive(kWest), 31), "r1", 2);
+  const auto answer = again.announce(new_map.manifest);
+  ASSERT_TRUE(answer) << answer.error().message;
+  EXPECT_EQ(answer->fleet.members[1].state, api::FleetState::kWaiting);
+  EXPECT_FALSE(answer->fleet.members[1].main_T_map);
+  EXPECT_NE(answer->fleet.members[1].reason.find("new map"), std::string::npos);
   again.refresh();
   EXPECT_FALSE(main.view()) << "it has begun a new map";
+  join(again, new_map);
+  const auto looked_at = [](const api::FleetMember& r1) { return r1.state != api::FleetState::kWaiting; };
+  EXPECT_EQ(until(again, "r1", looked_at).reason.find("new map"), std::string::npos);
 }
 
 TEST(FleetChain, ARobotIsMergedOverAnotherThatItMeets) {

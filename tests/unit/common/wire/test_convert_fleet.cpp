@@ -87,15 +87,15 @@ Result<api::FleetSeen> through_bytes(const api::FleetSeen& floor) {
 }
 
 TEST(ConvertFleet, FloorComesBackUnchangedAndIsNeverLargerThanItMayBe) {
-  const api::FleetSeen floor{"r1", 77, {tile(-3, 0), tile(2, 9)}, {}, {}};
+  const api::FleetSeen floor{"r1", 77, true, {tile(-3, 0), tile(2, 9)}, {}, {}};
   EXPECT_EQ(through_bytes(floor).value(), floor);
   const api::FleetSightings others{floor.tiles, {}, {}};
   pb::FleetReply reply;
   write(others, &reply);
   EXPECT_EQ(from_message<api::FleetSightings>(reply).value(), others);
-  EXPECT_EQ(through_bytes({"r1", 77, {tile(0, 0), tile(0, api::kMaxFleetFloorSide_tiles)}, {}, {}}).error().code,
+  EXPECT_EQ(through_bytes({"r1", 77, true, {tile(0, 0), tile(0, api::kMaxFleetFloorSide_tiles)}, {}, {}}).error().code,
             Errc::kTooLarge);
-  const api::FleetSeen many{"r1", 77, std::vector<OccupancyTile>(api::kMaxFleetTiles + 1, tile(0, 0)), {}, {}};
+  const api::FleetSeen many{"r1", 77, true, std::vector<OccupancyTile>(api::kMaxFleetTiles + 1, tile(0, 0)), {}, {}};
   EXPECT_EQ(through_bytes(many).error().code, Errc::kTooLarge);
 }
 
@@ -109,38 +109,52 @@ api::Detection detection(std::uint64_t id, const Point2& p_map) {
 }
 
 TEST(ConvertFleet, WhatWasFoundComesBackUnchangedAndIsNeverMoreThanItMayBe) {
-  const api::FleetSeen found{"r1", 77, {}, {detection(1, {2.0, 3.0}), detection(4, {-2.0, 3.0})}, {}};
+  const api::FleetSeen found{"r1", 77, true, {}, {detection(1, {2.0, 3.0}), detection(4, {-2.0, 3.0})}, {}};
   EXPECT_EQ(through_bytes(found).value(), found);
   const api::FleetSightings others{{}, {{"r2", found.detections[0]}, {"r3", found.detections[1]}}, {}};
   pb::FleetReply reply;
   write(others, &reply);
   EXPECT_EQ(from_message<api::FleetSightings>(reply).value(), others);
-  EXPECT_EQ(through_bytes({"r1", 77, {}, {detection(1, {2e4, 0.0})}, {}}).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(through_bytes({"r1", 77, true, {}, {detection(1, {2e4, 0.0})}, {}}).error().code, Errc::kInvalidArgument);
+  api::Detection vague = detection(1, {1.0, 1.0});
+  vague.position_covariance(0, 1) = vague.position_covariance(1, 0) = -2.0 * api::kMaxFleetCovariance_m2;
+  EXPECT_EQ(through_bytes({"r1", 77, true, {}, {vague}, {}}).error().code, Errc::kInvalidArgument);
+  EXPECT_TRUE(api::within_limits({vague}).empty());
   std::vector<api::Detection> many;
   for (std::uint64_t id = 1; id <= api::kMaxFleetDetections + 1; ++id) {
     many.push_back(detection(id, {1.0, 1.0}));
   }
-  EXPECT_EQ(through_bytes({"r1", 77, {}, many, {}}).error().code, Errc::kTooLarge);
+  EXPECT_EQ(through_bytes({"r1", 77, true, {}, many, {}}).error().code, Errc::kTooLarge);
+  many.back().stamp = RobotTime();  // its program has begun to count anew
+  std::swap(many.front(), many.back());
   const std::vector<api::Detection> told = api::within_limits(many);
-  EXPECT_TRUE(through_bytes({"r1", 77, {}, told, {}}));
+  EXPECT_TRUE(through_bytes({"r1", 77, true, {}, told, {}}));
   EXPECT_EQ(told.front().id, 2U) << "the newest stay";
+  EXPECT_EQ(told.back().id, api::kMaxFleetDetections + 1);
 }
 
 TEST(ConvertFleet, WhatWasSearchedComesBackUnchangedAndIsNeverLargerThanItMayBe) {
-  SearchedFloor searched{{"box", "mug"}, {1.0, 2.0, 0.5}, {{{-3.0, 4.0}, 0.2}, 7, 5, 100}};
-  searched.probability[{3, 2}] = 250;
-  api::FleetSeen seen{"r1", 77, {}, {}, searched};
+  Grid<std::uint8_t> grid({{-3.0, 4.0}, 0.2}, 7, 5, 100);
+  grid[{3, 2}] = 250;
+  const SearchedFloor searched{{"box", "mug"}, {1.0, 2.0, 0.5}, std::make_shared<const Grid<std::uint8_t>>(grid)};
+  const api::FleetSeen seen{"r1", 77, true, {}, {}, searched};
   EXPECT_EQ(through_bytes(seen).value(), seen);
   const api::FleetSightings others{{}, {}, {searched, searched}};
   pb::FleetReply reply;
   write(others, &reply);
   EXPECT_EQ(from_message<api::FleetSightings>(reply).value(), others);
-  seen.searched->probability = {{Point2::Zero(), 0.2}, api::kMaxFleetSearchedSide_cells + 1, 1, 0};
-  EXPECT_EQ(through_bytes(seen).error().code, Errc::kTooLarge);
-  seen.searched->probability = {{{2e4, 0.0}, 0.2}, 1, 1, 0};
-  EXPECT_EQ(through_bytes(seen).error().code, Errc::kInvalidArgument);
-  seen.searched->probability = {{Point2::Zero(), 5.0}, 1, 1, 0};
-  EXPECT_EQ(through_bytes(seen).error().code, Errc::kInvalidArgument);
+  const auto refusal_with = [&](std::shared_ptr<const Grid<std::uint8_t>> probability) {
+    api::FleetSeen bad = seen;
+    bad.searched->probability = std::move(probability);
+    return through_bytes(bad).error().code;
+  };
+  const auto grid_of = [](const GridFrame& frame, int width) {
+    return std::make_shared<const Grid<std::uint8_t>>(frame, width, 1, std::uint8_t{0});
+  };
+  EXPECT_EQ(refusal_with(grid_of({Point2::Zero(), 0.2}, api::kMaxFleetSearchedSide_cells + 1)), Errc::kTooLarge);
+  EXPECT_EQ(refusal_with(grid_of({{2e4, 0.0}, 0.2}, 1)), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_with(grid_of({Point2::Zero(), 5.0}, 1)), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_with(nullptr), Errc::kInvalidArgument);
 }
 
 TEST(ConvertFleet, OfALargeFloorTheTilesNextToTheRobotAreTold) {
@@ -150,7 +164,7 @@ TEST(ConvertFleet, OfALargeFloorTheTilesNextToTheRobotAreTold) {
       tiles.push_back(tile(i, j));
     }
   }
-  const api::FleetSeen told{"r1", 77, api::within_limits(tiles, Point2(64.0, 0.0)), {}, {}};
+  const api::FleetSeen told{"r1", 77, true, api::within_limits(tiles, Point2(64.0, 0.0)), {}, {}};
   EXPECT_TRUE(through_bytes(told));
   ASSERT_EQ(told.tiles.size(), api::kMaxFleetTiles);
   EXPECT_TRUE(std::all_of(told.tiles.begin(), told.tiles.end(), [](const OccupancyTile& one) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/angle.hpp"
+#include "tests/support/matchers.hpp"
+
 namespace seeker::app {
 namespace {
 
@@ -15,6 +18,8 @@ struct Script {
   std::optional<Pose2> moved;
   std::optional<api::GridReport> grid;
   std::optional<SearchedFloor> searched;
+  std::vector<api::Detection> detections;
+  Point2 asked_about = Point2::Zero();  ///< for what it has searched
 };
 
 class ScriptedBehaviour final : public Behaviour {
@@ -27,13 +32,19 @@ class ScriptedBehaviour final : public Behaviour {
   void resumed(RobotTime /*now*/) override { ++script_->resumed; }
   void map_moved(const Pose2& new_T_old) override { script_->moved = new_T_old; }
   std::optional<api::GridReport> grid() const override { return script_->grid; }
-  std::optional<SearchedFloor> searched(const Point2& /*middle_map*/, int /*side_cells*/) const override {
+  std::optional<SearchedFloor> searched(const Point2& middle_map, int /*side_cells*/) const override {
+    script_->asked_about = middle_map;
     return script_->searched;
   }
+  std::vector<api::Detection> detections() const override { return script_->detections; }
 
  private:
   std::shared_ptr<Script> script_;
 };
+
+SearchedFloor searched_floor() {
+  return {{"mug"}, {}, std::make_shared<const Grid<std::uint8_t>>(GridFrame{}, 2, 2, std::uint8_t{100})};
+}
 
 class MissionExecutorTest : public ::testing::Test {
  protected:
@@ -46,7 +57,7 @@ class MissionExecutorTest : public ::testing::Test {
             },
             {.event = [this](const api::Event& event) { events.push_back(event); },
              .status = [this](const api::MissionStatus& status) { reports.push_back(status); },
-             .detection = [](const api::Detection& /*detection*/) {}}) {
+             .detection = [this](const api::Detection& detection) { told.push_back(detection); }}) {
     situation.pose.quality = LocalisationQuality::kLocalised;
   }
 
@@ -70,6 +81,7 @@ class MissionExecutorTest : public ::testing::Test {
   std::vector<std::string> made;
   std::vector<api::Event> events;
   std::vector<api::MissionStatus> reports;
+  std::vector<api::Detection> told;
   Situation situation;
   WallTime wall;
   MissionExecutor executor;
@@ -206,7 +218,7 @@ TEST_F(MissionExecutorTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {
   EXPECT_EQ(executor.grid()->map_epoch, 0U);
   situation.pose.map_epoch = 3;
   situation.pose.map_T_base.x_m = 5.0;
-  executor.map_moved({5.0, 0.0, 0.0}, situation.now);
+  executor.map_moved({.new_T_old = {5.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 3}, situation.now);
   ASSERT_TRUE(script->moved);
   EXPECT_EQ(*script->moved, (Pose2{5.0, 0.0, 0.0}));
   EXPECT_EQ(events.back().kind, "map-moved");
@@ -217,15 +229,59 @@ TEST_F(MissionExecutorTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {
   EXPECT_DOUBLE_EQ(executor.last()->path_length_m, 0.0) << "the robot did not drive where the map moved";
   executor.end(api::Outcome::kOperator, "test", "", situation.now);
   script->moved.reset();
-  executor.map_moved({1.0, 0.0, 0.0}, situation.now);
+  executor.map_moved({.new_T_old = {1.0, 0.0, 0.0}, .from_epoch = 3, .to_epoch = 4}, situation.now);
   EXPECT_FALSE(script->moved);
-  EXPECT_EQ(executor.grid()->map_epoch, 3U) << "what an ended mission left keeps its epoch";
+  EXPECT_EQ(executor.grid()->map_epoch, 3U) << "the grid of an ended mission keeps its epoch";
 }
 
-TEST_F(MissionExecutorTest, WhatTheLastSearchHasSearchedIsKnownUntilTheMapMoves) {
+api::Detection mug_at(const Point2& p_map) {
+  api::Detection mug;
+  mug.id = 1;
+  mug.target = "mug";
+  mug.position = p_map;
+  return mug;
+}
+
+TEST_F(MissionExecutorTest, WhatAnEndedMissionHasFoundAndSearchedMovesWithTheMapItBelongsTo) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  script->detections = {mug_at({2.0, 0.0})};
+  script->searched = searched_floor();
+  static_cast<void>(tick());
+  executor.end(api::Outcome::kOperator, "test", "", situation.now);
+  const Pose2 new_T_old{1.0, 3.0, kPi / 2.0};
+  executor.map_moved({.new_T_old = new_T_old, .from_epoch = 0, .to_epoch = 2}, situation.now);
+  situation.pose.map_epoch = 2;
+  ASSERT_EQ(executor.detections().size(), 1U);
+  EXPECT_THAT(*executor.detections()[0].position, testing::Point2Near(Point2(1.0, 5.0), 1e-9));
+  EXPECT_EQ(executor.detections()[0].map_epoch, 2U);
+  ASSERT_TRUE(executor.searched(situation.pose));
+  EXPECT_EQ(executor.searched(situation.pose)->map_T_grid, new_T_old);
+  // Another map was loaded: what is left of the one before is no part of it.
+  executor.map_moved({.new_T_old = new_T_old, .from_epoch = 3, .to_epoch = 4}, situation.now);
+  situation.pose.map_epoch = 4;
+  EXPECT_EQ(executor.detections()[0].map_epoch, 2U);
+  EXPECT_FALSE(executor.searched(situation.pose));
+}
+
+TEST_F(MissionExecutorTest, WhatARunningMissionHasFoundIsToldAsItsBehaviourHasMovedIt) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  situation.pose.map_T_base = {1.0, 0.0, 0.0};
+  script->detections = {mug_at({2.0, 0.0})};
+  static_cast<void>(tick(2.0));
+  ASSERT_EQ(told.size(), 1U);
+  script->detections = {mug_at({7.0, 0.0})};
+  executor.map_moved({.new_T_old = {5.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 1}, situation.now);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told.back().map_epoch, 1U);
+  EXPECT_EQ(*executor.detections()[0].position, Point2(7.0, 0.0)) << "moved once, not twice";
+  executor.end(api::Outcome::kOperator, "test", "", situation.now);
+  EXPECT_EQ(script->asked_about, Point2(6.0, 0.0)) << "its last place has moved, too";
+}
+
+TEST_F(MissionExecutorTest, WhatTheLastSearchHasSearchedIsKnownAsLongAsItsMapIsUsed) {
   EXPECT_FALSE(executor.searched(situation.pose));
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
-  script->searched = SearchedFloor{{"mug"}, {}, {GridFrame{}, 2, 2, 100}};
+  script->searched = searched_floor();
   static_cast<void>(tick());
   EXPECT_EQ(executor.searched(situation.pose), script->searched);
   executor.end(api::Outcome::kOperator, "test", "", situation.now);

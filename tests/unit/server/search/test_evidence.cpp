@@ -17,6 +17,11 @@ Grid<std::uint8_t> room(bool wall = true) {
   return grid;
 }
 
+/// What others tell of their looks for a box.
+SearchedFloor told_by(const EvidenceGrid& other, const Pose2& map_T_grid = {}) {
+  return {{"box"}, map_T_grid, std::make_shared<const Grid<std::uint8_t>>(other.own_looks({0.0, 0.0}, 60))};
+}
+
 Grid<std::uint8_t> floor_of(int side_cells) { return {{{-4.0, -4.0}, 0.2}, side_cells, side_cells, 1}; }
 
 TEST(HitRate, FallsWithRangeRisesWithSize) {
@@ -60,28 +65,44 @@ TEST(Evidence, LooksFromOnePlaceCountOnce) {
 }
 
 TEST(Evidence, OthersCountLikeLooksFromPlacesOfTheirOwn) {
-  constexpr int kSide = 60;
   EvidenceGrid other;
   (void)other.add_look(room(), {0.0, 1.0}, 0.4);
   EvidenceGrid own;
   (void)own.add_look(room(), {0.0, 0.0}, 0.4);
   const Point2 p(-2.1, 0.1);
   const double alone = own.probability_at(p);
-  const Grid<std::uint8_t> told = other.own_looks({0.0, 0.0}, kSide);
-  own.set_others({{{"box"}, Pose2{}, told}});
+  EvidenceGrid lone = own;
+  own.set_others({told_by(other)});
   EXPECT_NEAR(own.probability_at(p), 1.0 - (1.0 - alone) * (1.0 - other.probability_at(p)), 0.01);
   EXPECT_GT(own.probability_at({0.1, 3.9}), 0.1) << "where only the other one has looked";
-  EXPECT_LT(own.add_look(room(), {0.0, 1.5}, 0.4), other.add_look(room(), {0.0, 1.5}, 0.4) + 1e-9);
+  // What another one has proved is left to gain no more.
+  EXPECT_LT(own.add_look(room(), {0.0, 1.5}, 0.4), 0.9 * lone.add_look(room(), {0.0, 1.5}, 0.4));
+}
 
-  // What is told of this one is not what it was told.
-  EvidenceGrid same;
-  (void)same.add_look(room(), {0.0, 0.0}, 0.4);
-  same.set_others({{{"box"}, Pose2{}, told}});
+TEST(Evidence, OthersMoveWithTheMapAndAreNeverTakenForOwnLooks) {
+  EvidenceGrid other;
+  (void)other.add_look(room(), {0.0, 1.0}, 0.4);
   EvidenceGrid lone;
   (void)lone.add_look(room(), {0.0, 0.0}, 0.4);
-  EXPECT_EQ(same.own_looks({0.0, 0.0}, kSide), lone.own_looks({0.0, 0.0}, kSide));
-  same.transform({2.0, 0.0, 0.0});
-  EXPECT_NEAR(same.probability_at(p + Point2(2.0, 0.0)), alone, 1e-9) << "others say anew where it is in the moved map";
+  EvidenceGrid both = lone;
+  both.set_others({told_by(other)});
+  EXPECT_EQ(both.own_looks({0.0, 0.0}, 60), lone.own_looks({0.0, 0.0}, 60));
+  const Point2 p(-2.1, 0.1);
+  const double before = both.probability_at(p);
+  ASSERT_GT(before, lone.probability_at(p) + 0.05);
+  const Pose2 new_T_old{2.0, 0.0, 0.0};
+  both.transform(new_T_old);
+  EXPECT_NEAR(both.probability_at(new_T_old * p), before, 1e-9);
+  both.clear();
+  EXPECT_EQ(both.probability_at(new_T_old * p), 0.0);
+}
+
+TEST(Evidence, OthersWithCellsOfAnotherSizeOrNoneSayNothing) {
+  EvidenceGrid own;
+  const auto coarse =
+      std::make_shared<const Grid<std::uint8_t>>(GridFrame{{-4.0, -4.0}, 0.4}, 20, 20, std::uint8_t{200});
+  own.set_others({{{"box"}, Pose2{}, coarse}, {{"box"}, Pose2{}, nullptr}});
+  EXPECT_EQ(own.probability_at({0.1, 0.1}), 0.0);
 }
 
 TEST(Evidence, OthersMayLieInFramesOfTheirOwn) {
@@ -89,7 +110,7 @@ TEST(Evidence, OthersMayLieInFramesOfTheirOwn) {
   (void)other.add_look(room(), {0.0, 0.0}, 0.4);
   const Pose2 map_T_grid{5.0, 2.0, 0.6};
   EvidenceGrid own;
-  own.set_others({{{"box"}, map_T_grid, other.own_looks({0.0, 0.0}, 60)}});
+  own.set_others({told_by(other, map_T_grid)});
   // Half a cell beside it the probability is hardly another; walls and ends of the range apart.
   for (const Point2& p : {Point2(-1.1, 0.1), Point2(-0.5, 1.3), Point2(-0.7, -1.1)}) {
     EXPECT_NEAR(own.probability_at(map_T_grid * p), other.probability_at(p), 0.1);
@@ -97,7 +118,16 @@ TEST(Evidence, OthersMayLieInFramesOfTheirOwn) {
   EXPECT_EQ(own.probability_at(map_T_grid * Point2(1.9, 0.1)), 0.0) << "behind the wall";
 }
 
-TEST(Evidence, OwnLooksAreToldWithinTheSquareAskedFor) {
+TEST(Evidence, OwnLooksAreToldWhereverTheSquareLiesAsLongAsTheyFitIntoIt) {
+  EvidenceGrid evidence;
+  (void)evidence.add_look(room(), {0.0, 0.0}, 0.4);
+  const Grid<std::uint8_t> all = evidence.own_looks({0.0, 0.0}, 100);
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(evidence.own_looks({500.0, 0.0}, std::max(all.width(), all.height())), all);
+  EXPECT_TRUE(evidence.own_looks({500.0, 0.0}, std::max(all.width(), all.height()) - 1).empty());
+}
+
+TEST(Evidence, OfMoreOwnLooksThoseWithinTheSquareAreTold) {
   EvidenceGrid evidence;
   EXPECT_TRUE(evidence.own_looks({0.0, 0.0}, 100).empty());
   (void)evidence.add_look(room(), {0.0, 0.0}, 0.4);

@@ -75,7 +75,8 @@ TEST(SearchMission, FloorThatAnotherRobotHasSearchedIsNotSearchedAgain) {
   SearchedFloor searched;
   searched.targets = {"ball", "box"};
   searched.map_T_grid = inverse(there_T_here);
-  searched.probability = its_mission.evidence().own_looks(there_T_here * Point2(5.0, 2.5), 200);
+  searched.probability = std::make_shared<const Grid<std::uint8_t>>(
+      its_mission.evidence().own_looks(there_T_here * Point2(5.0, 2.5), 200));
 
   std::vector<ToyRun> runs;
   for (const std::vector<std::string>& targets : {std::vector<std::string>{}, {"ball"}, {"ball", "box"}}) {
@@ -91,6 +92,13 @@ TEST(SearchMission, FloorThatAnotherRobotHasSearchedIsNotSearchedAgain) {
   EXPECT_EQ(runs[0].path_m, runs[1].path_m) << "who looked for something else has proved nothing";
   EXPECT_LT(runs[2].path_m, 0.7 * runs[0].path_m);
   EXPECT_LT(runs[2].images, runs[0].images);
+}
+
+TEST(SearchMission, FloorThatOthersWouldRefuseIsNotSearched) {
+  SearchParams params;
+  EXPECT_TRUE(validate(params));
+  params.evidence.cell_m = 1.5;
+  EXPECT_EQ(validate(params).error().code, Errc::kInvalidArgument);
 }
 
 TEST(SearchMission, SeveralPicturesOfOnePlaceAreOneLook) {
