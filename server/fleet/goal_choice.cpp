@@ -114,24 +114,34 @@ std::vector<PendingGoal> pending_of(const ChoiceInput& input, const Ways& ways) 
   return goals;
 }
 
-/// Of the goals that are open to the robot and belong to the closest node the outermost, then the one with the smallest
-/// turn (spec S4.1, S4.4).
-std::optional<std::size_t> main_of_closest(const std::vector<PendingGoal>& goals, const std::vector<bool>& open,
-                                           const Pose2& map_T_base) {
+/// Of the goals that belong to the closest node the outermost, then the one with the smallest turn (spec S4.1, S4.4).
+std::optional<std::size_t> main_of_closest(const std::vector<PendingGoal>& goals, const Pose2& map_T_base) {
   double closest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < goals.size(); ++k) {
-    closest_m = open[k] ? std::min(closest_m, goals[k].node_way_m) : closest_m;
+  for (const PendingGoal& goal : goals) {
+    closest_m = std::min(closest_m, goal.node_way_m);
   }
   std::vector<std::size_t> of_closest;
   std::vector<GoalDirection> directions;
   for (std::size_t k = 0; k < goals.size(); ++k) {
-    if (open[k] && goals[k].node_way_m <= closest_m) {
+    if (goals[k].node_way_m <= closest_m) {
       of_closest.push_back(k);
       directions.push_back({goals[k].layer, bearing_to(map_T_base, goals[k].p_map)});
     }
   }
   const std::optional<std::size_t> main = main_goal_of(directions, 0.0);
   return main ? std::optional(of_closest[*main]) : std::nullopt;
+}
+
+/// Of the goals that are open to the robot the one with the shortest way. A robot that shares a building keeps to what
+/// is around it: the outermost goal of a node (spec S4.4) would lead it across to where the other one is.
+std::optional<std::size_t> closest_of(const std::vector<PendingGoal>& goals, const std::vector<bool>& open) {
+  std::optional<std::size_t> closest;
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    if (open[k] && (!closest || goals[k].way_m < goals[*closest].way_m)) {
+      closest = k;
+    }
+  }
+  return closest;
 }
 
 /// Ways of another robot to the goals.
@@ -216,7 +226,7 @@ GoalChoice choose_goal(const ChoiceInput& input) {
   std::optional<std::size_t> chosen;
   std::string why = "no goal is left";
   if (input.patient && any_active(false)) {
-    chosen = main_of_closest(goals, nearest_to_self(input, ways, goals), input.map_T_base);
+    chosen = closest_of(goals, nearest_to_self(input, ways, goals));
     why = "the closest of the goals that no other robot is nearer to";
     if (!chosen) {
       chosen = won(input, ways, goals);
@@ -225,7 +235,7 @@ GoalChoice choose_goal(const ChoiceInput& input) {
     choice.others_busy = !chosen && (!goals.empty() || others_drive);
     choice.others_idle = choice.others_busy && !others_drive;
   } else if (!goals.empty()) {
-    chosen = main_of_closest(goals, std::vector<bool>(goals.size(), true), input.map_T_base);
+    chosen = main_of_closest(goals, input.map_T_base);
     const bool at_hand = !goals[*chosen].robot && goals[*chosen].node == input.own.current;
     why = at_hand ? "the main goal of this node" : "back to the closest node with a goal";
   }

@@ -1,6 +1,6 @@
 /// \file
 /// Which pending goal comes next: that of the present node, else that of the closest node that has one (spec S4.4);
-/// with other robots on their way too, the one that an auction gives.
+/// with other robots on their way too, the closest that none of them is nearer to, else the one that an auction gives.
 #pragma once
 
 #include <functional>
