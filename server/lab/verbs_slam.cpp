@@ -54,7 +54,8 @@ Verb add_slam(CLI::App& app) {
 
 Verb add_merge(CLI::App& app) {
   auto o = std::make_shared<MergeOptions>();
-  CLI::App* verb = app.add_subcommand("merge", "Maps of recorded runs, or saved ones, laid upon each other by lidar alone");
+  CLI::App* verb =
+      app.add_subcommand("merge", "Maps of recorded runs, or saved ones, laid upon each other by lidar alone");
   verb->add_option("logs", o->logs, "Logs or map files (*.seekermap), each taken for a robot of its own")->required();
   verb->add_option("--span", o->spans, "Part of a log in per cent of its duration, e.g. 0-50; one for each log");
   verb->add_option("--out", o->out,

@@ -172,6 +172,14 @@ TEST(GoalChoice, OfGoalsThatNobodyIsNearerToTheClosestComesFirstWhateverTheyProm
   EXPECT_EQ(scene.choose().goal->id, 2U);
 }
 
+TEST(GoalChoice, AloneTheOutermostGoalOfANodeComesFirstAmongOthersTheClosest) {
+  Scene scene{row({{{1, {0.0, 8.0}, 8}, {2, {0.0, -2.5}, 2}}})};
+  EXPECT_EQ(scene.choose().goal->id, 1U);
+  scene.fleet.others = {other_at({20.0, 0.0})};
+  ASSERT_TRUE(scene.choose().goal.has_value());
+  EXPECT_EQ(scene.choose().goal->id, 2U);
+}
+
 TEST(GoalChoice, OfTwoRobotsAtOnePlaceTheFirstByNameHasTheGoal) {
   Scene scene{row({{{1, {3.0, 0.0}, 8}}})};
   scene.fleet.others = {other_at({0.0, 0.0})};
