@@ -149,12 +149,10 @@ Status FleetLeader::take_own_map(Result<OwnMap> own) {
 
 /// Places in a map that is no more; those of the new one are told soon.
 void FleetLeader::forget_own() {
-  if (remembers_own_) {
-    own_topology_.reset();  // else the loop has told it since
+  Told before = std::exchange(own_told_, {});
+  if (!remembers_own_) {
+    own_told_.topology = std::move(before.topology);  // the loop has told it since
   }
-  own_floor_.reset();
-  own_finds_ = {};
-  own_search_ = {};
 }
 
 Status FleetLeader::compare(std::uint8_t slot, LineMap map) {

@@ -84,12 +84,12 @@ void FleetLeader::load_member(const fs::path& folder) {
   }
   if (record->has_topology()) {
     if (Result<RobotTopology> topology = wire::from_message<RobotTopology>(record->topology())) {
-      member.topology = std::move(*topology);
-      member.topology->velocity.reset();
+      member.told.topology = std::move(*topology);
+      member.told.topology->velocity.reset();
     }
   }
-  member.finds = {load_found(record->detections(), member.manifest.robot_id),
-                  load_found(record->earlier_detections(), member.manifest.robot_id)};
+  member.told.finds = {load_found(record->detections(), member.manifest.robot_id),
+                       load_found(record->earlier_detections(), member.manifest.robot_id)};
   const std::lock_guard lock(mutex_);
   const std::string id = member.manifest.robot_id;
   if (members_.size() + 1 < api::kMaxFleetRobots && !members_.contains(id)) {
@@ -132,11 +132,11 @@ void FleetLeader::keep_record(const std::string& robot_id) {
     if (member.accepted) {
       wire::write(*member.accepted, record.mutable_accepted_main_t_map());
     }
-    if (member.topology) {
-      wire::write(*member.topology, record.mutable_topology());
+    if (member.told.topology) {
+      wire::write(*member.told.topology, record.mutable_topology());
     }
-    wire::write_detections(api::within_limits(member.finds.now), record.mutable_detections());
-    wire::write_detections(api::within_limits(member.finds.before), record.mutable_earlier_detections());
+    wire::write_detections(api::within_limits(member.told.finds.now), record.mutable_detections());
+    wire::write_detections(api::within_limits(member.told.finds.before), record.mutable_earlier_detections());
     needed = member.pieces;
   }
   const fs::path file = params_.folder / robot_id / kRecordFile;

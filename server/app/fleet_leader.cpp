@@ -79,7 +79,7 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
     begin_anew(member, manifest);
   }
   if (member.manifest.instance != manifest.instance) {
-    member.finds = {{}, member.finds.all()};  // a program that was started anew has forgotten them
+    member.told.finds = {{}, member.told.finds.all()};  // a program that was started anew has forgotten them
   }
   take(member, manifest);
   api::FleetAnswer answer{missing_of(member), {}};
@@ -93,10 +93,7 @@ Result<api::FleetAnswer> FleetLeader::announce(const api::FleetManifest& manifes
 
 /// All that was told are places in a map that is no more; those of the new one are told soon.
 void FleetLeader::begin_anew(Member& member, const api::FleetManifest& manifest) {
-  member.topology.reset();
-  member.floor.reset();
-  member.finds = {};
-  member.search = {};
+  member.told = {};
   if (member.manifest.nodes.empty() || manifest.nodes.empty()) {
     return;  // its first map, or none yet
   }
@@ -198,7 +195,7 @@ api::FleetStatus FleetLeader::status_now() const {
   own.main_T_map = Pose2{};
   own.main_T_base = own_map_T_base_;
   own.places = own_places_;
-  own.detections = own_finds_.all();
+  own.detections = own_told_.finds.all();
   status.members.push_back(std::move(own));
   const WallTime now = std::chrono::steady_clock::now();
   for (const auto& [id, member] : members_) {
@@ -226,7 +223,7 @@ api::FleetMember FleetLeader::describe(const Member& member, WallTime now) const
       out.main_T_base = *member.main_T_map * *member.manifest.map_T_base;
     }
     if (member.main_T_map) {
-      out.detections = carried(member.finds.all(), *member.main_T_map);
+      out.detections = carried(member.told.finds.all(), *member.main_T_map);
     }
   }
   for (const api::FleetNode& node : member.manifest.nodes) {

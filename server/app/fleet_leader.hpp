@@ -93,17 +93,21 @@ class FleetLeader {
     /// Nothing told changes nothing: a robot that was started anew has forgotten what it searched, the floor has not.
     void hear(std::optional<SearchedFloor> told, WallTime now);
   };
+  /// What a robot has told last, in its own frame `map`.
+  struct Told {
+    std::optional<RobotTopology> topology;
+    nav::SharedFloor floor;  ///< null: nothing yet
+    Finds finds;
+    DatedSearch search;
+  };
   struct Member {
     api::FleetManifest manifest;
     Pieces pieces;  ///< complete ones of the manifest
     std::map<api::PieceHash, std::vector<std::uint8_t>> partial;
     std::uint8_t slot = 1;  ///< in the joint map
     std::optional<WallTime> seen;
-    std::optional<RobotTopology> topology;  ///< last told, in its own frame `map`
-    nav::SharedFloor floor;                 ///< so, too; null: nothing yet
-    Finds finds;                            ///< so, too
-    DatedSearch search;                     ///< so, too
-    std::optional<WallTime> shared;         ///< when its topology was told
+    Told told;
+    std::optional<WallTime> shared;  ///< when its topology was told
     std::optional<WallTime> judged;
     bool waits = false;         ///< to be judged by the worker
     bool record_waits = false;  ///< to be written by the worker
@@ -166,6 +170,14 @@ class FleetLeader {
   void ask_for_judgement(const std::string& robot_id, Member& member);
   [[nodiscard]] api::FleetStatus status_now() const;
   [[nodiscard]] api::FleetMember describe(const Member& member, WallTime now) const;
+  // Of all other robots that are merged, in the frame `map` of the robot that asks, which lies at main_T_map.
+  struct Other {
+    const std::string& robot_id;
+    const Told& told;
+    Pose2 map_T_theirs;
+    const Member* member;  ///< null: it is the main one
+  };
+  [[nodiscard]] std::vector<Other> others_than(const std::string& robot_id, const Pose2& main_T_map) const;
   [[nodiscard]] std::vector<RobotTopology> others_of(const std::string& robot_id, const Pose2& main_T_map,
                                                      WallTime now) const;
   [[nodiscard]] std::vector<std::pair<Pose2, nav::SharedFloor>> floors_of_others(const std::string& robot_id,
@@ -225,10 +237,7 @@ class FleetLeader {
   std::map<std::string, Member> members_;
   std::vector<Point2> own_places_;
   std::optional<Pose2> own_map_T_base_;
-  std::optional<RobotTopology> own_topology_;
-  nav::SharedFloor own_floor_;
-  Finds own_finds_;
-  DatedSearch own_search_;
+  Told own_told_;
   /// The main robot has not taken up its map again since it was started: what it was holds, not where its loop is now.
   bool remembers_own_ = false;
   std::map<std::string, std::uint8_t> kept_slots_;

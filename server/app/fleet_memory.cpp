@@ -138,11 +138,11 @@ void FleetLeader::recall_own(const api::FleetManifest& own, const v1::KeptFleet&
     own_places_.push_back(node.node.map_T_node.translation());
   }
   if (Result<RobotTopology> topology = wire::from_message<RobotTopology>(kept.own_topology())) {
-    own_topology_ = std::move(*topology);
-    own_topology_->velocity.reset();
-    own_topology_->active = false;
+    own_told_.topology = std::move(*topology);
+    own_told_.topology->velocity.reset();
+    own_told_.topology->active = false;
   }
-  own_finds_.before = load_found(kept.own_detections(), params_.robot_id);
+  own_told_.finds.before = load_found(kept.own_detections(), params_.robot_id);
 }
 
 void FleetLeader::recall_pairs(const v1::KeptFleet& kept) {
@@ -196,10 +196,10 @@ void FleetLeader::keep_memory() {
   std::map<std::uint8_t, std::string> names{{kMainSlot, params_.robot_id}};
   {
     const std::lock_guard lock(mutex_);
-    if (own_topology_) {
-      wire::write(api::within_limits(*own_topology_), kept.mutable_own_topology());
+    if (own_told_.topology) {
+      wire::write(api::within_limits(*own_told_.topology), kept.mutable_own_topology());
     }
-    wire::write_detections(own_finds_.all(), kept.mutable_own_detections());
+    wire::write_detections(own_told_.finds.all(), kept.mutable_own_detections());
     for (const auto& [id, member] : members_) {
       kept_slots_[id] = member.slot;
     }

@@ -54,7 +54,7 @@ Result<api::FleetShared> FleetLeader::share(const api::FleetShare& share) {
   member.seen = now;
   member.shared = now;
   member.manifest.map_T_base = share.topology ? std::optional(share.topology->map_T_base) : std::nullopt;
-  hear(share.topology, member.topology);
+  hear(share.topology, member.told.topology);
   api::FleetShared shared{member.state, {}};
   if (member.state == api::FleetState::kMerged && member.main_T_map) {
     shared.others = others_of(share.robot_id, *member.main_T_map, now);
@@ -62,31 +62,38 @@ Result<api::FleetShared> FleetLeader::share(const api::FleetShare& share) {
   return shared;
 }
 
-/// In the frame of the robot that asks.
-std::vector<RobotTopology> FleetLeader::others_of(const std::string& robot_id, const Pose2& main_T_map,
-                                                  WallTime now) const {
-  std::vector<RobotTopology> others;
+/// The robots that are merged, the asker apart.
+std::vector<FleetLeader::Other> FleetLeader::others_than(const std::string& robot_id, const Pose2& main_T_map) const {
+  std::vector<Other> others;
   const Pose2 map_T_main = inverse(main_T_map);
-  const auto add = [&](RobotTopology other) {
-    if (api::in_reach(other.map_T_base.translation())) {  // else whoever is told would refuse all of them
-      others.push_back(api::within_limits(std::move(other)));
-    }
-  };
-  if (own_topology_ && robot_id != params_.robot_id) {
-    add(fleet::moved(*own_topology_, map_T_main));
+  if (robot_id != params_.robot_id) {
+    others.push_back({params_.robot_id, own_told_, map_T_main, nullptr});
   }
   for (const auto& [id, member] : members_) {
-    const bool merged = member.state == api::FleetState::kMerged && member.main_T_map;
-    if (merged && member.topology && id != robot_id) {
-      RobotTopology other = fleet::moved(*member.topology, map_T_main * *member.main_T_map);
-      if (silent(member.shared, now)) {
-        other.active = false;
-        other.velocity.reset();
-      }
-      add(std::move(other));
+    if (member.state == api::FleetState::kMerged && member.main_T_map && id != robot_id) {
+      others.push_back({id, member.told, map_T_main * *member.main_T_map, &member});
     }
   }
   return others;
+}
+
+std::vector<RobotTopology> FleetLeader::others_of(const std::string& robot_id, const Pose2& main_T_map,
+                                                  WallTime now) const {
+  std::vector<RobotTopology> topologies;
+  for (const Other& other : others_than(robot_id, main_T_map)) {
+    if (!other.told.topology) {
+      continue;
+    }
+    RobotTopology topology = fleet::moved(*other.told.topology, other.map_T_theirs);
+    if (other.member != nullptr && silent(other.member->shared, now)) {
+      topology.active = false;
+      topology.velocity.reset();
+    }
+    if (api::in_reach(topology.map_T_base.translation())) {  // else whoever is told would refuse all of them
+      topologies.push_back(api::within_limits(std::move(topology)));
+    }
+  }
+  return topologies;
 }
 
 std::vector<api::Detection> FleetLeader::Finds::all() const {
@@ -150,10 +157,10 @@ Result<api::FleetSightings> FleetLeader::seen(const api::FleetSeen& seen) {
 }
 
 void FleetLeader::hear_seen(Member& member, const api::FleetSeen& seen, WallTime now) {
-  member.floor = floor_of(seen.tiles);
-  member.search.hear(seen.searched, now);
-  if (member.finds.now != seen.detections) {
-    member.finds.now = seen.detections;
+  member.told.floor = floor_of(seen.tiles);
+  member.told.search.hear(seen.searched, now);
+  if (member.told.finds.now != seen.detections) {
+    member.told.finds.now = seen.detections;
     ask_for_record(seen.robot_id, member);
   }
 }
@@ -162,59 +169,37 @@ void FleetLeader::hear_seen(Member& member, const api::FleetSeen& seen, WallTime
 std::vector<std::pair<Pose2, nav::SharedFloor>> FleetLeader::floors_of_others(const std::string& robot_id,
                                                                               const Pose2& main_T_map) const {
   std::vector<std::pair<Pose2, nav::SharedFloor>> floors;
-  const Pose2 map_T_main = inverse(main_T_map);
-  if (own_floor_ && robot_id != params_.robot_id) {
-    floors.emplace_back(map_T_main, own_floor_);
-  }
-  for (const auto& [id, member] : members_) {
-    if (member.state == api::FleetState::kMerged && member.main_T_map && member.floor && id != robot_id) {
-      floors.emplace_back(map_T_main * *member.main_T_map, member.floor);
+  for (const Other& other : others_than(robot_id, main_T_map)) {
+    if (other.told.floor) {
+      floors.emplace_back(other.map_T_theirs, other.told.floor);
     }
   }
   return floors;
 }
 
-/// In the frame of the robot that asks.
 std::vector<api::FleetFinding> FleetLeader::findings_of_others(const std::string& robot_id,
                                                                const Pose2& main_T_map) const {
   std::vector<api::FleetFinding> findings;
-  const Pose2 map_T_main = inverse(main_T_map);
-  const auto add = [&](const std::string& id, std::vector<api::Detection> found, const Pose2& main_T_found) {
-    for (api::Detection& one : carried(std::move(found), map_T_main * main_T_found)) {
-      findings.push_back({id, std::move(one)});
-    }
-  };
-  if (robot_id != params_.robot_id) {
-    add(params_.robot_id, own_finds_.all(), Pose2{});
-  }
-  for (const auto& [id, member] : members_) {
-    if (member.state == api::FleetState::kMerged && member.main_T_map && id != robot_id) {
-      add(id, member.finds.all(), *member.main_T_map);
+  for (const Other& other : others_than(robot_id, main_T_map)) {
+    for (api::Detection& one : carried(other.told.finds.all(), other.map_T_theirs)) {
+      findings.push_back({other.robot_id, std::move(one)});
     }
   }
   return findings;
 }
 
-/// In the frame of the robot that asks. What is old proves nothing any more: things and people move.
+/// What is old proves nothing any more: things and people move.
 std::vector<SearchedFloor> FleetLeader::searched_by_others(const std::string& robot_id, const Pose2& main_T_map,
                                                            WallTime now) const {
   std::vector<SearchedFloor> all;
-  const Pose2 map_T_main = inverse(main_T_map);
-  const auto add = [&](const DatedSearch& search, const Pose2& main_T_theirs) {
+  for (const Other& other : others_than(robot_id, main_T_map)) {
+    const DatedSearch& search = other.told.search;
     if (!search.floor || now - search.changed >= params_.search_age) {
-      return;
+      continue;
     }
-    const Pose2 map_T_grid = map_T_main * main_T_theirs * search.floor->map_T_grid;
+    const Pose2 map_T_grid = other.map_T_theirs * search.floor->map_T_grid;
     if (api::in_reach(map_T_grid.translation())) {
       all.push_back({search.floor->targets, map_T_grid, search.floor->probability});
-    }
-  };
-  if (robot_id != params_.robot_id) {
-    add(own_search_, Pose2{});
-  }
-  for (const auto& [id, member] : members_) {
-    if (member.state == api::FleetState::kMerged && member.main_T_map && id != robot_id) {
-      add(member.search, *member.main_T_map);
     }
   }
   return all;
@@ -225,15 +210,15 @@ bool FleetLeader::take_own_seen(const OwnSeen& own) {
   if (!own.placed || remembers_own_) {
     return false;
   }
-  own_floor_ = floor_of(own.floor);
-  own_search_.hear(own.searched, std::chrono::steady_clock::now());
+  own_told_.floor = floor_of(own.floor);
+  own_told_.search.hear(own.searched, std::chrono::steady_clock::now());
   if (!own.searched) {
-    own_search_ = {};  // its program is this one: it has forgotten nothing, but is in another map
+    own_told_.search = {};  // its program is this one: it has forgotten nothing, but is in another map
   }
-  if (own_finds_.now == own.detections) {
+  if (own_told_.finds.now == own.detections) {
     return false;
   }
-  own_finds_.now = own.detections;
+  own_told_.finds.now = own.detections;
   return true;
 }
 
@@ -275,7 +260,7 @@ void FleetLeader::refresh() {
     const std::lock_guard lock(mutex_);
     if (own) {
       own_map_T_base_ = *own ? std::optional((*own)->map_T_base) : std::nullopt;
-      hear(remembers_own_ ? std::nullopt : *own, own_topology_);
+      hear(remembers_own_ ? std::nullopt : *own, own_told_.topology);
     }
     if (!remembers_own_) {
       others = others_of(params_.robot_id, Pose2{}, std::chrono::steady_clock::now());

@@ -6,11 +6,6 @@
 #include "common/core/assert.hpp"
 
 namespace seeker::app {
-namespace {
-
-constexpr int kSearchedSide_cells = api::kMaxFleetSearchedSide_cells;
-
-}  // namespace
 
 MissionExecutor::MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs)
     : params_(params), factory_(std::move(factory)), outputs_(std::move(outputs)) {}
@@ -308,14 +303,15 @@ void MissionExecutor::collect_detections() {
 }
 
 void MissionExecutor::keep_searched() {
-  if (auto searched = active_->behaviour->searched(active_->pose.translation(), kSearchedSide_cells)) {
+  if (auto searched = active_->behaviour->searched(active_->pose.translation(), api::kMaxFleetSearchedSide_cells)) {
     searched_ = std::move(searched);
     searched_epoch_ = active_->map_epoch;
   }
 }
 
 std::optional<SearchedFloor> MissionExecutor::searched(const PoseEstimate& at) const {
-  auto now = active_ ? active_->behaviour->searched(at.map_T_base.translation(), kSearchedSide_cells) : std::nullopt;
+  auto now = active_ ? active_->behaviour->searched(at.map_T_base.translation(), api::kMaxFleetSearchedSide_cells)
+                     : std::nullopt;
   if (!now && searched_epoch_ == at.map_epoch) {
     return searched_;
   }

@@ -112,9 +112,8 @@ Pose2 Joiner::guess_of(const MapRelation& relation) const {
   std::vector<PairPlace> places;
   places.reserve(relation.pairs.size());
   for (const NodeRelation& pair : relation.pairs) {
-    const Pose2& map_a_T_node_a = find_node(*map_of(relation.slot_a), pair.node_a)->map_T_node;
-    places.push_back({compose({map_a_T_node_a, Matrix3::Zero()}, pair.a_T_b),
-                      find_node(*map_of(relation.slot_b), pair.node_b)->map_T_node});
+    places.push_back(pair_place(pair.a_T_b, find_node(*map_of(relation.slot_a), pair.node_a)->map_T_node,
+                                find_node(*map_of(relation.slot_b), pair.node_b)->map_T_node));
   }
   return fuse(places, {}).a_T_b;  // to begin with; the graph decides
 }

@@ -40,7 +40,7 @@ class Question {
   [[nodiscard]] MergeHypothesis hypothesis_of(std::vector<NodeRelation> pairs);
   [[nodiscard]] std::vector<PairPlace> places_of(const std::vector<NodeRelation>& pairs) const;
   /// What the nodes of b find in a when the pairs are believed.
-  [[nodiscard]] MapOverlap overlap_by(const std::vector<PairPlace>& places, const UncertainPose& a_T_b);
+  [[nodiscard]] MapOverlap overlap_by(const std::vector<PairPlace>& places, const Pose2& a_T_b);
   [[nodiscard]] const PreparedNode& node_a(const NodeRelation& pair) const {
     return a_.nodes()[index_a_.at(pair.node_a)];
   }
@@ -129,13 +129,12 @@ std::vector<PairPlace> Question::places_of(const std::vector<NodeRelation>& pair
   std::vector<PairPlace> places;
   places.reserve(pairs.size());
   for (const NodeRelation& pair : pairs) {
-    const UncertainPose map_a_T_node = compose({node_a(pair).map_T_node, Matrix3::Zero()}, pair.a_T_b);
-    places.push_back({map_a_T_node, node_b(pair).map_T_node});
+    places.push_back(pair_place(pair.a_T_b, node_a(pair).map_T_node, node_b(pair).map_T_node));
   }
   return places;
 }
 
-MapOverlap Question::overlap_by(const std::vector<PairPlace>& places, const UncertainPose& a_T_b) {
+MapOverlap Question::overlap_by(const std::vector<PairPlace>& places, const Pose2& a_T_b) {
   const auto place_of = [&](std::size_t node) {
     return carried(places, a_T_b, b_.nodes()[node].map_T_node, params_.bend);
   };
@@ -146,14 +145,14 @@ MergeHypothesis Question::hypothesis_of(std::vector<NodeRelation> pairs) {
   MergeHypothesis made;
   const std::vector<PairPlace> places = places_of(pairs);
   made.a_T_b = fuse(places, params_.bend);
-  const MapOverlap there = overlap_by(places, made.a_T_b);
+  const MapOverlap there = overlap_by(places, made.a_T_b.a_T_b);
   std::vector<NodeRelation> back;
   back.reserve(pairs.size());
   for (const NodeRelation& pair : pairs) {
     back.push_back(reversed(pair));
   }
   Question other(b_, a_, params_);
-  const MapOverlap here = other.overlap_by(other.places_of(back), invert(made.a_T_b));
+  const MapOverlap here = other.overlap_by(other.places_of(back), inverse(made.a_T_b.a_T_b));
   for (const NodeRelation& pair : pairs) {
     made.shared_middle_b += node_b(pair).map_T_node * node_b(pair).middle / static_cast<double>(pairs.size());
   }

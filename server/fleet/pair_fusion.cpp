@@ -38,6 +38,10 @@ Normal normal_at(const Pose2& map_a_T_map_b, const std::vector<PairPlace>& pairs
 
 }  // namespace
 
+PairPlace pair_place(const UncertainPose& node_a_T_node_b, const Pose2& map_a_T_node_a, const Pose2& map_b_T_node_b) {
+  return {compose({map_a_T_node_a, Matrix3::Zero()}, node_a_T_node_b), map_b_T_node_b};
+}
+
 UncertainPose fuse(const std::vector<PairPlace>& pairs, const BendParams& params) {
   SEEKER_ASSERT(!pairs.empty());
   constexpr int kMaxSteps = 20;
@@ -57,13 +61,13 @@ UncertainPose fuse(const std::vector<PairPlace>& pairs, const BendParams& params
   return {a_T_b, slam::information_of(normal_at(a_T_b, pairs, params).information)};
 }
 
-Pose2 carried(const std::vector<PairPlace>& pairs, const UncertainPose& whole, const Pose2& map_b_T_node,
+Pose2 carried(const std::vector<PairPlace>& pairs, const Pose2& whole, const Pose2& map_b_T_node,
               const BendParams& params) {
   SEEKER_ASSERT(!pairs.empty());
   const auto nearest = std::min_element(pairs.begin(), pairs.end(), [&](const PairPlace& p, const PairPlace& q) {
     return distance_m(p.map_b_T_node, map_b_T_node) < distance_m(q.map_b_T_node, map_b_T_node);
   });
-  const Pose2 rigid = whole.a_T_b * map_b_T_node;
+  const Pose2 rigid = whole * map_b_T_node;
   const Pose2 pair_T_node = inverse(nearest->map_b_T_node) * map_b_T_node;
   const Matrix3 no_error = Matrix3::Zero();
   const UncertainPose own = compose(nearest->map_a_T_node, {pair_T_node, no_error});

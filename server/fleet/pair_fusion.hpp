@@ -15,6 +15,10 @@ struct PairPlace {
   Pose2 map_b_T_node;          ///< in b's own map
 };
 
+/// The place of a pair from what it says of its two local maps, and where those lie in the maps of their robots.
+[[nodiscard]] PairPlace pair_place(const UncertainPose& node_a_T_node_b, const Pose2& map_a_T_node_a,
+                                   const Pose2& map_b_T_node_b);
+
 /// How far maps may be bent beside what their covariances say.
 struct BendParams {
   double sigma_m = 0.05;       ///< between two local maps near each other,
@@ -30,7 +34,7 @@ struct BendParams {
 
 /// Where a local map of b lies in map a: where the rigid `whole` puts it, corrected by the pair nearest to it as far as
 /// that one knows better (maps bend).
-[[nodiscard]] Pose2 carried(const std::vector<PairPlace>& pairs, const UncertainPose& whole, const Pose2& map_b_T_node,
+[[nodiscard]] Pose2 carried(const std::vector<PairPlace>& pairs, const Pose2& whole, const Pose2& map_b_T_node,
                             const BendParams& params);
 
 }  // namespace seeker::fleet

@@ -79,12 +79,11 @@ TEST(PairFusion, ALocalMapIsCarriedByTheNearestPairWhereThatKnowsBetter) {
   const std::vector<PairPlace> sure{pair_at({0.0, 0.0, 0.0}, sigmas(0.03, 0.03, 0.01)),
                                     pair_at({20.0, 0.0, 0.0}, sigmas(0.03, 0.03, 0.01), bend)};
   const Pose2 far = pair_at({20.0, 0.0, 0.0}, Matrix3::Zero(), bend).map_a_T_node.a_T_b;
-  EXPECT_THAT(carried(sure, {kTruth, Matrix3::Zero()}, {20.0, 0.0, 0.0}, {}), Pose2Near(far, 0.02, 0.01));
-  EXPECT_THAT(carried(sure, {kTruth, Matrix3::Zero()}, {0.0, 0.0, 0.0}, {}), Pose2Near(kTruth, 0.01, 0.01));
+  EXPECT_THAT(carried(sure, kTruth, {20.0, 0.0, 0.0}, {}), Pose2Near(far, 0.02, 0.01));
+  EXPECT_THAT(carried(sure, kTruth, {0.0, 0.0, 0.0}, {}), Pose2Near(kTruth, 0.01, 0.01));
   // The same from a bare corridor moves nothing.
   const std::vector<PairPlace> unsure{pair_at({20.0, 0.0, 0.0}, sigmas(0.03, 10.0, 0.01), {0.0, 5.0, 0.0})};
-  EXPECT_THAT(carried(unsure, {kTruth, Matrix3::Zero()}, {20.0, 0.0, 0.0}, {}),
-              Pose2Near(kTruth * Pose2{20.0, 0.0, 0.0}, 0.03, 0.01));
+  EXPECT_THAT(carried(unsure, kTruth, {20.0, 0.0, 0.0}, {}), Pose2Near(kTruth * Pose2{20.0, 0.0, 0.0}, 0.03, 0.01));
 }
 
 }  // namespace
