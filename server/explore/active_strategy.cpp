@@ -24,6 +24,11 @@ ActiveStrategy::ActiveStrategy(const ExploreParams& params)
 
 StrategyStep ActiveStrategy::step(const StrategyInput& input) {
   StrategyStep out;
+  if (looks_first(input.now)) {
+    out.phase = kExplorePhase;
+    out.activity = "looking at the walls around the start";
+    return out;
+  }
   if (mode_ == Mode::kPath) {
     follow_path(input, out);
   } else if (mode_ != Mode::kDone && hold_.ready(input)) {
@@ -44,6 +49,11 @@ StrategyStep ActiveStrategy::step(const StrategyInput& input) {
   }
   out.activity = why_;
   return out;
+}
+
+bool ActiveStrategy::looks_first(RobotTime now) {
+  began_ = began_.value_or(now);
+  return to_seconds(now - *began_) < params_.one_step.first_look_s;
 }
 
 std::vector<MapSegment> ActiveStrategy::believed(const std::vector<MapSegment>& segments) const {

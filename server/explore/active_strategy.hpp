@@ -25,6 +25,8 @@ class ActiveStrategy final : public ExploreStrategy {
  private:
   enum class Mode : std::uint8_t { kExplore, kWall, kPath, kDone };
 
+  /// True while the robot still stands where it began.
+  [[nodiscard]] bool looks_first(RobotTime now);
   void decide(const StrategyInput& input, StrategyStep& out);
   void explore(const StrategyInput& input, const MapSize& size, StrategyStep& out);
   void begin_wall(const StrategyInput& input, const MapSize& size, StrategyStep& out);
@@ -40,6 +42,7 @@ class ActiveStrategy final : public ExploreStrategy {
   TrapWatch watch_;
   WallFollower follower_;
   PlaceStrategy path_;
+  std::optional<RobotTime> began_;
   Mode mode_ = Mode::kExplore;
   std::string why_;
   std::vector<Point2> closed_map_;  ///< ends that led nowhere

@@ -27,10 +27,13 @@ struct OneStepParams {
   double observation_period_s = 4.0;  ///< a control is held so long
   bool stop_and_go = true;            ///< stand while observing, as in the paper; false: decide while driving
   double settle_s = 0.3;              ///< of stop_and_go: standing before the decision
-  double weight_certainty = 1.0;      ///< omega_1
-  double weight_extension = 0.5;      ///< omega_21
-  double weight_ends = 0.5;           ///< omega_22
-  double log_floor = 1e-3;            ///< lg max(J, this)
+  /// Standing before the first decision: nowhere is the pose known better than at the start, and the walls seen from
+  /// there give the whole map its direction.
+  double first_look_s = 5.0;
+  double weight_certainty = 1.0;  ///< omega_1
+  double weight_extension = 0.5;  ///< omega_21
+  double weight_ends = 0.5;       ///< omega_22
+  double log_floor = 1e-3;        ///< lg max(J, this)
   double swept_radius_m = 0.30;
   double corner_gap_m = 0.3;  ///< virtual ends so near to a crossing will meet there
   int trap_decisions = 3;     ///< in a row without anything to gain: a local trap

@@ -19,6 +19,7 @@ void describe(config::Fields& f, OneStepParams& params) {
   f.field("observation_period_s", params.observation_period_s);
   f.field("stop_and_go", params.stop_and_go);
   f.field("settle_s", params.settle_s);
+  f.field("first_look_s", params.first_look_s);
   f.field("weight_certainty", params.weight_certainty);
   f.field("weight_extension", params.weight_extension);
   f.field("weight_ends", params.weight_ends);

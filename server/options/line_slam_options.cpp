@@ -13,6 +13,8 @@ void describe(config::Fields& f, PointNetParams& params) {
   f.section("match", params.match);
   f.section("cloud", params.cloud);
   f.field("match_points", params.match_points);
+  f.field("leftover_m", params.leftover_m);
+  f.angle_deg("leftover_deg", params.leftover_rad);
   f.field("good_ratio", params.good_ratio);
   f.field("accept_ratio", params.accept_ratio);
   f.field("gap_m", params.gap_m);
@@ -91,6 +93,9 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.angle_deg("min_turn_deg", params.min_turn_rad);
   f.field("still_range_m", params.still_range_m);
   f.field("still_share", params.still_share);
+  f.field("stand_scans", params.stand_scans);
+  f.field("stand_m", params.stand_m);
+  f.angle_deg("stand_deg", params.stand_rad);
   f.field("max_odometry_scale", params.odometry_scale.max);
   f.field("odometry_scale_up", params.odometry_scale.up);
   f.field("odometry_scale_down", params.odometry_scale.down);

@@ -84,7 +84,10 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   cause_ = "no odometry yet";
   failures_ = 0;
   repeats_ = 0;
+  stood_ = 0;
   way_since_loops_m_ = 0.0;
+  way_since_leftover_m_ = 0.0;
+  turn_since_leftover_rad_ = 0.0;
   ++revision_;
   counts_ = {};
 }
@@ -136,42 +139,6 @@ PoseEstimate LineSlam::estimate() const {
   return estimate;
 }
 
-Status LineSlam::check_repeats(const LaserScan& scan) {
-  if (last_scan_ && scan.stamp <= *last_scan_) {
-    return fail(Errc::kInvalidArgument, "the scan is not newer than the last one; the laser's driver repeats itself");
-  }
-  last_scan_ = scan.stamp;
-  const Pose2& increment = travelled_.estimate().map_T_base;
-  const bool driving = moved({}, increment, params_.min_move_m, params_.min_turn_rad);
-  repeats_ = scan.ranges_m == newest_ranges_ && driving ? repeats_ + 1 : 0;
-  newest_ranges_ = scan.ranges_m;
-  if (repeats_ >= params_.repeats_fault) {
-    quality_ = LocalisationQuality::kDegraded;
-    cause_ = "the laser repeats one scan while the robot moves";
-    return fail(Errc::kInvalidArgument,
-                "the laser repeats one scan while the robot moves; restart it. The pose goes on by odometry");
-  }
-  return {};
-}
-
-bool LineSlam::stands_still(const LaserScan& scan) const {
-  const bool healthy = failures_ == 0 && quality_ == LocalisationQuality::kLocalised && !cloud_.empty();
-  if (!healthy || moved({}, travelled_.estimate().map_T_base, params_.min_move_m, params_.min_turn_rad)) {
-    return false;
-  }
-  // Wheels may say nothing while the robot is pushed or slips: the view must be the same too.
-  if (scan.ranges_m.size() != used_ranges_.size()) {
-    return false;
-  }
-  std::size_t changed = 0;
-  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
-    const bool same = scan.ranges_m[beam] == used_ranges_[beam] ||
-                      std::abs(scan.ranges_m[beam] - used_ranges_[beam]) <= static_cast<float>(params_.still_range_m);
-    changed += same ? 0 : 1;
-  }
-  return static_cast<double>(changed) <= params_.still_share * static_cast<double>(scan.ranges_m.size());
-}
-
 Status LineSlam::update(const LaserScan& scan) {
   if (Status valid = validate(scan); !valid) {
     return valid;
@@ -184,14 +151,18 @@ Status LineSlam::update(const LaserScan& scan) {
   const Pose2& increment = travelled.map_T_base;
   if (stands_still(scan)) {
     ++counts_.still;
+    look_again(scan);
     return {};
   }
+  stood_ = 0;
   used_ranges_ = scan.ranges_m;
   lines_->predict(increment, odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment)));
   travelled_.correct({}, Matrix3::Zero());
   const double way_m = std::hypot(increment.x_m, increment.y_m);
   way_m_ += way_m;
   way_since_loops_m_ += way_m;
+  way_since_leftover_m_ += way_m;
+  turn_since_leftover_rad_ += std::abs(increment.theta_rad);
 
   Scan step{
       .scan = scan, .found = {}, .observations = {}, .all_points = {}, .points = {}, .predicted = lines_->robot()};
@@ -321,7 +292,11 @@ void LineSlam::correct(Scan& scan, const MatchResult& match) {
   const SpUpdateReport report = lines_->update(scan.observations, association);
   counts_.paired += static_cast<std::uint64_t>(report.paired);
   ++revision_;
-  if (!points_first && params_.points.use == PointUse::kLeftover) {
+  const bool farther =
+      way_since_leftover_m_ >= params_.points.leftover_m || turn_since_leftover_rad_ >= params_.points.leftover_rad;
+  if (!points_first && farther && params_.points.use == PointUse::kLeftover) {
+    way_since_leftover_m_ = 0.0;
+    turn_since_leftover_rad_ = 0.0;
     use_leftover(scan, association);
   }
   lines_->observe_free_space(scan.scan);

@@ -17,7 +17,8 @@ namespace seeker::slam {
 /// Sums over all scans, for reports.
 struct LineSlamCounts {
   std::uint64_t scans = 0;
-  std::uint64_t still = 0;     ///< not used: the robot had not moved
+  std::uint64_t still = 0;     ///< the robot had not moved: not used,
+  std::uint64_t stood = 0;     ///< but for the lines of these
   std::uint64_t lines = 0;     ///< observations
   std::uint64_t paired = 0;    ///< with a segment
   std::uint64_t searched = 0;  ///< scans after a gap or a poor match
@@ -58,6 +59,8 @@ class LineSlam final : public MapTracker {
   void begin(const Pose2& map_T_base, RobotTime stamp);
   [[nodiscard]] Status check_repeats(const LaserScan& scan);
   [[nodiscard]] bool stands_still(const LaserScan& scan) const;
+  /// One more scan of a stand.
+  void look_again(const LaserScan& scan);
   void learn_odometry(const MatchResult& match, const Matrix3& covariance);
   void follow(Scan& scan);
   [[nodiscard]] MatchResult match_points(Scan& scan);
@@ -95,10 +98,14 @@ class LineSlam final : public MapTracker {
   std::optional<RobotTime> last_scan_;
   std::vector<float> newest_ranges_;  ///< of the last scan,
   std::vector<float> used_ranges_;    ///< and of the last that was not taken for one more of the same
-  int repeats_ = 0;
+  int stood_ = 0;                     ///< scans of this stand that were used
+  bool repeated_ = false;             ///< the last scan was that before it once more, noise and all
+  int repeats_ = 0;                   ///< so often while the robot drove
   int failures_ = 0;
   double way_m_ = 0.0;  ///< driven in the newest local map
   double way_since_loops_m_ = 0.0;
+  double way_since_leftover_m_ = 0.0;     ///< driven since points on no line were used,
+  double turn_since_leftover_rad_ = 0.0;  ///< and turned
   std::uint64_t revision_ = 0;
   std::uint64_t next_id_ = 1;
   // Looking for the robot in a map; place_ is there only meanwhile.

@@ -28,9 +28,12 @@ struct PointNetParams {
   MatchParams match;
   LocalCloudParams cloud;
   std::size_t match_points = 180;  ///< points of a scan that are matched
-  double good_ratio = 0.5;         ///< inlier ratio that needs no second look
-  double accept_ratio = 0.25;      ///< below it the match is not believed
-  double gap_m = 0.3;              ///< way since the last scan beyond which a poor match is searched for
+  /// Points on no line correct the pose once in so much way or turn: matches from one place err alike.
+  double leftover_m = 0.05;
+  double leftover_rad = 0.1;
+  double good_ratio = 0.5;     ///< inlier ratio that needs no second look
+  double accept_ratio = 0.25;  ///< below it the match is not believed
+  double gap_m = 0.3;          ///< way since the last scan beyond which a poor match is searched for
   double gap_rad = 0.2;
   double new_space_ratio = 0.5;   ///< fewer points than this near known ones: unseen space, not a contradiction
   double max_correction_m = 1.2;  ///< a match farther from the prediction is not believed
@@ -114,6 +117,11 @@ struct LineSlamParams {
   double min_turn_rad = 0.01;
   double still_range_m = 0.04;  ///< ... unless more than this share of its ranges changed by more than this
   double still_share = 0.15;
+  /// So many scans of a stand still correct the lines, since their noise is new each time. Where walls end lies between
+  /// the same beams again, and is not taken from them.
+  int stand_scans = 30;
+  double stand_m = 0.001;  ///< wheels that say less than this stand
+  double stand_rad = 0.0005;
   int lost_after = 10;    ///< consecutive scans without a believed match
   int repeats_fault = 3;  ///< so many equal scans while the robot moves: the laser repeats itself
 };

@@ -64,7 +64,7 @@ struct SpMapParams {
   double sigma_floor_rad = 1e-4;
   /// On the standard deviation of an end: where between two beams a wall ends stays the same while the robot hardly
   /// moves, so that consecutive sightings err alike.
-  double end_inflation = 2.0;
+  double end_inflation = 3.0;
   /// Random walk of a segment per update: keeps the covariance positive definite however long the robot looks.
   double drift_sigma_m = 1e-5;
   double drift_sigma_rad = 1e-5;

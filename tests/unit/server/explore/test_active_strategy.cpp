@@ -44,7 +44,7 @@ TEST(ActiveStrategy, MapsTwoRoomsThroughTheirDoor) {
 }
 
 TEST(ActiveStrategy, TellsEveryControlWithItsTermsAndChoosesTheBest) {
-  const ToyRun run = run_in_two_rooms({}, Strategy::kActive, 10.0);
+  const ToyRun run = run_in_two_rooms({}, Strategy::kActive, 15.0);
   ASSERT_FALSE(run.decisions.empty());
   const ExploreDecision& first = run.decisions.front();
   EXPECT_EQ(first.number, 1U);
@@ -55,6 +55,15 @@ TEST(ActiveStrategy, TellsEveryControlWithItsTermsAndChoosesTheBest) {
     EXPECT_TRUE(!candidate.refused.empty() || candidate.score <= first.candidates[*first.chosen].score);
     EXPECT_TRUE(std::isfinite(candidate.score));
   }
+}
+
+TEST(ActiveStrategy, LooksAtTheWallsBeforeItFirstMoves) {
+  ExploreParams params;
+  params.one_step.first_look_s = 8.0;
+  const ToyRun looking = run_in_two_rooms(params, Strategy::kActive, 7.0);
+  EXPECT_TRUE(looking.decisions.empty());
+  const ToyRun run = run_in_two_rooms(params, Strategy::kActive, 15.0);
+  EXPECT_FALSE(run.decisions.empty()) << "but not for ever";
 }
 
 TEST(ActiveStrategy, EndsAsThePaperHasItWithoutPaths) {
@@ -83,7 +92,7 @@ TEST(ActiveStrategy, InAHallItDrivesStraightUntilItSeesAWall) {
   request.strategy = maker_of(Strategy::kActive);
   auto exploration = Exploration::create(request, {});
   ASSERT_TRUE(exploration);
-  const ToyRun run = robot.run(*exploration, 50.0);
+  const ToyRun run = robot.run(*exploration, 55.0);
   EXPECT_LT(run.pose.x_m, 6.0) << "the wall is at -4 m and the laser sees 8 m";
   EXPECT_NEAR(run.pose.y_m, 0.0, 0.5);
   EXPECT_GT(run.segments, 0U);

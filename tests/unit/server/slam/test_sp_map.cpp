@@ -74,8 +74,9 @@ TEST(SpMap, MakesAnEndRealWhenItWasSeenTwice) {
   EXPECT_FALSE(segment.real[lines::kLeft]);
   const SegmentCovariance covariance = map.segment_covariance(segment.id);
   ASSERT_EQ(covariance.rows(), 3);
-  // Sensor (0.02 m, doubled) and robot: the start's 0.01 m, and its heading over the wall's distance of 2 m.
-  EXPECT_NEAR(std::sqrt(covariance(2, 2)), std::sqrt(0.04 * 0.04 + 1e-4 + 4e-4), 2e-3);
+  // Sensor (0.02 m, inflated) and robot: the start's 0.01 m, and its heading over the wall's distance of 2 m.
+  EXPECT_NEAR(std::sqrt(covariance(2, 2)), std::sqrt(std::pow(0.02 * SpMapParams{}.end_inflation, 2) + 1e-4 + 4e-4),
+              2e-3);
   const double before = covariance(2, 2);
   EXPECT_EQ(feed(map, {part(-1.0, 1.0, {false, true})}).ends, 1);
   EXPECT_LT(map.segment_covariance(segment.id)(2, 2), before);
@@ -125,7 +126,7 @@ TEST(SpMap, TakesTheRealEndOfThePieceThatGoes) {
   ASSERT_EQ(map.segments().size(), 1U);
   EXPECT_TRUE(map.segments()[0].real[lines::kRight]);
   EXPECT_EQ(map.segment_covariance(1).rows(), 3);
-  EXPECT_NEAR(std::sqrt(map.segment_covariance(1)(2, 2)), 0.045, 0.01);
+  EXPECT_NEAR(std::sqrt(map.segment_covariance(1)(2, 2)), std::hypot(0.02 * params.end_inflation, 0.02), 0.01);
 }
 
 TEST(SpMap, NeverUsesAnIdTwice) {

@@ -1,0 +1,94 @@
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "ring_trip.hpp"
+#include "rooms.hpp"
+#include "server/slam/line_slam.hpp"
+
+namespace seeker::slam {
+namespace {
+
+/// A robot in a corner of the ring that has looked once and turned to and fro.
+struct Stand {
+  Stand() : trip(11), slam({}, trip.truth()) {
+    EXPECT_TRUE(trip.feed(slam));
+    trip.move({0.0, 0.0, 0.05});
+    EXPECT_TRUE(trip.feed(slam));
+  }
+
+  /// Of the direction of the wall that was seen first.
+  [[nodiscard]] double sigma_rad() const {
+    return std::sqrt(slam.local_map().segment_covariance(slam.local_map().segments().front().id)(1, 1));
+  }
+  /// Another scan without any motion; `frozen`: the very same one.
+  void look(std::optional<LaserScan> frozen = std::nullopt) {
+    time_s += Trip::kTick_s;
+    LaserScan scan = frozen ? *std::move(frozen) : trip.scan();
+    scan.stamp = trip.time() + seconds(time_s);
+    ASSERT_TRUE(slam.predict(trip.odom(), scan.stamp));
+    ASSERT_TRUE(slam.update(scan));
+  }
+
+  Trip trip;
+  LineSlam slam;
+  double time_s = 0.0;
+};
+
+TEST(LineSlamStanding, AStandMakesTheDirectionsOfWallsBetterForAWhile) {
+  Stand stand;
+  const int limit = LineSlamParams{}.stand_scans;
+  const double before_rad = stand.sigma_rad();
+  for (int k = 0; k < limit; ++k) {
+    ASSERT_NO_FATAL_FAILURE(stand.look());
+  }
+  const double after_rad = stand.sigma_rad();
+  EXPECT_LT(after_rad, 0.5 * before_rad) << "thirty scans tell more than two";
+  EXPECT_EQ(stand.slam.counts().stood, static_cast<std::uint64_t>(limit));
+  for (int k = 0; k < limit; ++k) {
+    ASSERT_NO_FATAL_FAILURE(stand.look());
+  }
+  EXPECT_EQ(stand.sigma_rad(), after_rad) << "what does not change is no noise: it must not be averaged for ever";
+}
+
+TEST(LineSlamStanding, AScanThatIsRepeatedTellsAStandingRobotNothing) {
+  Stand stand;
+  const LaserScan frozen = stand.trip.scan();
+  ASSERT_NO_FATAL_FAILURE(stand.look(frozen));
+  const double before_rad = stand.sigma_rad();
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_NO_FATAL_FAILURE(stand.look(frozen));
+  }
+  EXPECT_EQ(stand.sigma_rad(), before_rad);
+}
+
+/// Along a corridor in which only posts too small for lines tell how far the robot came, and a turn to and fro there.
+double variance_along_a_corridor_m2(const PointNetParams& points) {
+  std::vector<Wall> walls{{{-50.0, 0.0}, {50.0, 0.0}}, {{50.0, 2.0}, {-50.0, 2.0}}};
+  for (const auto& post : {box(3.0, 0.0, 3.12, 0.12), box(4.5, 1.88, 4.62, 2.0), box(6.0, 0.0, 6.12, 0.12)}) {
+    walls.insert(walls.end(), post.begin(), post.end());
+  }
+  LineSlamParams params;
+  params.points = points;
+  Rng rng(9);
+  LineSlam slam(params, {0.0, 1.0, 0.0});
+  Pose2 odom;
+  for (int k = 0; k < 80; ++k) {
+    EXPECT_TRUE(slam.predict(odom, robot_time_s(0.1 * k)));
+    (void)slam.update(scan_at(walls, Pose2{0.0, 1.0, 0.0} * odom, 0.1 * k, rng, kPi, 8.0));
+    odom = odom * (k < 30 ? Pose2{0.06, 0.0, 0.0} : Pose2{0.0, 0.0, k % 2 == 0 ? 0.03 : -0.03});
+  }
+  return slam.estimate().covariance(0, 0);
+}
+
+TEST(LineSlamStanding, MatchesFromOnePlaceAreNotCountedAsManyMeasurements) {
+  PointNetParams always;
+  always.leftover_m = 0.0;
+  always.leftover_rad = 0.0;
+  EXPECT_GT(variance_along_a_corridor_m2({}), 1.2 * variance_along_a_corridor_m2(always));
+}
+
+}  // namespace
+}  // namespace seeker::slam
