@@ -18,8 +18,6 @@ struct Case {
   MakeTracker (*tracker)();
   const char* file;
 };
-constexpr double kEndInflation = 2.0;
-
 const std::array<Case, 3> kCases = {Case{"odometry", 1.0, &sp_tracker, "r2.csv"},
                                     Case{"odometry-doubled", 2.0, &sp_tracker, "r2-double.csv"},
                                     Case{"local-maps", 1.0, &local_maps_tracker, "r2-local-maps.csv"}};
@@ -51,8 +49,10 @@ MakeTracker local_maps_tracker() {
     params.odometry_scale.max = 1.0;
     // Walls of the simulator are straight and its scanner is level: what real ones add would hide the filter's own.
     params.observation = {};
-    // This robot does not creep either: sightings of the end of a wall hardly ever fall between the same two beams.
-    params.lines.end_inflation = kEndInflation;
+    // The product's own value is for robots that creep at 0.15 m/s past the end of a wall. This tour is driven at 0.5
+    // m/s; with that value it has 12 of 14 inside (docs/results.md).
+    constexpr double kQuickEndInflation = 2.0;
+    params.lines.end_inflation = kQuickEndInflation;
     params.local.joint_sigma_m = 0.0;
     params.local.joint_sigma_rad = 0.0;
     params.points.use = slam::PointUse::kNone;
