@@ -70,18 +70,32 @@ struct Shown {
   }
 };
 
-void count(const slam::PlaceMap& place, const PreparedNode& node, const Pose2& region_T_node,
-           const OverlapParams& params, Tally& tally) {
+/// Surroundings of a node in one of the two maps.
+struct Around {
+  std::shared_ptr<const slam::PlaceMap> place;
+  Pose2 place_T_node;
+};
+
+Around around(PreparedMap& map, std::size_t region, const Pose2& map_T_node) {
+  return {map.place(region), inverse(map.nodes()[map.regions()[region].node].map_T_node) * map_T_node};
+}
+
+/// A node of b in the map of a, and in its own.
+void count(const Around& in_a, const Around& in_b, const PreparedNode& node, const OverlapParams& params,
+           Tally& tally) {
+  const slam::PlaceMap& place = *in_a.place;
   const Shown shown(node, params.cell_m);
-  const Pose2 pose = settled(place, shown.points, region_T_node * shown.node_T_base, params);
+  const Pose2 pose = settled(place, shown.points, in_a.place_T_node * shown.node_T_base, params);
+  const Pose2 own_T_base = in_b.place_T_node * shown.node_T_base;
   const Pose2 map_T_base = node.map_T_node * shown.node_T_base;
   std::size_t shared = 0;
   std::size_t denied = 0;
   for (const slam::OrientedPoint& point_base : shown.points) {
     const slam::OrientedPoint point = slam::transform(pose, point_base);
     const slam::OrientedPoint* partner = partner_of(place, point, params);
-    if (partner == nullptr && !place.free_space().is_free(point.p)) {
-      continue;
+    if (partner == nullptr &&
+        (!place.free_space().is_free(point.p) || in_b.place->free_space().is_passed(own_T_base * point_base.p))) {
+      continue;  // nobody looked, or what b saw was no wall: b has looked through it as well
     }
     const slam::OrientedPoint own = slam::transform(map_T_base, point_base);
     auto& entry = tally.cells.try_emplace(key_of(own, params.cell_m), Say::kDenied, own.normal).first->second;
@@ -163,17 +177,17 @@ MapOverlap summary_of(const Tally& tally, const OverlapParams& params) {
 
 }  // namespace
 
-MapOverlap overlap_of(PreparedMap& a, const PreparedMap& b, const std::function<Pose2(std::size_t)>& map_a_T_node,
+MapOverlap overlap_of(PreparedMap& a, PreparedMap& b, const std::function<Pose2(std::size_t)>& map_a_T_node,
                       const OverlapParams& params) {
   Tally tally;
   for (std::size_t k = 0; k < b.nodes().size(); ++k) {
     const PreparedNode& node = b.nodes()[k];
     const Pose2 pose = map_a_T_node(k);
     const std::optional<std::size_t> region = a.region_at(pose * node.middle);
-    const std::shared_ptr<const slam::PlaceMap> place = region ? a.place(*region) : nullptr;
-    if (place) {
-      const Pose2& map_T_region = a.nodes()[a.regions()[*region].node].map_T_node;
-      count(*place, node, inverse(map_T_region) * pose, params, tally);
+    const Around in_a = region ? around(a, *region, pose) : Around{};
+    const Around in_b = in_a.place ? around(b, node.region, node.map_T_node) : Around{};
+    if (in_b.place) {
+      count(in_a, in_b, node, params, tally);
     }
   }
   return summary_of(tally, params);

@@ -25,7 +25,9 @@ struct OverlapParams {
 struct MapOverlap {
   double shared_wall_m = 0.0;  ///< that both have seen
   double weak_wall_m = 0.0;    ///< of it, what tells the place along the direction told worst: little in a corridor
-  double contradiction = 0.0;  ///< 0 to 1: walls where the other looked through, and beams through its walls
+  /// 0 to 1: walls where the other looked through, and beams through its walls. What b itself has looked through is no
+  /// wall of b: robots and people that stood there for a while.
+  double contradiction = 0.0;
   /// The longest piece of wall of b that a has looked through, counted by cells of OverlapParams::cell_m.
   double denied_piece_m = 0.0;
   double residual_m = 0.0;  ///< root mean square distance of the shared walls
@@ -34,7 +36,7 @@ struct MapOverlap {
 
 /// What the nodes of b find in a. `map_a_T_node`: pose of a node of b, by index, in the frame `map` of a. The other
 /// direction is another question: a may deny what b has seen and not the reverse.
-[[nodiscard]] MapOverlap overlap_of(PreparedMap& a, const PreparedMap& b,
+[[nodiscard]] MapOverlap overlap_of(PreparedMap& a, PreparedMap& b,
                                     const std::function<Pose2(std::size_t)>& map_a_T_node,
                                     const OverlapParams& params = {});
 

@@ -34,7 +34,7 @@ void TopologicalStrategy::go(const Input& input, const Scene& scene, PendingGoal
   why_ = "back along the nodes to the goal at " + text(goal_->p_map);
   state_ = State::kWay;
   if (!driver_.start(input, next_map)) {
-    failed(input, driver_.reason());
+    failed(input, &scene, driver_.reason());
   }
 }
 
@@ -43,12 +43,12 @@ void TopologicalStrategy::go_to_goal(const Input& input, const Scene& scene) {
   why_ = "driving to the goal at " + text(goal_->p_map);
   const auto aim_map = nearest_now(input, scene);
   if (!aim_map) {
-    failed(input, "the map leads nowhere near it");
+    failed(input, &scene, "the map leads nowhere near it");
     return;
   }
   aim_map_ = *aim_map;
   if (!driver_.start(input, aim_map_)) {
-    failed(input, driver_.reason());
+    failed(input, &scene, driver_.reason());
   }
 }
 
@@ -102,7 +102,7 @@ void TopologicalStrategy::drive(const Input& input, Step& out) {
       }
       return;
     case nav::DriveState::kFailed:
-    case nav::DriveState::kIdle: failed(input, driven.reason); return;
+    case nav::DriveState::kIdle: failed(input, scene ? &*scene : nullptr, driven.reason); return;
   }
 }
 
@@ -174,14 +174,10 @@ void TopologicalStrategy::arrived(const Input& input, const Scene& scene, Step& 
   }
   if (!settle_goal(scene)) {  // as near as the map leads
     if (short_of_goal && is_nearer(nearest_on_line(input, scene.floor->cost))) {
-      failed(input, "another robot stands in the way");
+      failed(input, &scene, "another robot stands in the way");
       return;
     }
-    if (goal_->robot) {
-      done_map_.push_back(goal_->p_map);
-    } else {
-      map_.close(goal_->id);
-    }
+    drop_goal();
   }
   change("at the goal", out);
 }
@@ -200,10 +196,24 @@ bool TopologicalStrategy::goal_settled(const Scene& scene) const {
   if (!goal_->robot) {
     return !map_.has(goal_->id);
   }
-  return std::any_of(map_.topology().nodes.begin(), map_.topology().nodes.end(), [&](const TopologyNode& node) {
-    return distance_to(node.map_T_base, goal_->p_map) < topological_.map.node_distance_m &&
-           joined(node, goal_->p_map, scene.corridors);
+  return map_.has_node_near(goal_->p_map, {}, scene.corridors);
+}
+
+/// A robot that waits at a place keeps others from it for as long as it waits, and explores what it sees there.
+bool TopologicalStrategy::another_is_at(const Point2& p_map, const Scene& scene) const {
+  return std::any_of(scene.fleet.others.begin(), scene.fleet.others.end(), [&](const RobotTopology& other) {
+    return other.active && distance_to(other.map_T_base, p_map) < topological_.map.node_distance_m &&
+           scene.corridors.free(other.map_T_base.translation(), p_map);
   });
+}
+
+/// Nobody need go there any more.
+void TopologicalStrategy::drop_goal() {
+  if (goal_->robot) {
+    done_map_.push_back(goal_->p_map);
+  } else {
+    map_.close(goal_->id);
+  }
 }
 
 }  // namespace seeker::fleet

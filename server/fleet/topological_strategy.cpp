@@ -83,11 +83,7 @@ explore::StrategyStep TopologicalStrategy::step(const Input& input) {
     out.phase = "wait";
   } else if (state_ == State::kDone) {
     out.done = true;
-    for (const Failure& failure : failures_) {
-      if (failure.count >= topological_.max_failures) {
-        out.unreachable.push_back(failure.p_map);
-      }
-    }
+    out.unreachable = given_up(input);
   }
   return out;
 }
@@ -131,7 +127,10 @@ void TopologicalStrategy::choose(const Input& input, Step& out) {
   } else if (!all_idle_since_) {
     all_idle_since_ = input.now;
   }
-  out.decision = std::move(choice.decision);
+  if (choice.goal || choice.decision.why != told_) {  // a robot that waits asks every second
+    told_ = choice.decision.why;
+    out.decision = std::move(choice.decision);
+  }
   if (!choice.goal) {
     wait_or_finish(input, choice, out);
     return;
@@ -257,8 +256,31 @@ bool TopologicalStrategy::resting(RobotTime now) const {
   });
 }
 
-void TopologicalStrategy::failed(const Input& input, const std::string& why) {
+/// What no drive has reached, and nobody has come to in another way since.
+std::vector<Point2> TopologicalStrategy::given_up(const Input& input) const {
+  const auto floor = input.floors.view();
+  const FleetView& fleet = fleet_of(input);
+  std::vector<Point2> places;
+  for (const Failure& failure : failures_) {
+    const bool seen_to =
+        floor && map_.has_node_near(failure.p_map, fleet.others,
+                                    {corridors_of((*floor)->cost), topological_.map.tree.corridor_width_m});
+    if (failure.count >= topological_.max_failures && !seen_to) {
+      places.push_back(failure.p_map);
+    }
+  }
+  return places;
+}
+
+void TopologicalStrategy::failed(const Input& input, const Scene* scene, const std::string& why) {
   const Point2 p_map = goal_->p_map;
+  if (scene != nullptr && another_is_at(p_map, *scene)) {
+    drop_goal();
+    driver_.stop();
+    state_ = State::kChoose;
+    why_ = "another robot is at the goal at " + text(p_map);
+    return;
+  }
   auto same = std::find_if(failures_.begin(), failures_.end(),
                            [&](const Failure& failure) { return (failure.p_map - p_map).norm() < kSamePlace_m; });
   if (same == failures_.end()) {

@@ -79,7 +79,8 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   void pass(const Input& input, const Scene& scene, Step& out);
   void reconsider(const Input& input, const Scene& scene, Step& out);
   void arrived(const Input& input, const Scene& scene, Step& out);
-  void failed(const Input& input, const std::string& why);
+  void failed(const Input& input, const Scene* scene, const std::string& why);
+  void drop_goal();
   void change(std::string why, Step& out);
 
   void begin_turn(const Input& input, std::string why);
@@ -90,6 +91,8 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   void note_place(const Input& input, const Scene& scene);
   [[nodiscard]] bool settle_goal(const Scene& scene);
   [[nodiscard]] bool goal_settled(const Scene& scene) const;
+  [[nodiscard]] bool another_is_at(const Point2& p_map, const Scene& scene) const;
+  [[nodiscard]] std::vector<Point2> given_up(const Input& input) const;
   [[nodiscard]] bool left_out(const Point2& p_map, RobotTime now) const;
   [[nodiscard]] bool resting(RobotTime now) const;
   [[nodiscard]] bool patient(RobotTime now) const;
@@ -100,6 +103,7 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   nav::PlannedDriver driver_;
   State state_ = State::kChoose;
   std::string why_;
+  std::string told_;  ///< why of the last decision that was published
   std::optional<PendingGoal> goal_;
   Point2 aim_map_ = Point2::Zero();  ///< of kGoal: the goal, or the nearest place to it that the map leads to
   std::vector<Failure> failures_;

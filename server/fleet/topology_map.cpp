@@ -24,8 +24,8 @@ bool has_edge(const Topology& map, std::uint64_t a, std::uint64_t b) {
   });
 }
 
-/// Whether some node has taken the region of a pending goal.
-bool settled(const Topology& topology, const Point2& p_map, const Corridors& corridors, double node_distance_m) {
+/// Whether some node has taken the region of a place.
+bool near_node_of(const Topology& topology, const Point2& p_map, const Corridors& corridors, double node_distance_m) {
   return std::any_of(topology.nodes.begin(), topology.nodes.end(), [&](const TopologyNode& node) {
     return (node.map_T_base.translation() - p_map).norm() < node_distance_m && joined(node, p_map, corridors);
   });
@@ -148,16 +148,19 @@ void TopologyMap::arrive(std::uint64_t node) {
 
 void TopologyMap::settle(const std::vector<RobotTopology>& others, const Corridors& corridors) {
   for (TopologyNode& node : map_.nodes) {
-    node.goals.erase(std::remove_if(node.goals.begin(), node.goals.end(),
-                                    [&](const TopologyGoal& goal) {
-                                      return settled(map_, goal.p_map, corridors, params_.node_distance_m) ||
-                                             std::any_of(others.begin(), others.end(), [&](const RobotTopology& other) {
-                                               return settled(other.topology, goal.p_map, corridors,
-                                                              params_.node_distance_m);
-                                             });
-                                    }),
-                     node.goals.end());
+    node.goals.erase(
+        std::remove_if(node.goals.begin(), node.goals.end(),
+                       [&](const TopologyGoal& goal) { return has_node_near(goal.p_map, others, corridors); }),
+        node.goals.end());
   }
+}
+
+bool TopologyMap::has_node_near(const Point2& p_map, const std::vector<RobotTopology>& others,
+                                const Corridors& corridors) const {
+  return near_node_of(map_, p_map, corridors, params_.node_distance_m) ||
+         std::any_of(others.begin(), others.end(), [&](const RobotTopology& other) {
+           return near_node_of(other.topology, p_map, corridors, params_.node_distance_m);
+         });
 }
 
 void TopologyMap::close(std::uint64_t goal) {

@@ -97,6 +97,9 @@ class TopologyMap {
   void arrive(std::uint64_t node);
   /// Drops goals whose region has got a node of any robot since (rules 1 and 2 for goals that are pending).
   void settle(const std::vector<RobotTopology>& others, const Corridors& corridors);
+  /// Whether the region of a place has a node of any robot.
+  [[nodiscard]] bool has_node_near(const Point2& p_map, const std::vector<RobotTopology>& others,
+                                   const Corridors& corridors) const;
   /// Nobody need go there any more, nor to what a later tree shows within V_R of it.
   void close(std::uint64_t goal);
   [[nodiscard]] bool has(std::uint64_t goal) const;

@@ -72,6 +72,22 @@ void count(const SeenPoints& seen, const FreeSpaceParams& params, Grid<Counts>& 
   }
 }
 
+FreeSpace::State state_of(const Grid<Counts>& counts, CellIndex cell, const FreeSpaceParams& params) {
+  const Counts& here = counts[cell];
+  if (here.points >= params.min_points && here.points >= params.solid_ratio * (here.points + here.beams)) {
+    return FreeSpace::State::kSolid;
+  }
+  if (here.beams < params.min_beams) {
+    return FreeSpace::State::kUnknown;
+  }
+  for (int k = 0; k < 9; ++k) {
+    if (counts[{cell.i + k % 3 - 1, cell.j + k / 3 - 1}].points > 0) {
+      return FreeSpace::State::kPassed;
+    }
+  }
+  return FreeSpace::State::kFree;
+}
+
 }  // namespace
 
 SeenPoints seen_points(const LaserScan& scan, const NormalParams& params) {
@@ -97,14 +113,7 @@ FreeSpace::FreeSpace(const std::vector<SeenPoints>& seen_map, const FreeSpacePar
   states_ = Grid<State>(counts.frame(), counts.width(), counts.height(), State::kUnknown);
   for (int j = 1; j + 1 < counts.height(); ++j) {
     for (int i = 1; i + 1 < counts.width(); ++i) {
-      const Counts& here = counts[{i, j}];
-      bool free = here.beams >= params.min_beams;
-      for (int k = 0; free && k < 9; ++k) {
-        free = counts[{i + k % 3 - 1, j + k / 3 - 1}].points == 0;
-      }
-      const bool solid =
-          here.points >= params.min_points && here.points >= params.solid_ratio * (here.points + here.beams);
-      states_[{i, j}] = free ? State::kFree : solid ? State::kSolid : State::kUnknown;
+      states_[{i, j}] = state_of(counts, {i, j}, params);
     }
   }
 }

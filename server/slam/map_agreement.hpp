@@ -30,16 +30,20 @@ struct FreeSpaceParams {
 };
 
 /// What the beams of the map say about its cells: free where beams went through and no point was ever seen, neither in
-/// the cell nor beside it; solid where they were stopped.
+/// the cell nor beside it; solid where they were stopped; passed where they went through, whatever was seen there once.
 class FreeSpace {
  public:
+  enum class State : std::uint8_t { kUnknown, kFree, kPassed, kSolid };
+
   explicit FreeSpace(const std::vector<SeenPoints>& seen_map, const FreeSpaceParams& params = {});
   [[nodiscard]] bool is_free(const Point2& p_map) const { return state(p_map) == State::kFree; }
   [[nodiscard]] bool is_solid(const Point2& p_map) const { return state(p_map) == State::kSolid; }
+  /// What somebody saw here has gone, or came later: free space too.
+  [[nodiscard]] bool is_passed(const Point2& p_map) const {
+    return state(p_map) == State::kFree || state(p_map) == State::kPassed;
+  }
 
  private:
-  enum class State : std::uint8_t { kUnknown, kFree, kSolid };
-
   [[nodiscard]] State state(const Point2& p_map) const {
     const CellIndex cell = states_.frame().cell_of(p_map);
     return states_.contains(cell) ? states_[cell] : State::kUnknown;

@@ -229,6 +229,57 @@ TEST(TopologicalStrategy, DrivesUpToOneInTheDoorThatMakesWay) {
   EXPECT_GT(run.wall_share, kWallShare);
 }
 
+constexpr Pose2 kBehindTheDoor{7.0, 2.0, 0.0};
+
+/// While something stands in the only door, and another robot in the room behind. `later` may change what is heard.
+explore::ExploreEnd end_with_another_behind_the_door(
+    bool active, const std::function<void(double t_s, RobotTopology& other)>& later = nullptr) {
+  RobotTopology other;
+  other.robot_id = "a";
+  other.map_T_base = kBehindTheDoor;
+  other.active = active;
+  FleetView fleet{"b", {other}, nullptr};
+  Exploration exploration = exploration_of();
+  ToyExplorer robot(explore::two_rooms(), {3.3, 2.5, 0.0}, 7, 6.0);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [&](double t_s, ExploreInput& input) {
+    nav::Mover mover;
+    mover.frame_T_base = {5.1, 2.5, 0.0};
+    input.movers = {mover};
+    if (later) {
+      later(t_s, fleet.others.front());
+    }
+    input.fleet = &fleet;
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("behind the door", run, *exploration.strategy().topology());
+  EXPECT_TRUE(run.end.has_value());
+  return run.end.value_or(explore::ExploreEnd{});
+}
+
+TEST(TopologicalStrategy, LeavesAGoalThatItCannotReachToARobotThatExploresThere) {
+  EXPECT_EQ(end_with_another_behind_the_door(true).kind, EndKind::kComplete);
+}
+
+TEST(TopologicalStrategy, AGoalBesideARobotThatHasEndedIsUnreachable) {
+  const explore::ExploreEnd end = end_with_another_behind_the_door(false);
+  EXPECT_EQ(end.kind, EndKind::kUnreachable);
+  EXPECT_FALSE(end.unreachable.empty());
+}
+
+TEST(TopologicalStrategy, WhatAnotherRobotHasComeToSinceIsNotUnreachable) {
+  const auto goes_there = [](double t_s, RobotTopology& other) {
+    if (t_s > 45.0 && other.topology.nodes.empty()) {
+      TopologyNode node;
+      node.id = 1;
+      node.map_T_base = kBehindTheDoor;
+      other.topology.nodes = {node};
+      other.topology.current = node.id;
+    }
+  };
+  EXPECT_EQ(end_with_another_behind_the_door(false, goes_there).kind, EndKind::kComplete);
+}
+
 TEST(TopologicalStrategy, ComesThroughAMapThatMoves) {
   Exploration exploration = exploration_of();
   ToyExplorer robot(explore::two_rooms(), {1.0, 1.0, 0.3}, 7, 6.0);

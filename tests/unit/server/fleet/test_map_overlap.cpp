@@ -1,0 +1,46 @@
+#include "server/fleet/map_overlap.hpp"
+
+#include <gtest/gtest.h>
+
+#include "toy_maps.hpp"
+
+namespace seeker::fleet {
+namespace {
+
+const std::vector<Wall> kHall = box(0.0, 0.0, 9.0, 7.0);
+const std::vector<Point2> kRound{{1.0, 1.0}, {8.0, 1.0}, {8.0, 6.0}, {1.0, 6.0}, {1.0, 1.0}};
+/// As large as a robot.
+const std::vector<Wall> kVisitor = box(4.2, 3.2, 4.7, 3.7);
+
+/// The map of a robot that has seen the visitor stand there from the first so many of its places.
+PreparedMap visited_map(std::size_t places, std::uint64_t seed) {
+  std::vector<Wall> with_visitor = kHall;
+  add(with_visitor, kVisitor);
+  const std::vector<Pose2> way = drive(kRound);
+  const ToyDrift none{0.0, 0.0};
+  LineMap map = toy_map(kHall, way, seed, none);
+  const LineMap visited = toy_map(with_visitor, way, seed, none);
+  std::copy_n(visited.keyframes.begin(), std::min(places, way.size()), map.keyframes.begin());
+  return prepared(map);
+}
+
+MapOverlap overlap_with_empty(PreparedMap& b) {
+  PreparedMap a = visited_map(0, 11);
+  return overlap_of(a, b, [&](std::size_t k) { return b.nodes()[k].map_T_node; });
+}
+
+TEST(MapOverlap, WhatStoodThereAllTheTimeIsDeniedByTheOther) {
+  PreparedMap b = visited_map(1000, 12);
+  EXPECT_GT(overlap_with_empty(b).denied_piece_m, 0.4);
+}
+
+TEST(MapOverlap, WhatARobotHasLookedThroughItselfIsNoWallOfIts) {
+  PreparedMap b = visited_map(12, 12);
+  const MapOverlap overlap = overlap_with_empty(b);
+  EXPECT_LT(overlap.denied_piece_m, 0.2);
+  PreparedMap nobody = visited_map(0, 12);
+  EXPECT_NEAR(overlap.contradiction, overlap_with_empty(nobody).contradiction, 0.005);
+}
+
+}  // namespace
+}  // namespace seeker::fleet
