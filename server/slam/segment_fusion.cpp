@@ -15,55 +15,24 @@ using Segment = MapSegment;
 
 constexpr double kBucket_m = 2.0;
 
-/// Where segments lie, for look-ups by place. A segment is in every bucket that its length crosses.
-class Buckets {
- public:
-  void add(const Segment& segment, std::size_t index) {
-    for (const std::int64_t key : keys(segment)) {
-      std::vector<std::size_t>& bucket = buckets_[key];
-      if (bucket.empty() || bucket.back() != index) {
-        bucket.push_back(index);
-      }
+/// A bucket's number: neighbours along x differ by kColumn, along y by 1.
+constexpr std::int64_t kColumn = std::int64_t{1} << 32;
+
+/// Buckets that a segment's length crosses.
+void find_keys(const Segment& segment, std::vector<std::int64_t>& keys) {
+  keys.clear();
+  const Point2 middle = segment.map_T_segment.translation();
+  const Point2 along(std::cos(segment.map_T_segment.theta_rad), std::sin(segment.map_T_segment.theta_rad));
+  const int steps = static_cast<int>(std::ceil(segment.length_m / kBucket_m)) + 1;
+  for (int k = 0; k <= steps; ++k) {
+    const Point2 p = middle + segment.length_m * (static_cast<double>(k) / steps - 0.5) * along;
+    const std::int64_t key = static_cast<std::int64_t>(std::floor(p.x() / kBucket_m)) * kColumn +
+                             static_cast<std::int64_t>(std::floor(p.y() / kBucket_m));
+    if (keys.empty() || keys.back() != key) {
+      keys.push_back(key);
     }
   }
-  /// Indices near the segment, rising, each once.
-  [[nodiscard]] std::vector<std::size_t> near(const Segment& segment) const {
-    std::vector<std::size_t> found;
-    for (const std::int64_t key : keys(segment)) {
-      for (std::int64_t dj = -1; dj <= 1; ++dj) {
-        for (std::int64_t di = -1; di <= 1; ++di) {
-          const auto bucket = buckets_.find(key + di * kColumn + dj);
-          if (bucket != buckets_.end()) {
-            found.insert(found.end(), bucket->second.begin(), bucket->second.end());
-          }
-        }
-      }
-    }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-  }
-
- private:
-  static constexpr std::int64_t kColumn = std::int64_t{1} << 32;
-
-  [[nodiscard]] static std::int64_t key_of(const Point2& p) {
-    return static_cast<std::int64_t>(std::floor(p.x() / kBucket_m)) * kColumn +
-           static_cast<std::int64_t>(std::floor(p.y() / kBucket_m));
-  }
-  [[nodiscard]] static std::vector<std::int64_t> keys(const Segment& segment) {
-    std::vector<std::int64_t> found;
-    const int steps = static_cast<int>(std::ceil(segment.length_m / kBucket_m)) + 1;
-    for (int k = 0; k <= steps; ++k) {
-      const double x = segment.length_m * (static_cast<double>(k) / steps - 0.5);
-      found.push_back(key_of(segment.map_T_segment * Point2(x, 0.0)));
-    }
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-  }
-
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> buckets_;
-};
+}
 
 double weight_of(const Segment& segment) { return segment.length_m * std::max<double>(1.0, segment.hits); }
 
@@ -115,30 +84,122 @@ void absorb(Segment& a, const Segment& b) {
   a.last_seen = std::max(a.last_seen, b.last_seen);
 }
 
-}  // namespace
+/// The walls found so far, in buckets of the places that they cross.
+class Walls {
+ public:
+  explicit Walls(const FusionParams& params) : params_(params) {}
 
-std::vector<Segment> fuse(std::vector<Segment> segments, const FusionParams& params) {
-  std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) { return a.id < b.id; });
-  std::vector<Segment> walls;
-  Buckets buckets;
-  for (const Segment& segment : segments) {
-    std::size_t best = walls.size();
-    double best_offset_m = params.max_offset_m;
-    for (const std::size_t index : buckets.near(segment)) {
-      const std::optional<double> offset_m = offset_between(walls[index], segment, params);
+  /// The wall that the segment is a piece of; nothing when it is the first of its wall.
+  [[nodiscard]] std::optional<std::size_t> wall_of(const Segment& segment) {
+    std::optional<std::size_t> best;
+    double best_offset_m = params_.max_offset_m;
+    find_near(segment);
+    for (const std::size_t index : near_) {
+      const std::optional<double> offset_m = offset_between(walls_[index], segment, params_);
       if (offset_m && *offset_m <= best_offset_m) {
         best = index;
         best_offset_m = *offset_m;
       }
     }
-    if (best == walls.size()) {
-      walls.push_back(segment);
-    } else {
-      absorb(walls[best], segment);
-    }
-    buckets.add(walls[best], best);
+    return best;
   }
-  return walls;
+  void add(const Segment& segment) {
+    walls_.push_back(segment);
+    looks_.emplace_back();
+    note(walls_.size() - 1);
+  }
+  void grow(std::size_t index, const Segment& segment) {
+    absorb(walls_[index], segment);
+    note(index);
+  }
+  [[nodiscard]] std::vector<Segment> take() { return std::move(walls_); }
+
+ private:
+  /// What a wall is passed over by, before anything is computed exactly (bench_slam, fusion).
+  struct Look {
+    double theta_rad = 0.0;
+    Point2 middle = Point2::Zero();
+    Point2 across = Point2::Zero();
+    std::uint64_t asked = 0;  ///< the question that came by last
+  };
+
+  void note(std::size_t index) {
+    const Pose2& pose = walls_[index].map_T_segment;
+    Look& look = looks_[index];
+    look.theta_rad = pose.theta_rad;
+    look.middle = pose.translation();
+    look.across = {-std::sin(pose.theta_rad), std::cos(pose.theta_rad)};
+    find_keys(walls_[index], keys_);
+    for (const std::int64_t key : keys_) {
+      std::vector<std::size_t>& bucket = buckets_[key];
+      if (std::find(bucket.begin(), bucket.end(), index) == bucket.end()) {
+        bucket.push_back(index);
+      }
+    }
+  }
+
+  /// To near_: rising, each once.
+  void find_near(const Segment& segment) {
+    ++asked_;
+    near_.clear();
+    find_keys(segment, keys_);
+    for (const std::int64_t key : keys_) {
+      for (std::int64_t dj = -1; dj <= 1; ++dj) {
+        for (std::int64_t di = -1; di <= 1; ++di) {
+          const auto bucket = buckets_.find(key + di * kColumn + dj);
+          if (bucket != buckets_.end()) {
+            pick(bucket->second, segment);
+          }
+        }
+      }
+    }
+    std::sort(near_.begin(), near_.end());
+  }
+
+  void pick(const std::vector<std::size_t>& bucket, const Segment& segment) {
+    constexpr double kSlack = 1e-6;
+    // Somewhere along the segment it must come within the offset; its ends lie this far to the side of its middle.
+    const double aside_m =
+        params_.max_offset_m +
+        (0.5 * segment.length_m + params_.max_gap_m) * std::sin(std::min(params_.max_angle_rad, kPi / 2.0)) + kSlack;
+    for (const std::size_t index : bucket) {
+      Look& look = looks_[index];
+      if (look.asked == asked_) {
+        continue;
+      }
+      look.asked = asked_;
+      const double turn_rad = std::abs(segment.map_T_segment.theta_rad - look.theta_rad);
+      const bool parallel =
+          turn_rad <= params_.max_angle_rad + kSlack || std::abs(turn_rad - kTwoPi) <= params_.max_angle_rad + kSlack;
+      const double off_m = look.across.dot(segment.map_T_segment.translation() - look.middle);
+      if (parallel && std::abs(off_m) <= aside_m) {
+        near_.push_back(index);
+      }
+    }
+  }
+
+  FusionParams params_;
+  std::vector<Segment> walls_;
+  std::vector<Look> looks_;  ///< of walls_
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> buckets_;
+  std::uint64_t asked_ = 0;
+  std::vector<std::int64_t> keys_;
+  std::vector<std::size_t> near_;
+};
+
+}  // namespace
+
+std::vector<Segment> fuse(std::vector<Segment> segments, const FusionParams& params) {
+  std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) { return a.id < b.id; });
+  Walls walls(params);
+  for (const Segment& segment : segments) {
+    if (const std::optional<std::size_t> wall = walls.wall_of(segment)) {
+      walls.grow(*wall, segment);
+    } else {
+      walls.add(segment);
+    }
+  }
+  return walls.take();
 }
 
 }  // namespace seeker::slam
