@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -93,11 +94,44 @@ std::optional<std::string> wait_for_file(const std::filesystem::path& path, std:
   return std::nullopt;
 }
 
+namespace {
+
+/// Of tests that failed they stay: what the programs wrote says why.
+class FolderKeeper : public ::testing::EmptyTestEventListener {
+ public:
+  static FolderKeeper& instance() {
+    static FolderKeeper* const keeper = [] {
+      auto* made = new FolderKeeper;  // gtest deletes it
+      ::testing::UnitTest::GetInstance()->listeners().Append(made);
+      return made;
+    }();
+    return *keeper;
+  }
+  void add(const std::filesystem::path& folder) { folders_.insert(folder); }
+
+  void OnTestProgramEnd(const ::testing::UnitTest& tests) override {
+    for (const std::filesystem::path& folder : folders_) {
+      std::error_code ignored;  // a folder left behind is no failure
+      if (tests.Passed()) {
+        std::filesystem::remove_all(folder, ignored);
+      } else {
+        std::cout << "kept: " << folder.string() << "\n";
+      }
+    }
+  }
+
+ private:
+  std::set<std::filesystem::path> folders_;
+};
+
+}  // namespace
+
 std::filesystem::path fresh_folder(const std::string& name) {
   const std::filesystem::path folder =
       std::filesystem::path(::testing::TempDir()) / (name + "-" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
+  FolderKeeper::instance().add(folder);
   return folder;
 }
 

@@ -38,7 +38,7 @@ class ChildProcess {
 [[nodiscard]] std::filesystem::path program(const std::string& name);
 /// The text of a file once it is there and not empty; nothing after `limit`.
 [[nodiscard]] std::optional<std::string> wait_for_file(const std::filesystem::path& path, std::chrono::seconds limit);
-/// A new empty folder below the test's temporary folder.
+/// A new empty folder below the test's temporary folder; removed at the end, unless a test has failed.
 [[nodiscard]] std::filesystem::path fresh_folder(const std::string& name);
 
 }  // namespace seeker::testing
