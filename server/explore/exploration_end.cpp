@@ -4,6 +4,7 @@
 
 #include "common/core/text.hpp"
 #include "server/explore/exploration_impl.hpp"
+#include "server/explore/lookout.hpp"
 #include "server/explore/openings.hpp"
 #include "server/nav/frontiers.hpp"
 
@@ -18,8 +19,6 @@ constexpr double kDepthBehindBorder_m = 2.0;
 constexpr double kProgressPeriod_s = 3.0;
 /// So far beyond the border of the unknown lies what it leads to.
 constexpr double kBeyond_m = 0.3;
-/// From so near one sees whether somebody still stands in the way.
-constexpr double kLookOut_m = 1.5;
 /// The floor grew by so much: waiting had a use.
 constexpr double kNewFloor_m2 = 2.0;
 
@@ -94,10 +93,8 @@ void Exploration::Impl::begin_wait(const Point2& place_map, const StrategyInput&
   out.activity = "waiting for the way to " + text(place_map) + " to become free again";
   Point2 lookout = input.map_T_base.translation();
   if (const auto floor = floors_.view()) {
-    const nav::CostMap& map = (*floor)->cost;
-    const auto costs = nav::DistanceField::build(map, lookout);
-    const auto cell = costs ? costs->cheapest_near(place_map, kLookOut_m) : std::nullopt;
-    lookout = cell ? map.frame().centre_of(*cell) : lookout;
+    const auto costs = nav::DistanceField::build((*floor)->cost, lookout);
+    lookout = costs ? lookout_for(place_map, **floor, *costs).value_or(lookout) : lookout;
   }
   const Point2 to = place_map - lookout;
   if (!lookout_.start(input, lookout, std::atan2(to.y(), to.x()))) {

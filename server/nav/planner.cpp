@@ -288,15 +288,18 @@ std::optional<double> DistanceField::cost_to(const Point2& goal_map) const {
   return cost_to(costs_.frame().cell_of(goal_map));
 }
 
-std::optional<CellIndex> DistanceField::cheapest_near(const Point2& goal_map, double radius_m) const {
+std::optional<CellIndex> DistanceField::cheapest_near(const Point2& goal_map, double radius_m,
+                                                      const std::function<bool(const Point2&)>& fits) const {
   const int reach = static_cast<int>(std::ceil(radius_m / costs_.frame().resolution_m));
   const CellIndex centre = costs_.frame().cell_of(goal_map);
   std::optional<CellIndex> best;
   for (int j = centre.j - reach; j <= centre.j + reach; ++j) {
     for (int i = centre.i - reach; i <= centre.i + reach; ++i) {
       const CellIndex cell{i, j};
-      const bool near = (costs_.frame().centre_of(cell) - goal_map).norm() <= radius_m;
-      if (near && cost_to(cell) && (!best || costs_[cell] < costs_[*best])) {
+      const Point2 middle = costs_.frame().centre_of(cell);
+      const bool better =
+          (middle - goal_map).norm() <= radius_m && cost_to(cell) && (!best || costs_[cell] < costs_[*best]);
+      if (better && (!fits || fits(middle))) {
         best = cell;
       }
     }

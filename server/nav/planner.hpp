@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -43,8 +44,9 @@ class DistanceField {
   /// Cost to get there (metres weighted by CostMap::cost); nothing where no way leads. No snapping.
   [[nodiscard]] std::optional<double> cost_to(const Point2& goal_map) const;
   [[nodiscard]] std::optional<double> cost_to(CellIndex cell) const;
-  /// The reached cell with the lowest cost within `radius_m` of the goal.
-  [[nodiscard]] std::optional<CellIndex> cheapest_near(const Point2& goal_map, double radius_m) const;
+  /// The reached cell with the lowest cost within `radius_m` of the goal, of those whose middle `fits` if given.
+  [[nodiscard]] std::optional<CellIndex> cheapest_near(const Point2& goal_map, double radius_m,
+                                                       const std::function<bool(const Point2&)>& fits = nullptr) const;
   /// The way itself, shortened if asked for; `map` must be the one the field was built from. The goal may be off by
   /// goal_snap_m. kUnreachable as for plan().
   [[nodiscard]] Result<Path> path_to(const CostMap& map, const Point2& goal_map) const;
