@@ -115,7 +115,7 @@ class Walls {
   [[nodiscard]] std::vector<Segment> take() { return std::move(walls_); }
 
  private:
-  /// What a wall is passed over by, before anything is computed exactly (bench_slam, fusion).
+  /// What a wall is passed over by, before anything is computed exactly: in a large building nearly all are.
   struct Look {
     double theta_rad = 0.0;
     Point2 middle = Point2::Zero();
