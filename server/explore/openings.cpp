@@ -17,6 +17,21 @@ constexpr double kFlat_rad = deg_to_rad(12.0);
 /// Beside a wall one looks at the floor before it: the wall's own cells are occupied.
 constexpr double kOffWall_m = 0.15;
 
+bool unknown_near(const Grid<std::uint8_t>& occupancy, const Point2& p_map, double radius_m) {
+  const GridFrame& frame = occupancy.frame();
+  const CellIndex centre = frame.cell_of(p_map);
+  const int reach = static_cast<int>(std::ceil(radius_m / frame.resolution_m));
+  for (CellIndex cell{centre.i - reach, centre.j - reach}; cell.j <= centre.j + reach; ++cell.j) {
+    for (cell.i = centre.i - reach; cell.i <= centre.i + reach; ++cell.i) {
+      const bool known = occupancy.contains(cell) && occupancy[cell] != kUnknownCell;
+      if (!known && (frame.centre_of(cell) - p_map).norm() <= radius_m) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 Openings::Openings(const ViewpointParams& params) : params_(params) {}
@@ -36,8 +51,24 @@ std::vector<Opening> Openings::find(const OpeningsInput& input) {
       open.push_back(opening);
     }
   }
+  for (Memory& memory : memories_) {
+    memory.gone = memory.failures >= params_.max_failures && !still_there(memory, input);
+  }
   std::stable_sort(open.begin(), open.end(), [](const Opening& a, const Opening& b) { return a.cost < b.cost; });
   return open;
+}
+
+bool Openings::still_there(const Memory& memory, const OpeningsInput& input) const {
+  switch (memory.kind) {
+    case OpeningKind::kFrontier: return unknown_near(input.floor.occupancy, memory.p_map, params_.reached_m);
+    case OpeningKind::kWallEnd:
+      return std::any_of(input.segments.begin(), input.segments.end(), [&](const MapSegment& wall) {
+        return (!wall.left_real && (wall.left() - memory.p_map).norm() < params_.same_m) ||
+               (!wall.right_real && (wall.right() - memory.p_map).norm() < params_.same_m);
+      });
+    case OpeningKind::kWallFace: break;  // told until it has been looked at: which cells were its face is not kept
+  }
+  return true;
 }
 
 bool Openings::is_open(Opening& opening, const OpeningsInput& input) {
@@ -94,7 +125,7 @@ void Openings::failed(const Opening& opening, RobotTime now) {
 std::vector<Point2> Openings::given_up() const {
   std::vector<Point2> places;
   for (const Memory& memory : memories_) {
-    if (memory.failures >= params_.max_failures && memory.visits < params_.max_visits) {
+    if (memory.failures >= params_.max_failures && memory.visits < params_.max_visits && !memory.gone) {
       places.push_back(memory.p_map);
     }
   }

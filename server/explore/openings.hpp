@@ -66,7 +66,7 @@ class Openings {
   void looked(const Opening& opening, RobotTime now);
   /// A drive there failed.
   void failed(const Opening& opening, RobotTime now);
-  /// Places that no drive could reach.
+  /// Places that no drive could reach, unless they have been seen from elsewhere since (as of the last find()).
   [[nodiscard]] std::vector<Point2> given_up() const;
   void transform(const Pose2& new_T_old);
 
@@ -79,11 +79,13 @@ class Openings {
     int failures = 0;
     RobotTime looked_at;  ///< the last counted look
     RobotTime failed_at;
+    bool gone = false;  ///< given up, but nothing is open there any more
   };
 
   [[nodiscard]] Memory& memory_of(const Opening& opening);
   void count_look(Memory& memory, RobotTime now) const;
   [[nodiscard]] bool is_open(Opening& opening, const OpeningsInput& input);
+  [[nodiscard]] bool still_there(const Memory& memory, const OpeningsInput& input) const;
 
   ViewpointParams params_;
   std::vector<Memory> memories_;

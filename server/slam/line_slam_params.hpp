@@ -65,7 +65,7 @@ struct LoopPolicy {
   /// Coarse: the match that follows is exact, and a local map is made ready in few milliseconds.
   PlaceMapParams place{.pyramid = {.resolution_m = 0.08, .reach_m = 0.24}, .free_space = {}};
   double every_m = 2.0;             ///< looked for after so much way
-  double max_distance_m = 4.0;      ///< between the robot and a keyframe of the other map, beside the uncertainty
+  double max_distance_m = 4.0;      ///< between the robot and a keyframe of the other map, as the graph has them
   int max_candidates = 3;           ///< local maps looked at each time, nearest first
   std::size_t query_keyframes = 8;  ///< the newest ones, compared with a whole local map
   /// Points farther from their scanner are not compared: glimpses through doors make places large and tell little.

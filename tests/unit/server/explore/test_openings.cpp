@@ -144,6 +144,29 @@ TEST(Openings, AFailedDriveRestsAndIsGivenUpAfterSome) {
   EXPECT_THAT(openings.given_up().front(), Point2Near(first.front().p_map, 1e-9));
 }
 
+TEST(Openings, WhatNoDriveReachedButWasSeenFromElsewhereIsNotGivenUp) {
+  Scene scene = scene_of(half_seen(), {1.0, 2.0, 0.0});
+  scene.segments = {wall_below(0.25, 3.0)};
+  const ViewpointParams params;
+  Openings openings{params};
+  const auto first = openings.find(scene.at(0.0));
+  for (const Opening& opening : first) {
+    for (int k = 0; k < params.max_failures; ++k) {
+      openings.failed(opening, robot_time_s(0.0));
+    }
+  }
+  (void)openings.find(scene.at(100.0));
+  EXPECT_EQ(openings.given_up().size(), first.size());
+  std::vector<std::string> seen = half_seen();
+  for (std::string& row : seen) {
+    std::replace(row.begin(), row.end(), ' ', '.');
+  }
+  scene = scene_of(seen, {1.0, 2.0, 0.0});
+  scene.segments = {wall_below(0.25, 5.0)};
+  (void)openings.find(scene.at(200.0));
+  EXPECT_TRUE(openings.given_up().empty());
+}
+
 TEST(Openings, BeyondTheBoundNothingIsOpen) {
   nav::ForbiddenAreas areas;
   areas.bound = Polygon{{-1.0, -1.0}, {2.9, -1.0}, {2.9, 6.0}, {-1.0, 6.0}};
