@@ -22,7 +22,7 @@ Result<std::string> robot_file_for(const std::filesystem::path& log) {
     if (drivers::is_scan_csv(line)) {
       return "replay-rplidar.yaml";
     }
-    return scan->ranges_m.size() == kUrgBeams ? "replay-p3dx.yaml" : "replay.yaml";
+    return scan->ranges_m.size() == kUrgBeams && !scan->angle_step_rad ? "replay-p3dx.yaml" : "replay.yaml";
   }
   return fail(Errc::kParse, log.string() + " holds no scan of a CARMEN log or of scans with commas");
 }

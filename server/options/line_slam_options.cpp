@@ -64,6 +64,7 @@ void describe(config::Fields& f, RelocaliseParams& params) {
   f.field("query_keyframes", params.query_keyframes);
   f.field("hint_m", params.hint_m);
   f.angle_deg("hint_deg", params.hint_rad);
+  f.field("hint_tries", params.hint_tries);
   f.field("witnesses", params.witnesses);
   f.field("agree_m", params.agree_m);
   f.angle_deg("agree_deg", params.agree_rad);

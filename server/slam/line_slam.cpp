@@ -77,7 +77,7 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   travelled_.correct({}, Matrix3::Zero());
   next_id_ = 1;
   place_.reset();
-  hint_.reset();
+  hint_map_T_node_.reset();
   kept_map_T_node_.reset();
   read_only_.reset();
   quality_ = LocalisationQuality::kUnknown;
@@ -158,6 +158,7 @@ Status LineSlam::update(const LaserScan& scan) {
   used_ranges_ = scan.ranges_m;
   lines_->predict(increment, odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment)));
   travelled_.correct({}, Matrix3::Zero());
+  travelled_.set_quality(LocalisationQuality::kLocalised, "");  // a jump is over once a scan has been looked at
   const double way_m = std::hypot(increment.x_m, increment.y_m);
   way_m_ += way_m;
   way_since_loops_m_ += way_m;
@@ -360,9 +361,14 @@ void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
   start_local_map();
   cloud_.move_to(inverse(last_T_new), {}, carried);
   last_try_ = inverse(last_T_new) * last_try_;
-  last_witness_ = inverse(last_T_new) * last_witness_;
-  claim_ = claim_ ? std::optional(*claim_ * last_T_new) : std::nullopt;
-  kept_map_T_node_ = kept_map_T_node_ ? std::optional(*kept_map_T_node_ * last_T_new) : std::nullopt;
+  if (last_witness_) {
+    last_witness_ = inverse(last_T_new) * *last_witness_;
+  }
+  for (std::optional<Pose2>* map_T_node : {&claim_, &kept_map_T_node_, &hint_map_T_node_}) {
+    if (*map_T_node) {
+      *map_T_node = **map_T_node * last_T_new;
+    }
+  }
   if (read_only_) {
     backend_.forget_scans_from(*read_only_);
   }

@@ -90,6 +90,7 @@ struct RelocaliseParams {
   std::size_t query_keyframes = 12;  ///< the newest ones together are the view
   double hint_m = 1.0;               ///< half width of the search about a place that somebody has named
   double hint_rad = 0.5;
+  int hint_tries = 15;   ///< after so many the robot is looked for everywhere
   int witnesses = 3;     ///< answers in a row that must name the same place
   double agree_m = 0.3;  ///< to within this
   double agree_rad = 0.1;

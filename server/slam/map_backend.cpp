@@ -199,7 +199,8 @@ std::optional<UncertainPose> MapBackend::relative(std::size_t from, std::size_t 
 }
 
 void MapBackend::plan_loops(const Pose2& node_T_base) {
-  if (apart()) {
+  // Scans far apart come before all planned has been tried: first the one, then the other, or the queue grows for ever.
+  if (apart() || !planned_.empty()) {
     return;
   }
   for (const Candidate& candidate : candidates(pose(maps_.back().id) * node_T_base)) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "common/core/angle.hpp"
 #include "common/core/scan.hpp"
 #include "server/drivers/replay/words.hpp"
 
@@ -67,19 +68,34 @@ Result<std::optional<CarmenRecord>> parse_front_laser(Words& words) {
   return CarmenRecord(std::move(scan));
 }
 
+/// Converters write steps of one degree, or none, for scanners that they do not know: then the field of view holds.
+double settled_step(double step_rad, double field_of_view_rad, std::size_t beams) {
+  constexpr double kSteps = 2.0;  // so much a field of view may be off that counts beams, not the steps between them
+  if (beams < 2 || !(field_of_view_rad > 0.0) || field_of_view_rad > kTwoPi) {
+    return step_rad;
+  }
+  const double steps = static_cast<double>(beams) - 1.0;
+  const bool agree = std::abs(std::abs(step_rad) * steps - field_of_view_rad) <= kSteps * std::abs(step_rad);
+  return agree ? step_rad : std::copysign(field_of_view_rad / steps, step_rad);
+}
+
 Result<std::optional<CarmenRecord>> parse_stated_laser(Words& words, bool with_robot) {
-  constexpr int kAfterAngles = 4;  // field of view was read; maximum range, accuracy, remission mode follow
-  constexpr int kRobotTail = 5;    // tv, rv, forward and side safety distance, turn axis
+  constexpr int kAfterRange = 2;  // accuracy and remission mode
+  constexpr int kRobotTail = 5;   // tv, rv, forward and side safety distance, turn axis
   CarmenScan scan;
   words.skip(1);  // laser type
   scan.angle_min_rad = words.number();
-  words.skip(1);  // field of view
+  const double field_of_view_rad = words.number();
   scan.angle_step_rad = words.number();
-  words.skip(kAfterAngles - 1);
+  if (const double range_max_m = words.number(); range_max_m > 0.0) {
+    scan.range_max_m = range_max_m;
+  }
+  words.skip(kAfterRange);
   std::vector<float> remissions;
   if (!read_ranges(words, scan.ranges_m) || !read_ranges(words, remissions)) {
     return fail(Errc::kTooLarge, "a laser line states an impossible number of beams");
   }
+  scan.angle_step_rad = settled_step(*scan.angle_step_rad, field_of_view_rad, scan.ranges_m.size());
   if (with_robot) {
     words.pose();  // of the laser: the robot's pose and the configured mount say the same
     scan.odom_T_base = words.pose();

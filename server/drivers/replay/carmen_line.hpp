@@ -26,6 +26,7 @@ struct CarmenScan {
   std::vector<float> ranges_m;          ///< as logged, codes for "none" included
   std::optional<double> angle_min_rad;  ///< stated by RAWLASER1 and ROBOTLASER1 only
   std::optional<double> angle_step_rad;
+  std::optional<double> range_max_m;  ///< stated likewise: what is as far is no echo
   std::optional<Pose2> odom_T_base;  ///< raw odometry at the scan (second triplet); not in RAWLASER1
   std::optional<Pose2>
       corrected_T_laser;  ///< first triplet: a mapper's result; for scoring only, no driver passes it on

@@ -1,14 +1,33 @@
 #include "server/drivers/replay/replay.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+
+#include "common/core/angle.hpp"
 
 namespace seeker::drivers {
 namespace {
 
 /// A stamp farther ahead of the last one than this is damage, not a pause.
 constexpr double kLongestPause_s = 6.0 * 3600.0;
+
+/// Logs state the range of a beam without echo as the scanner's maximum, or a little less.
+constexpr double kAtMaximum_m = 0.01;
+
+/// FLASER states no angles. 180 degrees but for scanners known by their beams, as other readers of such logs take them.
+double front_laser_view_rad(std::size_t beams) {
+  struct Known {
+    std::size_t beams;
+    double view_deg;
+  };
+  constexpr std::array<Known, 5> kKnown{{{401, 100.0}, {541, 270.0}, {683, 240.0}, {1081, 270.0}, {0, 180.0}}};
+  // Some loggers leave the last beam out.
+  return deg_to_rad(std::find_if(kKnown.begin(), kKnown.end() - 1, [&](const Known& scanner) {
+                      return beams == scanner.beams || beams + 1 == scanner.beams;
+                    })->view_deg);
+}
 
 double stamp_of(const CarmenRecord& record) {
   return std::visit([](const auto& r) { return r.stamp_s; }, record);
@@ -26,17 +45,20 @@ LaserScan to_laser_scan(const CarmenScan& scan, const ReplayParams& params, Robo
   const std::size_t beams = scan.ranges_m.size();
   const std::size_t steps = beams % 2 == 1 && beams > 1 ? beams - 1 : std::max<std::size_t>(beams, 1);
   const bool configured = params.angle_step_rad != 0.0;
-  result.angle_min_rad = configured ? params.angle_min_rad : scan.angle_min_rad.value_or(params.angle_min_rad);
+  const double view_rad = front_laser_view_rad(beams);
+  const double first_rad = params.angle_min_rad - 0.5 * (view_rad - kPi);
+  result.angle_min_rad = configured ? params.angle_min_rad : scan.angle_min_rad.value_or(first_rad);
   result.angle_step_rad =
-      configured ? params.angle_step_rad : scan.angle_step_rad.value_or(kPi / static_cast<double>(steps));
+      configured ? params.angle_step_rad : scan.angle_step_rad.value_or(view_rad / static_cast<double>(steps));
   result.range_min_m = params.range_min_m;
-  result.range_max_m = params.range_max_m;
+  result.range_max_m = std::min(params.range_max_m, scan.range_max_m.value_or(params.range_max_m));
+  const double reach_m = scan.range_max_m ? result.range_max_m - kAtMaximum_m : result.range_max_m;
   result.base_T_laser = params.base_T_laser;
   result.ranges_m.reserve(beams);
   result.quality.reserve(beams);
   for (const float range_m : scan.ranges_m) {
     const bool usable = range_m >= params.range_min_m;
-    result.ranges_m.push_back(usable && range_m < params.range_max_m ? range_m : kNoReturn);
+    result.ranges_m.push_back(usable && range_m < reach_m ? range_m : kNoReturn);
     result.quality.push_back(usable ? 1 : 0);
   }
   return result;

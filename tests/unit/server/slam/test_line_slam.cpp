@@ -177,6 +177,84 @@ TEST(LineSlam, FindsTheRobotInALoadedMapWithoutAHint) {
   EXPECT_EQ(slam.map().nodes.size(), map.nodes.size());
 }
 
+TEST(LineSlam, KeepsEveryWallOfALoadedMap) {
+  Trip trip(9);
+  LineSlam mapper({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, mapper, 25.0));
+  const LineMap map = mapper.map();
+  for (const MapUse use : {MapUse::kLocalise, MapUse::kContinue}) {
+    LineSlam slam;
+    ASSERT_TRUE(slam.load(map, use));
+    EXPECT_EQ(slam.map().segments.size(), map.segments.size());
+    ASSERT_TRUE(slam.relocalise(std::nullopt));
+    EXPECT_EQ(slam.map().segments.size(), map.segments.size()) << "asked once more";
+  }
+}
+
+/// A robot on a circle, or standing, in a room unlike others.
+void circle(LineSlam& slam, const std::vector<Wall>& walls, Pose2& truth, double& time_s, int scans,
+            const Twist2& twist) {
+  Rng rng(13);
+  for (int k = 0; k < scans; ++k, time_s += 0.1) {
+    ASSERT_TRUE(slam.predict(truth, robot_time_s(time_s)));
+    ASSERT_TRUE(slam.update(scan_at(walls, truth, time_s, rng)));
+    truth = truth * integrate(twist, 0.1);
+  }
+}
+
+TEST(LineSlam, OneViewOfARobotThatStandsConfirmsNoPlaceUnlessSomebodyNamesIt) {
+  const std::vector<Wall> room = furnished_room();
+  const Twist2 round{0.4, 0.28};
+  Pose2 truth{2.5, 2.2, 0.0};
+  double time_s = 0.0;
+  LineSlam mapper({}, truth);
+  ASSERT_NO_FATAL_FAILURE(circle(mapper, room, truth, time_s, 230, round));
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
+  ASSERT_NO_FATAL_FAILURE(circle(slam, room, truth, time_s, 1000, {}));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown)
+      << "neither found nor lost: " << slam.estimate().cause;
+  EXPECT_NE(slam.estimate().cause.find("has to confirm it"), std::string::npos) << slam.estimate().cause;
+  ASSERT_NO_FATAL_FAILURE(circle(slam, room, truth, time_s, 50, round));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, truth), 0.15);
+
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
+  ASSERT_TRUE(slam.relocalise(truth));
+  ASSERT_NO_FATAL_FAILURE(circle(slam, room, truth, time_s, 100, {}));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+}
+
+TEST(LineSlam, ANamedPlaceGoesAlongWithTheRobot) {
+  Trip first(9);
+  LineSlam mapper({}, first.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(first, mapper, 60.0));
+  Trip second(10, {5.0, 1.0, 0.0});
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
+  ASSERT_TRUE(slam.relocalise(second.truth()));
+  for (const double end_m = second.way_m() + 3.0; second.way_m() < end_m; second.step()) {
+    ASSERT_TRUE(slam.predict(second.odom(), second.time())) << "the laser says nothing";
+  }
+  ASSERT_NO_FATAL_FAILURE(drive(second, slam, 2.0));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, second.truth()), 0.3);
+}
+
+TEST(LineSlam, ClosesTheLoopWithAScanEachMetre) {
+  Trip trip(3);
+  LineSlam slam({}, trip.truth());
+  for (double next_m = 0.0; trip.way_m() < 104.0; trip.step()) {
+    ASSERT_TRUE(slam.predict(trip.odom(), trip.time()));
+    if (trip.way_m() >= next_m) {
+      (void)slam.update(trip.scan());
+      next_m += 1.0;
+    }
+  }
+  EXPECT_GT(slam.loops().closed, 0);
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.2);
+}
+
 TEST(LineSlam, ContinuesALoadedMap) {
   Trip trip(11);
   LineSlam mapper({}, trip.truth());

@@ -72,6 +72,41 @@ TEST(CarmenLine, ReadsEachRecordType) {
   EXPECT_THAT(*std::get<CarmenScan>(**robot).odom_T_base, testing::Pose2Near(Pose2{4.0, 5.0, 0.6}, 1e-12, 1e-12));
 }
 
+TEST(CarmenLine, AStatedMaximumIsNoEcho) {
+  const auto record = parse_carmen_line("RAWLASER1 0 -1.57 3.14 1.57 8.0 0.01 0 3 1.5 8.0 7.5 0 50.0 host 50.0");
+  ASSERT_TRUE(record && *record);
+  const LaserScan scan = to_laser_scan(std::get<CarmenScan>(**record), {}, {});
+  EXPECT_EQ(scan.range_max_m, 8.0);
+  EXPECT_EQ(scan.ranges_m[0], 1.5F);
+  EXPECT_EQ(scan.ranges_m[1], kNoReturn);
+  EXPECT_EQ(scan.ranges_m[2], 7.5F);
+}
+
+TEST(CarmenLine, AStepThatContradictsTheFieldOfViewIsNotBelieved) {
+  // Five beams over 180 degrees; a converter wrote one degree between them, or nothing.
+  for (const char* step : {"0.017453", "0"}) {
+    const auto record = parse_carmen_line(std::string("RAWLASER1 0 -1.5708 3.1416 ") + step +
+                                          " 80 0.01 0 5 1 1 1 1 1 0 50.0 host 50.0");
+    ASSERT_TRUE(record && *record) << step;
+    EXPECT_NEAR(*std::get<CarmenScan>(**record).angle_step_rad, kPi / 4.0, 1e-4) << step;
+  }
+}
+
+TEST(CarmenLine, FrontLasersAreKnownByTheirBeams) {
+  const auto scan_of = [](std::size_t beams) {
+    CarmenScan scan;
+    scan.ranges_m.assign(beams, 1.0F);
+    return to_laser_scan(scan, {}, {});
+  };
+  const auto last_rad = [](const LaserScan& scan) { return scan.angle_rad(scan.ranges_m.size() - 1); };
+  for (const auto& [beams, half_deg] :
+       {std::pair{181U, 90.0}, {361U, 90.0}, {541U, 135.0}, {683U, 120.0}, {1081U, 135.0}, {401U, 50.0}}) {
+    EXPECT_NEAR(scan_of(beams).angle_min_rad, -deg_to_rad(half_deg), 1e-9) << beams;
+    EXPECT_NEAR(last_rad(scan_of(beams)), deg_to_rad(half_deg), 1e-9) << beams;
+  }
+  EXPECT_NEAR(scan_of(180).angle_step_rad, deg_to_rad(1.0), 1e-9) << "the last beam is left out";
+}
+
 TEST(CarmenLine, IgnoresWhatItDoesNotUse) {
   for (const char* line : {"", "   ", "# hello", "PARAM a b", "SYNC x", "NMEAGGA 1 2 3"}) {
     const auto record = parse_carmen_line(line);
