@@ -361,9 +361,6 @@ void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
   start_local_map();
   cloud_.move_to(inverse(last_T_new), {}, carried);
   last_try_ = inverse(last_T_new) * last_try_;
-  if (last_witness_) {
-    last_witness_ = inverse(last_T_new) * *last_witness_;
-  }
   for (std::optional<Pose2>* map_T_node : {&claim_, &kept_map_T_node_, &hint_map_T_node_}) {
     if (*map_T_node) {
       *map_T_node = **map_T_node * last_T_new;

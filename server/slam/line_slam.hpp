@@ -79,9 +79,6 @@ class LineSlam final : public MapTracker {
   void look_for_robot();
   [[nodiscard]] std::vector<SeenPoints> seen_lately() const;
   [[nodiscard]] PlaceAnswer find_place(const std::vector<SeenPoints>& seen) const;
-  /// Somebody has said where the robot is, and it has not been looked for there in vain too often.
-  [[nodiscard]] bool is_named() const;
-  void forget_witnesses();
   [[nodiscard]] bool is_confirmed(const Pose2& map_T_node, bool expected);
   void settle(const PlaceAnswer& answer);
   [[nodiscard]] std::uint32_t map_end() const;
@@ -120,9 +117,8 @@ class LineSlam final : public MapTracker {
   Pose2 last_try_;                        ///< node_T_base
   int scans_since_try_ = 0;
   int tries_ = 0;
-  std::optional<Pose2> claim_;         ///< where the last unique answer puts the newest local map,
-  std::optional<Pose2> last_witness_;  ///< node_T_base of the last place that said so,
-  int witnesses_ = 0;                  ///< and how many places in a row
+  std::optional<Pose2> claim_;              ///< where the last unique answer puts the newest local map,
+  int witnesses_ = 0;                       ///< and how many answers in a row have said so
   std::optional<std::uint32_t> read_only_;  ///< local maps from this one on are forgotten: the map is only read
   LineSlamCounts counts_;
 };

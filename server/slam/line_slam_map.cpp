@@ -112,7 +112,8 @@ Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
   // What is driven from now on is known.
   hint_map_T_node_ = map_T_base ? std::optional(*map_T_base * inverse(lines_->robot())) : std::nullopt;
   kept_map_T_node_.reset();
-  forget_witnesses();
+  claim_.reset();
+  witnesses_ = 0;
   place_.reset();
   tries_ = 0;
   scans_since_try_ = params_.relocalise.every_scans;  // the next scan is a try
@@ -183,36 +184,19 @@ PlaceAnswer LineSlam::find_place(const std::vector<SeenPoints>& seen) const {
     if (there.verdict == PlaceVerdict::kUnique) {
       return there;
     }
-  } else if (is_named()) {
+  } else if (hint_map_T_node_ && tries_ <= params.hint_tries) {
     window = SearchWindow{*hint_map_T_node_ * lines_->robot(), params.hint_m, params.hint_rad};
   }
   return recogniser_.locate(*place_, seen, window);
 }
 
-bool LineSlam::is_named() const { return hint_map_T_node_ && tries_ <= params_.relocalise.hint_tries; }
-
-void LineSlam::forget_witnesses() {
-  claim_.reset();
-  last_witness_.reset();
-  witnesses_ = 0;
-}
-
 bool LineSlam::is_confirmed(const Pose2& map_T_node, bool expected) {
-  // One view may look like a place that it is not; views farther on must name the same place. Where somebody has named
-  // it, the word of that one counts as much as another view.
-  const RelocaliseParams& params = params_.relocalise;
-  if (!claim_ || moved(*claim_, map_T_node, params.agree_m, params.agree_rad)) {
-    forget_witnesses();
-  }
-  const Pose2& here = lines_->robot();
-  if (!last_witness_ || is_named() || moved(*last_witness_, here, params.every_m, params.every_rad)) {
-    ++witnesses_;
-    last_witness_ = here;
-  } else {
-    --tries_;  // the same view once more is none: who stands is not lost for it
-  }
+  // One answer may be a chance; those in a row must name the same place. A robot that stands gives the same answer each
+  // time: it has no other, and must drive by hand where the place is ambiguous.
+  const bool agrees = claim_ && !moved(*claim_, map_T_node, params_.relocalise.agree_m, params_.relocalise.agree_rad);
+  witnesses_ = agrees ? witnesses_ + 1 : 1;
   claim_ = map_T_node;
-  return expected || witnesses_ >= params.witnesses;
+  return expected || witnesses_ >= params_.relocalise.witnesses;
 }
 
 void LineSlam::settle(const PlaceAnswer& answer) {
@@ -232,9 +216,8 @@ void LineSlam::settle(const PlaceAnswer& answer) {
     return;
   }
   const bool lost = tries_ >= params_.relocalise.max_tries;
-  const std::string why = answer.verdict == PlaceVerdict::kUnique
-                              ? "a place fits; the view from farther on has to confirm it"
-                              : std::string(answer.reason);
+  const std::string why = answer.verdict == PlaceVerdict::kUnique ? "a place fits; further answers have to confirm it"
+                                                                  : std::string(answer.reason);
   search_cause_ = (lost ? "the robot was not found in the map: " : kLooking + std::string(": ")) + why;
   quality_ = lost ? LocalisationQuality::kLost : LocalisationQuality::kUnknown;
   cause_ = search_cause_;

@@ -49,8 +49,6 @@ class Trip {
     way_m_ += std::hypot(motion.x_m, motion.y_m);
     time_s_ += kTick_s;
   }
-  /// Nothing moves, not even the wheels' count.
-  void stand() { time_s_ += kTick_s; }
   Status feed(LineSlam& slam) {
     const Status predicted = slam.predict(odom_, robot_time_s(time_s_));
     return predicted ? slam.update(scan()) : predicted;

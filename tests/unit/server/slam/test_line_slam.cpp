@@ -191,40 +191,6 @@ TEST(LineSlam, KeepsEveryWallOfALoadedMap) {
   }
 }
 
-/// A robot on a circle, or standing, in a room unlike others.
-void circle(LineSlam& slam, const std::vector<Wall>& walls, Pose2& truth, double& time_s, int scans,
-            const Twist2& twist) {
-  Rng rng(13);
-  for (int k = 0; k < scans; ++k, time_s += 0.1) {
-    ASSERT_TRUE(slam.predict(truth, robot_time_s(time_s)));
-    ASSERT_TRUE(slam.update(scan_at(walls, truth, time_s, rng)));
-    truth = truth * integrate(twist, 0.1);
-  }
-}
-
-TEST(LineSlam, OneViewOfARobotThatStandsConfirmsNoPlaceUnlessSomebodyNamesIt) {
-  const std::vector<Wall> room = furnished_room();
-  const Twist2 round{0.4, 0.28};
-  Pose2 truth{2.5, 2.2, 0.0};
-  double time_s = 0.0;
-  LineSlam mapper({}, truth);
-  ASSERT_NO_FATAL_FAILURE(circle(mapper, room, truth, time_s, 230, round));
-  LineSlam slam;
-  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
-  ASSERT_NO_FATAL_FAILURE(circle(slam, room, truth, time_s, 1000, {}));
-  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown)
-      << "neither found nor lost: " << slam.estimate().cause;
-  EXPECT_NE(slam.estimate().cause.find("has to confirm it"), std::string::npos) << slam.estimate().cause;
-  ASSERT_NO_FATAL_FAILURE(circle(slam, room, truth, time_s, 50, round));
-  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
-  EXPECT_LT(distance_m(slam.estimate().map_T_base, truth), 0.15);
-
-  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
-  ASSERT_TRUE(slam.relocalise(truth));
-  ASSERT_NO_FATAL_FAILURE(circle(slam, room, truth, time_s, 100, {}));
-  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
-}
-
 TEST(LineSlam, ANamedPlaceGoesAlongWithTheRobot) {
   Trip first(9);
   LineSlam mapper({}, first.truth());
