@@ -27,7 +27,7 @@ struct CarmenScan {
   std::optional<double> angle_min_rad;  ///< stated by RAWLASER1 and ROBOTLASER1 only
   std::optional<double> angle_step_rad;
   std::optional<double> range_max_m;  ///< stated likewise: what is as far is no echo
-  std::optional<Pose2> odom_T_base;  ///< raw odometry at the scan (second triplet); not in RAWLASER1
+  std::optional<Pose2> odom_T_base;   ///< raw odometry at the scan (second triplet); not in RAWLASER1
   std::optional<Pose2>
       corrected_T_laser;  ///< first triplet: a mapper's result; for scoring only, no driver passes it on
   std::string host;       ///< the word between the two stamps; some logs state there how exact the stamp is
