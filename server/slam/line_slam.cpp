@@ -155,6 +155,7 @@ Status LineSlam::update(const LaserScan& scan) {
     return {};
   }
   stood_ = 0;
+  matched_ = false;
   used_ranges_ = scan.ranges_m;
   lines_->predict(increment, odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment)));
   travelled_.correct({}, Matrix3::Zero());
@@ -204,6 +205,7 @@ void LineSlam::follow(Scan& scan) {
     return;
   }
   correct(scan, match);
+  matched_ = true;
   failures_ = 0;
   note_quality(match);
   keep(scan);

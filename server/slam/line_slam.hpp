@@ -102,6 +102,7 @@ class LineSlam final : public MapTracker {
   bool repeated_ = false;             ///< the last scan was that before it once more, noise and all
   int repeats_ = 0;                   ///< so often while the robot drove
   int failures_ = 0;
+  bool matched_ = false;  ///< the last scan that was looked at fitted the map
   double way_m_ = 0.0;  ///< driven in the newest local map
   double way_since_loops_m_ = 0.0;
   double way_since_leftover_m_ = 0.0;     ///< driven since points on no line were used,

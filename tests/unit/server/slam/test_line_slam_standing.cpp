@@ -55,6 +55,21 @@ TEST(LineSlamStanding, AStandMakesTheDirectionsOfWallsBetterForAWhile) {
   EXPECT_EQ(stand.sigma_rad(), after_rad) << "what does not change is no noise: it must not be averaged for ever";
 }
 
+TEST(LineSlamStanding, AStandInACorridorIsOneToo) {
+  const std::vector<Wall> walls{{{-50.0, 0.0}, {50.0, 0.0}}, {{50.0, 2.0}, {-50.0, 2.0}}};
+  Rng rng(8);
+  LineSlam slam({}, {0.0, 1.0, 0.0});
+  constexpr int kDriven = 20;
+  constexpr int kStood = 100;
+  for (int k = 0; k < kDriven + kStood; ++k) {
+    const Pose2 truth{0.1 * std::min(k, kDriven - 1), 1.0, 0.0};
+    ASSERT_TRUE(slam.predict({truth.x_m, 0.0, 0.0}, robot_time_s(0.1 * k)));
+    ASSERT_TRUE(slam.update(scan_at(walls, truth, 0.1 * k, rng, kPi, 8.0)));
+  }
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kDegraded) << slam.estimate().cause;
+  EXPECT_GT(slam.counts().still, static_cast<std::uint64_t>(kStood / 2)) << "else each scan counts as a new one";
+}
+
 TEST(LineSlamStanding, AScanThatIsRepeatedTellsAStandingRobotNothing) {
   Stand stand;
   const LaserScan frozen = stand.trip.scan();
