@@ -25,7 +25,8 @@ Status LineSlam::check_repeats(const LaserScan& scan) {
 }
 
 bool LineSlam::stands_still(const LaserScan& scan) const {
-  const bool healthy = failures_ == 0 && matched_ && !cloud_.empty() && !backend_.apart();
+  const bool jumped = travelled_.estimate().quality == LocalisationQuality::kDegraded;
+  const bool healthy = failures_ == 0 && matched_ && !jumped && !cloud_.empty() && !backend_.apart();
   if (!healthy || moved({}, travelled_.estimate().map_T_base, params_.min_move_m, params_.min_turn_rad)) {
     return false;
   }

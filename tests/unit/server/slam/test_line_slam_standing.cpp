@@ -70,6 +70,20 @@ TEST(LineSlamStanding, AStandInACorridorIsOneToo) {
   EXPECT_GT(slam.counts().still, static_cast<std::uint64_t>(kStood / 2)) << "else each scan counts as a new one";
 }
 
+TEST(LineSlamStanding, AJumpOfTheOdometryIsOverWithTheNextScan) {
+  Stand stand;
+  ASSERT_NO_FATAL_FAILURE(stand.look());
+  const Pose2 jumped = stand.trip.odom() * Pose2{5.0, 0.0, 0.0};
+  const RobotTime now = stand.trip.time() + seconds(stand.time_s);
+  EXPECT_FALSE(stand.slam.predict(jumped, now + seconds(0.1)));
+  EXPECT_EQ(stand.slam.estimate().quality, LocalisationQuality::kDegraded);
+  LaserScan scan = stand.trip.scan();
+  scan.stamp = now + seconds(0.2);
+  ASSERT_TRUE(stand.slam.update(scan));
+  ASSERT_TRUE(stand.slam.predict(jumped, now + seconds(0.3)));
+  EXPECT_EQ(stand.slam.estimate().quality, LocalisationQuality::kLocalised) << stand.slam.estimate().cause;
+}
+
 TEST(LineSlamStanding, AScanThatIsRepeatedTellsAStandingRobotNothing) {
   Stand stand;
   const LaserScan frozen = stand.trip.scan();
