@@ -59,7 +59,7 @@ void SonarObstacles::note_echo(const Point2& p_map, const nav::DriveInput& input
     return;
   }
   known->seen = input.now;
-  if (++known->times == kTimes) {
+  if (++known->times >= kTimes) {
     input.floors.add_obstacle(known->p_map);
   }
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxObstacles = 256;
 constexpr double kSameObstacle_m = 0.1;
+constexpr double kObstacleMemory_s = 60.0;
 /// Other robots nearer than this are planned around.
 constexpr double kNearMover_m = 3.0;
 /// So far from the robot ends what it may not enter: a cell's diagonal.
@@ -28,6 +29,9 @@ void FloorSource::attend(const OccupancyMap& map, const Pose2& map_T_base, Robot
   map_T_base_ = map_T_base;
   now_ = now;
   movers_ = std::move(movers);
+  const auto forgotten =
+      std::erase_if(obstacles_, [&](const Obstacle& one) { return to_seconds(now_ - one.noted) > kObstacleMemory_s; });
+  stale_ = stale_ || forgotten > 0;
   if (others_floor_ != others_floor) {
     others_floor_ = std::move(others_floor);
     stale_ = true;
@@ -72,7 +76,10 @@ Result<FloorView> FloorSource::view_of(Grid<std::uint8_t> occupancy) const {
   CostMapLimits limits;
   limits.bound = areas_.bound;
   limits.keep_out = areas_.keep_out;
-  limits.obstacles = obstacles_;
+  limits.obstacles.reserve(obstacles_.size());
+  for (const Obstacle& one : obstacles_) {
+    limits.obstacles.push_back(one.p_map);
+  }
   auto cost = CostMap::build(occupancy, cost_, limits);
   if (!cost) {
     return tl::unexpected(cost.error());
@@ -101,15 +108,18 @@ void FloorSource::add_obstacle(const Point2& p_map) {
   if (std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) { return mover.may_cover(p_map); })) {
     return;
   }
-  for (const Point2& known : obstacles_) {
-    if ((known - p_map).norm() < kSameObstacle_m) {
-      return;
-    }
+  const auto known = std::find_if(obstacles_.begin(), obstacles_.end(),
+                                  [&](const Obstacle& one) { return (one.p_map - p_map).norm() < kSameObstacle_m; });
+  if (known != obstacles_.end()) {
+    known->noted = now_;
+    return;
   }
-  if (obstacles_.size() < kMaxObstacles) {
-    obstacles_.push_back(p_map);
-    stale_ = true;
+  if (obstacles_.size() >= kMaxObstacles) {
+    obstacles_.erase(std::min_element(obstacles_.begin(), obstacles_.end(),
+                                      [](const Obstacle& a, const Obstacle& b) { return a.noted < b.noted; }));
   }
+  obstacles_.push_back({p_map, now_});
+  stale_ = true;
 }
 
 std::optional<Grid<std::uint8_t>> FloorSource::unrestricted_floor() const {
@@ -125,8 +135,8 @@ std::optional<Grid<std::uint8_t>> FloorSource::unrestricted_floor() const {
 }
 
 void FloorSource::transform(const Pose2& new_T_old) {
-  for (Point2& p : obstacles_) {
-    p = new_T_old * p;
+  for (Obstacle& one : obstacles_) {
+    one.p_map = new_T_old * one.p_map;
   }
   stale_ = true;
 }

@@ -51,6 +51,7 @@ class FloorSource {
   /// those farther off will have moved on before the robot gets there.
   [[nodiscard]] std::optional<CostMap> around_movers(const FloorView& view) const;
   /// Obstacles that the map does not show (sonar echoes below the lidar's plane), frame `map`. Other robots are none.
+  /// Forgotten when not added again for a minute: who stood in a door has gone on, what stands there is met again.
   void add_obstacle(const Point2& p_map);
   /// Floor connected to the last view's position when nothing is forbidden: what the forbidden areas cost.
   [[nodiscard]] std::optional<Grid<std::uint8_t>> unrestricted_floor() const;
@@ -58,6 +59,11 @@ class FloorSource {
   void transform(const Pose2& new_T_old);
 
  private:
+  struct Obstacle {
+    Point2 p_map;
+    RobotTime noted;  ///< last
+  };
+
   [[nodiscard]] Result<FloorView> build() const;
   [[nodiscard]] Result<FloorView> view_of(Grid<std::uint8_t> occupancy) const;
 
@@ -65,7 +71,7 @@ class FloorSource {
   ForbiddenAreas areas_;
   double floor_cell_m_;
   double period_s_;
-  std::vector<Point2> obstacles_;
+  std::vector<Obstacle> obstacles_;
   std::vector<Mover> movers_;
   std::shared_ptr<const Grid<std::uint8_t>> others_floor_;
   const OccupancyMap* map_ = nullptr;  ///< of the present step only

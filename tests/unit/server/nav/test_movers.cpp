@@ -159,5 +159,32 @@ TEST(Movers, AreNeverKeptAsObstacles) {
   EXPECT_FALSE((*floors.view(true))->cost.traversable(Point2(0, 0.5)));
 }
 
+TEST(FloorSource, ForgetsAnObstacleThatWasNotMetForAMinute) {
+  const OccupancyMap map = open_floor();
+  FloorSource floors({}, {}, 0.25, 1.0);
+  const auto at = [&](double t_s) { floors.attend(map, {-1.5, 0, 0}, RobotTime{} + seconds(t_s)); };
+  const auto is_free = [&] { return (*floors.view(true))->cost.traversable(Point2(0, 0.5)); };
+  at(0.0);
+  EXPECT_TRUE(is_free());
+  floors.add_obstacle({0.0, 0.5});
+  at(50.0);
+  floors.add_obstacle({0.05, 0.5});  // met again
+  at(100.0);
+  EXPECT_FALSE(is_free());
+  at(111.0);
+  EXPECT_TRUE(is_free());
+}
+
+TEST(FloorSource, HasRoomForANewObstacleHoweverManyThereAre) {
+  const OccupancyMap map = open_floor();
+  FloorSource floors({}, {}, 0.25, 1.0);
+  for (int k = 0; k < 400; ++k) {
+    floors.attend(map, {-1.5, 0, 0}, RobotTime{} + seconds(0.01 * k));
+    floors.add_obstacle({0.12 * (k % 20) + 50.0, 0.12 * (k / 20)});
+  }
+  floors.add_obstacle({0.0, 0.5});
+  EXPECT_FALSE((*floors.view(true))->cost.traversable(Point2(0, 0.5)));
+}
+
 }  // namespace
 }  // namespace seeker::nav
