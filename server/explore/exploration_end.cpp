@@ -73,11 +73,14 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
     left.no_floor = floor.error();
     return left;
   }
-  if (const auto costs = nav::DistanceField::build((*floor)->cost, here)) {
-    left.cut_off = cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2);
-    // What only other robots have seen is theirs to look after.
-    std::erase_if(left.cut_off, [&](const Point2& p_map) { return !seen_by_itself(**floor, p_map); });
+  const auto costs = nav::DistanceField::build((*floor)->cost, here);
+  if (!costs) {
+    left.no_floor = costs.error();
+    return left;
   }
+  left.cut_off = cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2);
+  // What only other robots have seen is theirs to look after.
+  std::erase_if(left.cut_off, [&](const Point2& p_map) { return !seen_by_itself(**floor, p_map); });
   left.blocked = known_floor_.occupied_now(**floor, input.segments);
   left.blocked.insert(left.blocked.end(), left.cut_off.begin(), left.cut_off.end());
   left.beyond_limits = more_beyond_limits(**floor, request_.areas, here, params_);
@@ -129,7 +132,7 @@ void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyIn
     waits_ = 0;
   }
   if (!left.blocked.empty() && waits_ < params_.viewpoints.max_failures) {
-    begin_wait(left.blocked.front(), input, out);
+    begin_wait(left.blocked[static_cast<std::size_t>(waits_) % left.blocked.size()], input, out);
     return;
   }
   conclude(end_for(left, last, input.map_T_base.translation()), input.now, out);

@@ -80,7 +80,13 @@ void Exploration::Impl::stand(const ExploreInput& input, const std::string& why,
   }
   out.phase = "stopped";
   out.activity = why + "; standing still";
-  if (to_seconds(input.now - lost_since_) > params_.guard.regain_time_s) {
+  if (to_seconds(input.now - lost_since_) <= params_.guard.regain_time_s) {
+    return;
+  }
+  if (pending_end_) {  // the exploration itself was over, and its own end is what counts
+    end_ = std::move(pending_end_);
+    end_->cause += "; not back at the start: " + why;
+  } else {
     end_ = ExploreEnd{EndKind::kUncertain,
                       why,
                       "localise the robot or look after its range sensors, then explore again: the map so far is kept",

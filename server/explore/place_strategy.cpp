@@ -78,6 +78,7 @@ void PlaceStrategy::choose(const StrategyInput& input, StrategyStep& out) {
     turn(input, out);
     return;
   }
+  turned_ = false;
   since_ = input.now;
   considered_ = input.now;
   if (found->open.empty()) {

@@ -204,6 +204,24 @@ TEST(Exploration, ARobotLostForGoodEndsAsUncertain) {
   EXPECT_NEAR(run.seconds, 185.0, 1.0);
 }
 
+TEST(Exploration, LostOnTheWayHomeItStillTellsWhyItEnded) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.return_to_start = true;
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 18);
+  ToyExplorer::Hooks hooks;
+  hooks.input = [](double t_s, ExploreInput& input) {
+    input.pose.quality = t_s > 26.5 ? LocalisationQuality::kLost : LocalisationQuality::kLocalised;
+    input.pose.cause = "test";
+  };
+  const ToyRun run = robot.run(exploration, 600.0, hooks);
+  print("lost on the way home", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_NE(run.end->cause.find("not back at the start"), std::string::npos) << run.end->cause;
+  EXPECT_NE(run.end->cause.find("test"), std::string::npos) << run.end->cause;
+}
+
 TEST(Exploration, SameInputsGiveTheSameDecisions) {
   std::vector<ToyRun> runs;
   for (int k = 0; k < 2; ++k) {
