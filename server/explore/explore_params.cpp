@@ -92,7 +92,8 @@ Status check_viewpoints(const ViewpointParams& p) {
                                             {"viewpoints.gain_lambda_1_m", p.gain_lambda_1_m},
                                             {"viewpoints.min_gain_m2", p.min_gain_m2},
                                             {"viewpoints.weight_floor", p.weight_floor},
-                                            {"viewpoints.weight_path", p.weight_path}});
+                                            {"viewpoints.weight_path", p.weight_path},
+                                            {"viewpoints.hysteresis_lg", p.hysteresis_lg}});
       !weights) {
     return weights;
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/core/text.hpp"
 #include "server/explore/horizon_views.hpp"
@@ -10,8 +11,6 @@ namespace {
 
 /// Walls farther away than this and the sensor's range do not count among those that may grow.
 constexpr double kSceneReach_m = 15.0;
-/// A goal is given up for another only when that one is better by so much, in lg.
-constexpr double kHysteresis = 0.1;
 
 /// Beam search over sequences of drives, by the objective of spec S1.11 for all of a sequence, with the length of the
 /// way and the unknown floor in sight as further terms.
@@ -42,7 +41,7 @@ class HorizonChooser final : public PlaceChooser {
   void rate(HorizonSequence& sequence, const Outlook& outlook) const;
   void keep_best(Beam& beam, std::size_t count, std::optional<std::size_t> always) const;
   [[nodiscard]] Beam first_drives(const Outlook& outlook, std::optional<std::size_t> present) const;
-  [[nodiscard]] Beam one_drive_more(const Beam& beam, Outlook& outlook) const;
+  [[nodiscard]] std::optional<Beam> one_drive_more(const Beam& beam, Outlook& outlook) const;
   [[nodiscard]] ExploreDecision publish(const Outlook& outlook, const Beam& tried, const HorizonSequence& best) const;
 
   ExploreParams params_;
@@ -77,7 +76,7 @@ void HorizonChooser::rate(HorizonSequence& sequence, const Outlook& outlook) con
   sequence.score = sequence.terms.score + params_.viewpoints.weight_floor * std::log10(sequence.floor_m2);
 }
 
-/// `always` is kept whatever its score: the first drive that the robot is on.
+/// Best first. `always` is kept whatever its score: the first drive that the robot is on.
 void HorizonChooser::keep_best(Beam& beam, std::size_t count, std::optional<std::size_t> always) const {
   std::stable_sort(beam.begin(), beam.end(),
                    [](const HorizonSequence& a, const HorizonSequence& b) { return a.score > b.score; });
@@ -112,25 +111,34 @@ HorizonChooser::Beam HorizonChooser::first_drives(const Outlook& outlook, std::o
                                           outlook.belief, params_.one_step);
     rate(first, outlook);
   }
+  keep_best(beam, beam.size(), present);
   return beam;
 }
 
-HorizonChooser::Beam HorizonChooser::one_drive_more(const Beam& beam, Outlook& outlook) const {
+/// Sequences after which nothing is left stay as they are; nothing when that is all of them.
+std::optional<HorizonChooser::Beam> HorizonChooser::one_drive_more(const Beam& beam, Outlook& outlook) const {
   Beam longer;
+  bool any = false;
   for (const HorizonSequence& sequence : beam) {
     const std::size_t last = sequence.stops.back();
     std::vector<double>& way_m = outlook.way_m[last];
     if (way_m.empty()) {
       way_m = outlook.ways.lengths_m(outlook.places[last], outlook.places);
     }
+    bool goes_on = false;
     for (std::size_t k = 0; k < outlook.views.size(); ++k) {
       if (!sequence.settles(k) && way_m[k] != CoarseWays::kNoWay) {
         longer.push_back(extended(sequence, outlook.views, k, way_m[k], params_.viewpoints.weight_path));
         rate(longer.back(), outlook);
+        goes_on = true;
       }
     }
+    if (!goes_on) {
+      longer.push_back(sequence);
+    }
+    any = any || goes_on;
   }
-  return longer;
+  return any ? std::optional(std::move(longer)) : std::nullopt;
 }
 
 PlaceChoice HorizonChooser::choose(const PlaceInput& input) {
@@ -142,16 +150,17 @@ PlaceChoice HorizonChooser::choose(const PlaceInput& input) {
   const Beam first = first_drives(outlook, present);
   Beam beam = first;
   for (int drive = 1; drive < params_.viewpoints.horizon; ++drive) {
-    Beam longer = one_drive_more(beam, outlook);
-    if (longer.empty()) {
+    std::optional<Beam> longer = one_drive_more(beam, outlook);
+    if (!longer) {
       break;
     }
-    keep_best(longer, static_cast<std::size_t>(params_.viewpoints.beam), present);
-    beam = std::move(longer);
+    keep_best(*longer, static_cast<std::size_t>(params_.viewpoints.beam), present);
+    beam = std::move(*longer);
   }
   const HorizonSequence* best = &beam.front();
   for (const HorizonSequence& sequence : beam) {
-    if (present && sequence.stops.front() == *present && sequence.score > best->score - kHysteresis) {
+    if (present && sequence.stops.front() == *present &&
+        sequence.score > best->score - params_.viewpoints.hysteresis_lg) {
       best = &sequence;
       break;
     }

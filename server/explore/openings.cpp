@@ -16,6 +16,9 @@ constexpr double kViewHalfAngle_rad = deg_to_rad(80.0);
 constexpr double kFlat_rad = deg_to_rad(12.0);
 /// Beside a wall one looks at the floor before it: the wall's own cells are occupied.
 constexpr double kOffWall_m = 0.15;
+/// After a correction of the map openings are looked for about where they were, for so long and no farther than this.
+constexpr double kSettle_s = 10.0;
+constexpr double kMostSlack_m = 1.0;
 
 bool unknown_near(const Grid<std::uint8_t>& occupancy, const Point2& p_map, double radius_m) {
   const GridFrame& frame = occupancy.frame();
@@ -37,6 +40,7 @@ bool unknown_near(const Grid<std::uint8_t>& occupancy, const Point2& p_map, doub
 Openings::Openings(const ViewpointParams& params) : params_(params) {}
 
 std::vector<Opening> Openings::find(const OpeningsInput& input) {
+  now_ = input.now;
   std::vector<Opening> all = frontier_openings(input, params_);
   if (input.walls) {
     const std::vector<Opening> ends = wall_end_openings(input, params_);
@@ -88,22 +92,29 @@ bool Openings::is_open(Opening& opening, const OpeningsInput& input) {
 }
 
 Openings::Memory& Openings::memory_of(const Opening& opening) {
+  const bool settling = to_seconds(now_ - moved_at_) < kSettle_s;
   Memory* nearest = nullptr;
-  double nearest_m = params_.same_m;
+  double nearest_m = params_.same_m + kMostSlack_m;
   for (Memory& memory : memories_) {
+    const bool other_side = opening.kind == OpeningKind::kWallFace && memory.outward_map.dot(opening.outward_map) < 0.0;
     const double d = (memory.p_map - opening.p_map).norm();
-    if (memory.kind == opening.kind && d < nearest_m) {
+    const double reach_m = params_.same_m + (settling ? memory.slack_m : 0.0);
+    if (memory.kind == opening.kind && !other_side && d < std::min(nearest_m, reach_m)) {
       nearest = &memory;
       nearest_m = d;
     }
   }
   if (nearest != nullptr) {
+    if (settling && nearest->slack_m > 0.0) {
+      nearest->p_map = opening.p_map;
+    }
     return *nearest;
   }
   Memory& memory = memories_.emplace_back();
   memory.id = next_id_++;
   memory.kind = opening.kind;
   memory.p_map = opening.p_map;
+  memory.outward_map = opening.outward_map;
   return memory;
 }
 
@@ -133,8 +144,12 @@ std::vector<Point2> Openings::given_up() const {
 }
 
 void Openings::transform(const Pose2& new_T_old) {
+  moved_at_ = now_;
   for (Memory& memory : memories_) {
-    memory.p_map = new_T_old * memory.p_map;
+    const Point2 p_map = new_T_old * memory.p_map;
+    memory.slack_m = std::min((p_map - memory.p_map).norm(), kMostSlack_m);
+    memory.outward_map = new_T_old * (memory.p_map + memory.outward_map) - p_map;
+    memory.p_map = p_map;
   }
 }
 

@@ -55,7 +55,8 @@ struct OpeningsInput {
 
 /// Remembers what was looked at and what could not be reached, so that an exploration always ends: an opening that
 /// does not change by max_visits good looks is settled (glass, furniture before a wall), and one that max_failures
-/// drives have not reached is given up. Openings are recognised again by their place, within same_m.
+/// drives have not reached is given up. Openings are recognised again by their place, within same_m, and the faces of
+/// a wall by their side.
 class Openings {
  public:
   explicit Openings(const ViewpointParams& params);
@@ -68,6 +69,8 @@ class Openings {
   void failed(const Opening& opening, RobotTime now);
   /// Places that no drive could reach, unless they have been seen from elsewhere since (as of the last find()).
   [[nodiscard]] std::vector<Point2> given_up() const;
+  /// The map moved. A map that bends moves far places less than the robot's: for a while what is remembered is
+  /// recognised by a wider measure and takes its place from what is found.
   void transform(const Pose2& new_T_old);
 
  private:
@@ -75,10 +78,13 @@ class Openings {
     std::uint64_t id = 0;
     OpeningKind kind = OpeningKind::kFrontier;
     Point2 p_map;
+    Point2 outward_map;
     int visits = 0;
     int failures = 0;
     RobotTime looked_at;  ///< the last counted look
     RobotTime failed_at;
+    /// How far the last correction of the map moved it, or less if the map bent: it is looked for so far about.
+    double slack_m = 0.0;
     bool gone = false;  ///< given up, but nothing is open there any more
   };
 
@@ -90,6 +96,8 @@ class Openings {
   ViewpointParams params_;
   std::vector<Memory> memories_;
   std::uint64_t next_id_ = 1;
+  RobotTime now_;       ///< of the last find()
+  RobotTime moved_at_;  ///< when the map was last corrected
 };
 
 /// Borders of unknown floor with viewpoints, cheapest first; ids, visits and resting not yet set.

@@ -12,6 +12,14 @@ namespace {
 constexpr double kTurn_rad_s = 0.6;
 constexpr double kWaitTick_s = 1.0;
 
+Opening moved(Opening opening, const Pose2& new_T_old) {
+  const Point2 ahead = new_T_old * (opening.p_map + opening.outward_map);
+  opening.p_map = new_T_old * opening.p_map;
+  opening.outward_map = ahead - opening.p_map;
+  opening.map_T_view = new_T_old * opening.map_T_view;
+  return opening;
+}
+
 }  // namespace
 
 PlaceStrategy::PlaceStrategy(const ExploreParams& params, std::unique_ptr<PlaceChooser> chooser)
@@ -115,7 +123,12 @@ void PlaceStrategy::go(const StrategyInput& input, PlaceChoice choice, StrategyS
   if (!goal_) {
     return;
   }
+  set_out(input);
+}
+
+void PlaceStrategy::set_out(const StrategyInput& input) {
   since_ = input.now;
+  corrected_ = false;
   why_ = "driving to look at " + describe(*goal_) + " at " + text(goal_->p_map);
   if (driver_.start(input, goal_->map_T_view.translation(), goal_->map_T_view.theta_rad)) {
     state_ = State::kDrive;
@@ -164,11 +177,19 @@ void PlaceStrategy::reconsider(const StrategyInput& input, StrategyStep& out) {
     return;
   }
   if (!chooser_->changes_its_mind()) {
+    if (corrected_) {
+      // The map bent: the place moved otherwise than the robot did.
+      const Point2 shift = same->p_map - goal_->p_map;
+      goal_->p_map += shift;
+      goal_->map_T_view.x_m += shift.x();
+      goal_->map_T_view.y_m += shift.y();
+      set_out(input);
+    }
     return;
   }
   const Opening present = *goal_;
   PlaceChoice choice = chooser_->choose({input, *found->floor, found->costs, found->open, &present});
-  if (choice.opening && choice.opening->id != present.id) {
+  if (choice.opening && (corrected_ || choice.opening->id != present.id)) {
     go(input, std::move(choice), out);
   }
 }
@@ -201,13 +222,18 @@ void PlaceStrategy::interrupted(RobotTime now) {
 
 void PlaceStrategy::transform(const Pose2& new_T_old) {
   openings_.transform(new_T_old);
-  start_anew();
+  driver_.transform(new_T_old);
+  if (goal_) {
+    goal_ = moved(std::move(*goal_), new_T_old);
+  }
+  corrected_ = true;
 }
 
 void PlaceStrategy::start_anew() {
   driver_.stop();
   goal_.reset();
   turned_ = false;
+  corrected_ = false;
   state_ = State::kChoose;
 }
 

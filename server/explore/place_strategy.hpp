@@ -43,8 +43,9 @@ class PlaceChooser {
   [[nodiscard]] virtual bool changes_its_mind() const = 0;
 };
 
-/// A goal that has been seen on the way is dropped. Without a usable map it turns on the spot once, to let the sensors
-/// see.
+/// A goal that has been seen on the way is dropped; one is kept when the map moves, and the way to it planned again
+/// when the goal is next reconsidered: by then the floor has followed the walls. Without a usable map it turns on the
+/// spot once, to let the sensors see.
 class PlaceStrategy final : public ExploreStrategy {
  public:
   PlaceStrategy(const ExploreParams& params, std::unique_ptr<PlaceChooser> chooser);
@@ -67,6 +68,7 @@ class PlaceStrategy final : public ExploreStrategy {
   [[nodiscard]] Result<Survey> survey(const StrategyInput& input);
   void choose(const StrategyInput& input, StrategyStep& out);
   void go(const StrategyInput& input, PlaceChoice choice, StrategyStep& out);
+  void set_out(const StrategyInput& input);
   void drive(const StrategyInput& input, StrategyStep& out);
   void reconsider(const StrategyInput& input, StrategyStep& out);
   void look(const StrategyInput& input, StrategyStep& out);
@@ -85,6 +87,7 @@ class PlaceStrategy final : public ExploreStrategy {
   RobotTime considered_;  ///< when the goal was last looked at again
   std::string why_;       ///< of the present state
   bool turned_ = false;
+  bool corrected_ = false;  ///< the map moved since the present drive was planned
 };
 
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_frontier_chooser(const ExploreParams& params);

@@ -28,11 +28,12 @@ struct ViewpointParams {
   double min_gain_m2 = 0.3;       ///< less unknown floor in sight is not worth a drive of the gain baseline
 
   // Horizon.
-  int horizon = 3;            ///< drives that the planner thinks ahead
-  int beam = 6;               ///< sequences it keeps
-  int max_candidates = 32;    ///< openings it considers
-  double weight_floor = 1.0;  ///< of lg(unknown floor in sight)
-  double weight_path = 2.0;   ///< a gain counts by the way until it is got to the power of minus this
+  int horizon = 3;             ///< drives that the planner thinks ahead
+  int beam = 6;                ///< sequences it keeps
+  double hysteresis_lg = 0.1;  ///< while driving, another goal must be better by so much, in lg of the objective
+  int max_candidates = 32;     ///< openings it considers
+  double weight_floor = 1.0;   ///< of lg(unknown floor in sight)
+  double weight_path = 2.0;    ///< a gain counts by the way until it is got to the power of minus this
 };
 
 }  // namespace seeker::explore

@@ -56,6 +56,15 @@ void PathFollower::set_heading(const Pose2& map_T_base, double heading_rad, Robo
   at_goal_ = true;
 }
 
+void PathFollower::transform(const Pose2& new_T_old) {
+  for (Point2& p : path_.waypoints) {
+    p = new_T_old * p;
+  }
+  if (final_heading_rad_) {
+    final_heading_rad_ = wrap_angle(*final_heading_rad_ + new_T_old.theta_rad);
+  }
+}
+
 void PathFollower::clear() { set_path(Path{}, RobotTime{}); }
 
 Point2 PathFollower::point_at(double along_m) const {

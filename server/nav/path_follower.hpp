@@ -66,6 +66,8 @@ class PathFollower {
   void set_path(Path path, RobotTime now, std::optional<double> final_heading_rad = std::nullopt);
   /// Turns in place to a heading in the frame `map`.
   void set_heading(const Pose2& map_T_base, double heading_rad, RobotTime now);
+  /// The map moved: the rest of the path goes along, as does the heading at its end.
+  void transform(const Pose2& new_T_old);
   void clear();
   [[nodiscard]] bool active() const { return !path_.empty(); }
   [[nodiscard]] const Path& path() const { return path_; }

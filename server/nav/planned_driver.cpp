@@ -54,6 +54,14 @@ bool PlannedDriver::start(const DriveInput& input, const Point2& goal_map, std::
   return driving_;
 }
 
+void PlannedDriver::transform(const Pose2& new_T_old) {
+  goal_ = new_T_old * goal_;
+  if (final_heading_rad_) {
+    final_heading_rad_ = wrap_angle(*final_heading_rad_ + new_T_old.theta_rad);
+  }
+  follower_.transform(new_T_old);
+}
+
 void PlannedDriver::stop() {
   driving_ = false;
   follower_.clear();

@@ -46,6 +46,8 @@ class PlannedDriver {
   /// Plans and starts; false when no way leads there now (reason()).
   bool start(const DriveInput& input, const Point2& goal_map, std::optional<double> final_heading_rad = {});
   [[nodiscard]] DriveStep step(const DriveInput& input);
+  /// The map moved: the way that is left goes along with the robot.
+  void transform(const Pose2& new_T_old);
   void stop();
   [[nodiscard]] const std::vector<Point2>& path() const { return follower_.path().waypoints; }
   [[nodiscard]] const Point2& goal() const { return goal_; }

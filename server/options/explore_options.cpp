@@ -73,6 +73,7 @@ void describe(config::Fields& f, ViewpointParams& params) {
   f.field("min_gain_m2", params.min_gain_m2);
   f.field("horizon", params.horizon);
   f.field("beam", params.beam);
+  f.field("hysteresis_lg", params.hysteresis_lg);
   f.field("max_candidates", params.max_candidates);
   f.field("weight_floor", params.weight_floor);
   f.field("weight_path", params.weight_path);

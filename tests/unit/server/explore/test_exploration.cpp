@@ -259,6 +259,29 @@ TEST(Exploration, AMapThatMovesDoesNotDisturbIt) {
   EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
 }
 
+/// The choice that stood when the map moved is still the one that the robot follows: its decisions are those of a run
+/// whose map stays, as far as they were made before the way there ended.
+TEST(Exploration, AMapThatMovesOnTheWayDoesNotChangeTheGoal) {
+  const auto run_with = [](bool moves) {
+    auto exploration = exploration_of(request_of(Strategy::kFrontier));
+    ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 17);
+    ToyExplorer::Hooks hooks;
+    hooks.exploration = [&](double t_s, Exploration& running) {
+      if (moves && std::abs(t_s - 12.0) < 0.01) {
+        robot.move_map({0.3, 0.0, 0.0});
+        running.transform({0.3, 0.0, 0.0});
+      }
+    };
+    return robot.run(exploration, 600.0, hooks);
+  };
+  const ToyRun moved = run_with(true);
+  const ToyRun still = run_with(false);
+  print("moved", moved);
+  print("still", still);
+  EXPECT_EQ(moved.decisions.size(), still.decisions.size());
+  EXPECT_NEAR(moved.path_m, still.path_m, 1.0);
+}
+
 TEST(Exploration, PausedTimeDoesNotCount) {
   ExploreParams params;
   params.driver.goal_time_s = 60.0;

@@ -249,6 +249,47 @@ TEST(Openings, AnUnseenSideThatStaysUnseenIsSettled) {
   EXPECT_TRUE(openings.find(scene.at(10.0)).empty());
 }
 
+TEST(Openings, TheTwoSidesOfAThinWallAreSettledEachByItself) {
+  // A wall 0.1 m thick into seen floor, which no segment holds; the robot looks at it from the left.
+  std::vector<std::string> rows(45, std::string(60, '.'));
+  rows.front() = std::string(60, '#');
+  for (std::size_t k = 0; k < 30; ++k) {
+    rows[k][30] = '#';
+  }
+  Scene scene = scene_of(rows, {1.9, 3.75, 0.0}, {}, 0.1);
+  scene.segments = {wall_between({0.0, 4.4}, {6.0, 4.4})};
+  Openings openings{ViewpointParams{}};
+  for (int k = 0; k < ViewpointParams{}.max_visits; ++k) {
+    (void)openings.find(scene.at(2.0 * k));
+  }
+  bool seen_side = false;
+  bool other_side = false;
+  for (const Opening& opening : openings.find(scene.at(10.0))) {
+    const bool at_wall =
+        opening.kind == OpeningKind::kWallFace && opening.p_map.y() > 2.5 && std::abs(opening.p_map.x() - 3.05) < 0.5;
+    seen_side = seen_side || (at_wall && opening.outward_map.x() > 0.9);
+    other_side = other_side || (at_wall && opening.outward_map.x() < -0.9);
+  }
+  EXPECT_FALSE(seen_side) << "the robot looks at it";
+  EXPECT_TRUE(other_side) << "the robot cannot see it";
+}
+
+TEST(Openings, WhatIsSettledStaysSoWhenTheMapBends) {
+  // The robot's pose is corrected by 0.8 m; what is left to explore lies where it was.
+  const Scene scene = scene_of(half_seen(), {1.0, 2.0, 0.0});
+  Openings openings{ViewpointParams{}};
+  double t_s = 0.0;
+  for (int look = 0; look < 40; ++look, t_s += 10.0) {
+    for (const Opening& opening : openings.find(scene.at(t_s))) {
+      openings.looked(opening, robot_time_s(t_s));
+    }
+  }
+  ASSERT_TRUE(openings.find(scene.at(t_s)).empty());
+  openings.transform({0.8, 0.0, 0.0});
+  EXPECT_TRUE(openings.find(scene.at(t_s + 1.0)).empty());
+  EXPECT_TRUE(openings.find(scene.at(t_s + 100.0)).empty()) << "it has taken its place from what was found";
+}
+
 TEST(Openings, ASmallPocketOfUnknownIsNoise) {
   std::vector<std::string> rows(16, "#..................#");
   rows.front() = rows.back() = std::string(20, '#');

@@ -67,6 +67,45 @@ INSTANTIATE_TEST_SUITE_P(All, ViewpointStrategy,
                          ::testing::Values(Strategy::kFrontier, Strategy::kGain, Strategy::kHorizon),
                          [](const auto& param) { return std::string(to_string(param.param)); });
 
+/// A place, 0.5 m off the unknown on its right, among others.
+Opening border_at(const Point2& p_map, std::uint64_t id) {
+  Opening opening;
+  opening.id = id;
+  opening.p_map = p_map;
+  opening.size_m = 1.0;
+  opening.map_T_view = {p_map.x() - 0.5, p_map.y(), 0.0};
+  return opening;
+}
+
+TEST(HorizonChooser, APlaceThatShowsAllThatIsLeftNeedsNoFurtherDrive) {
+  // Both borders are in view from the far place's viewpoint; the near one shows only itself.
+  const auto occupancy = nav::ascii_map(std::vector<std::string>(40, std::string(60, '.') + std::string(20, ' ')), 0.1);
+  const auto cost = nav::CostMap::build(occupancy);
+  ASSERT_TRUE(cost.has_value());
+  const Pose2 robot{3.0, 2.0, 0.0};
+  const auto reachable = nav::reachable_floor(*cost, robot.translation(), 0.2);
+  const auto costs = nav::DistanceField::build(*cost, robot.translation());
+  ASSERT_TRUE(reachable && costs);
+  const nav::FloorView floor{occupancy, *cost, *reachable, 1, {}};
+  nav::FloorSource floors({}, {}, 0.2, 1.0);
+  const std::vector<MapSegment> none;
+  const StrategyInput input{
+      {{}, robot, nullptr, nullptr, floors}, {}, Matrix3::Identity() * 1e-4, none, 1, {}, nullptr};
+  Opening both = border_at({5.9, 2.0}, 1);
+  both.map_T_view = {4.0, 2.0, 0.0};
+  Opening one = border_at({5.9, 2.6}, 2);
+  one.map_T_view = {5.2, 2.6, 1.5};  // away from the other
+  for (Opening* opening : {&both, &one}) {
+    opening->cost = *costs->cost_to(opening->map_T_view.translation());
+  }
+  const std::vector<Opening> open{both, one};
+  const auto chooser = make_horizon_chooser({});
+  const PlaceChoice choice = chooser->choose({input, floor, *costs, open});
+  ASSERT_TRUE(choice.opening.has_value());
+  EXPECT_EQ(choice.opening->id, 1U) << choice.decision.why;
+  EXPECT_NE(choice.decision.why.find("best of 1 drives"), std::string::npos) << choice.decision.why;
+}
+
 TEST(ViewGain, CountsUnknownFloorInSightAndFacesIt) {
   // A room whose right half nobody has seen; behind the left wall nobody has been either.
   const auto map = nav::CostMap::build(nav::ascii_map({"################", "#.......        ", "#.......        ",

@@ -130,6 +130,30 @@ TEST(PathFollower, StopsBeforeAnObstacleThatAppearsAndReportsIt) {
   EXPECT_GT(robot.nearest_m, kBody_m);
 }
 
+TEST(PathFollower, GoesOnAlongItsPathWhenTheMapMoves) {
+  const Pose2 new_T_old{5.0, -3.0, 0.7};
+  PathFollower still;
+  PathFollower moved;
+  const Path path{{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}}, 4.0, 4.0};
+  still.set_path(path, robot_time_s(0.0), kPi);
+  moved.set_path(path, robot_time_s(0.0), kPi);
+  moved.transform(new_T_old);
+  Pose2 pose;
+  for (int tick = 1; tick < 400; ++tick) {
+    const RobotTime now = robot_time_s(0.1 * tick);
+    const FollowStep a = still.step(pose, {}, now);
+    const FollowStep b = moved.step(new_T_old * pose, {}, now);
+    ASSERT_EQ(a.state, b.state) << tick;
+    ASSERT_NEAR(a.command.v_m_s, b.command.v_m_s, 1e-6) << tick;
+    ASSERT_NEAR(a.command.omega_rad_s, b.command.omega_rad_s, 1e-6) << tick;
+    if (a.state == FollowState::kArrived) {
+      return;
+    }
+    pose = pose * Pose2{0.1 * a.command.v_m_s, 0.0, 0.1 * a.command.omega_rad_s};
+  }
+  FAIL() << "never arrived: " << pose;
+}
+
 TEST(PathFollower, SaysStuckWhenTheBaseDoesNotMove) {
   PathFollower follower;
   follower.set_path(Path{{{0.0, 0.0}, {3.0, 0.0}}, 3.0, 3.0}, robot_time_s(0.0));
