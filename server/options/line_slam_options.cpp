@@ -23,6 +23,9 @@ void describe(config::Fields& f, PointNetParams& params) {
   f.field("max_correction_m", params.max_correction_m);
   f.angle_deg("max_correction_deg", params.max_correction_rad);
   f.field("sure_ratio", params.sure_ratio);
+  f.field("jump_scans", params.jump.scans);
+  f.field("jump_agree_m", params.jump.agree_m);
+  f.angle_deg("jump_agree_deg", params.jump.agree_rad);
   f.field("far_m", params.far_m);
   f.angle_deg("far_deg", params.far_rad);
   f.field("far_ratio", params.far_ratio);
@@ -80,6 +83,18 @@ void describe(config::Fields& f, FusionParams& params) {
   f.field("max_gap_m", params.max_gap_m);
 }
 
+void describe(config::Fields& f, OdometryBiasParams& params) {
+  f.field("way_sigma", params.way_sigma);
+  f.angle_deg("bend_sigma_deg_per_m", params.bend_sigma_rad_per_m);
+  f.field("turn_sigma", params.turn_sigma);
+  f.field("skew_sigma", params.skew_sigma);
+  f.field("lever_sigma_m", params.lever_sigma_m);
+  f.field("drift_share", params.drift_share);
+  f.field("match_sigma_m", params.match_sigma_m);
+  f.angle_deg("match_sigma_deg", params.match_sigma_rad);
+  f.field("gate", params.gate);
+}
+
 void describe(config::Fields& f, LineSlamParams& params) {
   f.section("odometry", params.odometry);
   f.section("extractor", params.extractor);
@@ -100,6 +115,7 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.field("max_odometry_scale", params.odometry_scale.max);
   f.field("odometry_scale_up", params.odometry_scale.up);
   f.field("odometry_scale_down", params.odometry_scale.down);
+  f.section("odometry_bias", params.odometry_bias);
   f.field("lost_after", params.lost_after);
   f.field("repeats_fault", params.repeats_fault);
 }

@@ -11,6 +11,8 @@ namespace {
 
 /// chi-square of 3 dof at 99.9 %: a match farther from the prediction says that the odometry was wrong.
 constexpr double kContradiction = 16.27;
+/// ... and one that is farther than this, ten deviations, that the match itself may be the wrong one.
+constexpr double kJump = 100.0;
 
 /// The scan without the beams of lines that were paired: what they say has been used.
 LaserScan without_paired_lines(LaserScan scan, const lines::ScanLines& found,
@@ -57,6 +59,8 @@ LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
       matcher_(params.points.match),
       far_matcher_(far_search(params.points)),
       odometry_scale_(params.odometry_scale),
+      odometry_bias_(params.odometry_bias),
+      jump_(params.points.jump),
       travelled_(params.odometry),
       cloud_(params.points.cloud),
       backend_(params.loops),
@@ -74,6 +78,8 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   backend_.begin_first(map_T_base, stamp);
   start_local_map();
   cloud_.clear();
+  odometry_bias_.forget_match();
+  jump_.clear();
   travelled_.correct({}, Matrix3::Zero());
   next_id_ = 1;
   place_.reset();
@@ -119,9 +125,10 @@ PoseEstimate LineSlam::estimate() const {
   const PoseEstimate travelled = travelled_.estimate();
   const Pose2& map_T_node = backend_.pose(backend_.maps().back().id);
   const Pose2& node_T_base = lines_->robot();
-  const Pose2 node_T_now = node_T_base * travelled.map_T_base;
-  const Matrix3 to_a = compose_jacobian_a(node_T_base, travelled.map_T_base);
-  const Matrix3 to_b = compose_jacobian_b(node_T_base, travelled.map_T_base);
+  const Pose2 increment = odometry_bias_.corrected(travelled.map_T_base);
+  const Pose2 node_T_now = node_T_base * increment;
+  const Matrix3 to_a = compose_jacobian_a(node_T_base, increment);
+  const Matrix3 to_b = compose_jacobian_b(node_T_base, increment);
   const Matrix3 in_node =
       to_a * lines_->robot_covariance_map() * to_a.transpose() + to_b * travelled.covariance * to_b.transpose();
   const Matrix3 node_a = compose_jacobian_a(map_T_node, node_T_now);
@@ -148,7 +155,6 @@ Status LineSlam::update(const LaserScan& scan) {
   }
   ++counts_.scans;
   const PoseEstimate travelled = travelled_.estimate();
-  const Pose2& increment = travelled.map_T_base;
   if (stands_still(scan)) {
     ++counts_.still;
     look_again(scan);
@@ -157,6 +163,8 @@ Status LineSlam::update(const LaserScan& scan) {
   stood_ = 0;
   matched_ = false;
   used_ranges_ = scan.ranges_m;
+  odometry_bias_.note_motion(travelled.map_T_base, travelled.covariance);
+  const Pose2 increment = odometry_bias_.corrected(travelled.map_T_base);
   lines_->predict(increment, odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment)));
   travelled_.correct({}, Matrix3::Zero());
   travelled_.set_quality(LocalisationQuality::kLocalised, "");  // a jump is over once a scan has been looked at
@@ -199,8 +207,9 @@ void LineSlam::follow(Scan& scan) {
     return;
   }
   const MatchResult match = match_points(scan);
-  if (!believable(match, scan.predicted)) {
+  if (!believable(scan, match)) {
     ++counts_.unbelieved;
+    odometry_bias_.forget_match();
     note_failure(scan);
     return;
   }
@@ -237,19 +246,25 @@ MatchResult LineSlam::match_points(Scan& scan) {
   return match;
 }
 
-bool LineSlam::believable(const MatchResult& match, const Pose2& predicted) const {
-  if (match.pairs < params_.points.match.min_pairs || match.inlier_ratio < params_.points.accept_ratio) {
-    return false;
-  }
+bool LineSlam::believable(const Scan& scan, const MatchResult& match) {
   // What the odometry did not expect asks for more than a corner that happens to fit.
   const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
-  const bool surprising = lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction;
+  const double surprise = lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction);
   // So does a robot that did not know its place before: one more wrong scan in the map keeps it there.
-  const bool careful = surprising || failures_ > 0;
+  const bool careful = surprise > kContradiction || failures_ > 0;
   const bool far =
-      moved(predicted, match.map_T_base, params_.points.max_correction_m, params_.points.max_correction_rad);
-  return (!careful || match.inlier_ratio >= params_.points.good_ratio) &&
-         (!far || match.inlier_ratio >= params_.points.sure_ratio);
+      moved(scan.predicted, match.map_T_base, params_.points.max_correction_m, params_.points.max_correction_rad);
+  const double ratio = far       ? params_.points.sure_ratio
+                       : careful ? params_.points.good_ratio
+                                 : params_.points.accept_ratio;
+  const bool fits = match.pairs >= params_.points.match.min_pairs && match.inlier_ratio >= ratio;
+  // After a gap wheels may have slipped by any way; within a few centimetres they have not.
+  const bool jumps = !scan.gap && (far || surprise > kJump);
+  if (!fits || !jumps) {
+    jump_.clear();
+    return fits;
+  }
+  return jump_.confirms(match.map_T_base, scan.predicted);
 }
 
 void LineSlam::use_points(const Scan& scan, const MatchResult& match) {
@@ -265,6 +280,7 @@ void LineSlam::use_points(const Scan& scan, const MatchResult& match) {
 }
 
 void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covariance) {
+  odometry_bias_.note_match(match.map_T_base, match.degenerate_direction);
   if (match.degenerate_direction) {
     return;
   }
@@ -362,6 +378,8 @@ void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
   backend_.begin_next(last_T_new, covariance, stamp);
   start_local_map();
   cloud_.move_to(inverse(last_T_new), {}, carried);
+  odometry_bias_.change_frame(inverse(last_T_new));
+  jump_.clear();
   last_try_ = inverse(last_T_new) * last_try_;
   for (std::optional<Pose2>* map_T_node : {&claim_, &kept_map_T_node_, &hint_map_T_node_}) {
     if (*map_T_node) {

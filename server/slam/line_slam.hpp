@@ -64,7 +64,7 @@ class LineSlam final : public MapTracker {
   void learn_odometry(const MatchResult& match, const Matrix3& covariance);
   void follow(Scan& scan);
   [[nodiscard]] MatchResult match_points(Scan& scan);
-  [[nodiscard]] bool believable(const MatchResult& match, const Pose2& predicted) const;
+  [[nodiscard]] bool believable(const Scan& scan, const MatchResult& match);
   void correct(Scan& scan, const MatchResult& match);
   void use_points(const Scan& scan, const MatchResult& match);
   void use_leftover(const Scan& scan, const Association& association);
@@ -89,6 +89,8 @@ class LineSlam final : public MapTracker {
   ScanMatcher matcher_;
   ScanMatcher far_matcher_;
   OdometryScale odometry_scale_;
+  OdometryBias odometry_bias_;
+  JumpWitness jump_;
   OdometryTracker travelled_;     ///< since the last scan: its pose is the increment
   std::unique_ptr<SpMap> lines_;  ///< of the newest local map, in its frame
   LocalCloud cloud_;              ///< in the same frame

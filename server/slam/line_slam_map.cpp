@@ -107,6 +107,8 @@ Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
     backend_.begin_apart(last_scan_.value_or(RobotTime{}));
     start_local_map();
     cloud_.clear();
+    odometry_bias_.forget_match();
+    jump_.clear();
     failures_ = 0;
   }
   // What is driven from now on is known.

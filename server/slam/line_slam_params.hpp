@@ -4,8 +4,10 @@
 
 #include "server/lines/fast_extractor.hpp"
 #include "server/lines/observation.hpp"
+#include "server/slam/jump_witness.hpp"
 #include "server/slam/local_cloud.hpp"
 #include "server/slam/loop_detector.hpp"
+#include "server/slam/odometry_bias.hpp"
 #include "server/slam/odometry_scale.hpp"
 #include "server/slam/odometry_tracker.hpp"
 #include "server/slam/place_recogniser.hpp"
@@ -39,7 +41,10 @@ struct PointNetParams {
   double max_correction_m = 1.2;  ///< a match farther from the prediction is not believed
   double max_correction_rad = 0.6;
   double sure_ratio = 0.6;  ///< ... unless it explains so many points
-  double far_m = 2.5;       ///< half width of the second search, after a gap that the first one did not bridge
+  /// Without a gap those after it must say the same: through a door a scan shows little of what is known, and a corner
+  /// of it fits the wrong wall well.
+  JumpParams jump;
+  double far_m = 2.5;  ///< half width of the second search, after a gap that the first one did not bridge
   double far_rad = 0.8;
   double far_ratio = 0.5;             ///< share of the points that a place found by it must explain
   std::size_t carried_keyframes = 6;  ///< of one local map into the next
@@ -106,6 +111,7 @@ inline constexpr lines::ObservationParams kRealWalls{.wall_sigma_m = 0.02, .wall
 struct LineSlamParams {
   OdometryParams odometry;
   OdometryScaleParams odometry_scale;
+  OdometryBiasParams odometry_bias;
   lines::FastParams extractor;
   lines::ObservationParams observation = kRealWalls;
   SpMapParams lines;
