@@ -57,7 +57,9 @@ void note(const Error& error, std::string& trouble) {
 Status keep_place(const fs::path& folder, const api::MissionId& mission, const Pose2& map_T_base) {
   v1::KeptPlace message;
   wire::write(map_T_base, message.mutable_map_t_base());
-  return store::write_sealed_file(path_of(folder, mission, kPlaceKind), kPlaceKind, message.SerializeAsString());
+  // Every second: one that waited for a busy disk would be of a place the robot has left long ago.
+  return store::write_sealed_file(path_of(folder, mission, kPlaceKind), kPlaceKind, message.SerializeAsString(),
+                                  store::Outlives::kItsProgram);
 }
 
 Status keep_topology(const fs::path& folder, const api::MissionId& mission, const TopologyMemory& memory,

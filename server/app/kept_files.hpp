@@ -10,7 +10,7 @@
 
 namespace seeker::app {
 
-/// Of one mission, in the folder of the checkpoints. kIo.
+/// Of one mission, in the folder of the checkpoints. The place outlives the program only, not a power cut. kIo.
 [[nodiscard]] Status keep_place(const std::filesystem::path& folder, const api::MissionId& mission,
                                 const Pose2& map_T_base);
 [[nodiscard]] Status keep_topology(const std::filesystem::path& folder, const api::MissionId& mission,

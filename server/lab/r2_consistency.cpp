@@ -138,7 +138,9 @@ Result<NeesStudy> study_consistency(const sim::World& world, const sim::RobotMod
   NeesStudy study;
   for (const std::uint64_t seed : params.seeds) {
     const std::unique_ptr<slam::PoseTracker> tracker = make_tracker(robot);
-    if (Status ok = run_tour(world, robot, *tracker, params, seed, study.samples); !ok) {
+    Rng rng(seed);
+    const sim::RobotModel driven = with_uneven_wheels(robot, params.wheels, rng);
+    if (Status ok = run_tour(world, driven, *tracker, params, seed, study.samples); !ok) {
       return tl::unexpected<Error>(ok.error());
     }
   }
@@ -154,6 +156,16 @@ sim::RobotModel without_systematic_errors(sim::RobotModel model, double odometry
   m.sigma_distance *= odometry_factor;
   m.sigma_turn *= odometry_factor;
   m.sigma_turn_per_distance *= odometry_factor;
+  return model;
+}
+
+sim::RobotModel with_uneven_wheels(sim::RobotModel model, const UnevenWheels& wheels, Rng& rng) {
+  sim::OdometryModel& m = model.odometry;
+  const double way = rng.normal(wheels.way_sigma);
+  const double half_difference = 0.5 * model.wheel_base_m * rng.normal(wheels.bend_sigma_rad_per_m);
+  m.left_wheel_scale *= 1.0 + way - half_difference;
+  m.right_wheel_scale *= 1.0 + way + half_difference;
+  m.wheel_base_scale *= 1.0 + rng.normal(wheels.base_sigma);
   return model;
 }
 

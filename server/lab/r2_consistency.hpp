@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/core/image.hpp"
+#include "common/core/rng.hpp"
 #include "server/lab/check.hpp"
 #include "server/lab/table.hpp"
 #include "server/sim/robot_model.hpp"
@@ -20,6 +21,13 @@ namespace seeker::lab {
 /// Makes the tracker of one run; its frame `map` is the robot's start. `model` is the robot it rides on.
 using MakeTracker = std::function<std::unique_ptr<slam::PoseTracker>(const sim::RobotModel& model)>;
 
+/// Standard deviations of what wheels are off by all the time.
+struct UnevenWheels {
+  double way_sigma = 0.0;             ///< both alike, of their sizes
+  double bend_sigma_rad_per_m = 0.0;  ///< one larger than the other
+  double base_sigma = 0.0;            ///< of the distance between them
+};
+
 struct ConsistencyParams {
   std::vector<std::uint64_t> seeds;
   std::vector<Point2> tour;  ///< in the frame `world`, driven by the true pose: the same way in every run
@@ -29,6 +37,7 @@ struct ConsistencyParams {
   double instant_s = 10.0;  ///< NEES is taken this far apart
   double time_limit_s = 600.0;
   double odometry_factor = 1.0;  ///< on the random errors of the odometry
+  UnevenWheels wheels;           ///< other ones in each run; no tracker is told
 };
 
 /// One tracker at one instant of one run.
@@ -68,6 +77,8 @@ struct NeesStudy {
 
 /// The robot's random errors only: no wheel is larger than it says.
 [[nodiscard]] sim::RobotModel without_systematic_errors(sim::RobotModel model, double odometry_factor);
+
+[[nodiscard]] sim::RobotModel with_uneven_wheels(sim::RobotModel model, const UnevenWheels& wheels, Rng& rng);
 
 [[nodiscard]] Table nees_table(const NeesStudy& study);
 /// Mean NEES over time with its band, a series per study.

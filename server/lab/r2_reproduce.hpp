@@ -7,8 +7,8 @@
 
 namespace seeker::lab {
 
-/// r2.csv, r2-double.csv (twice the odometry noise), r2-local-maps.csv (across joins), r2-nees.png; a line per case to
-/// the report.
+/// r2.csv, r2-double.csv (twice the odometry noise), r2-local-maps.csv (across joins), r2-uneven.csv (wheels that
+/// nobody has calibrated, across joins), r2-nees.png; a line per case to the report.
 [[nodiscard]] Status reproduce_r2(const ReproduceParams& params, Report& report);
 
 /// The tour of R2 through the world `office-no-target`: corridor, three rooms and back.
@@ -18,5 +18,7 @@ namespace seeker::lab {
 /// Line SLAM told the same: a new local map every 10 m, loops not closed, so that the covariance goes through the
 /// joins.
 [[nodiscard]] MakeTracker local_maps_tracker();
+/// The same, and it learns what the wheels are off by all the time.
+[[nodiscard]] MakeTracker learning_tracker();
 
 }  // namespace seeker::lab

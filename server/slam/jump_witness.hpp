@@ -2,8 +2,6 @@
 /// A match far from where the odometry has the robot: believed when the scans after it say the same.
 #pragma once
 
-#include <optional>
-
 #include "common/core/pose2.hpp"
 
 namespace seeker::slam {

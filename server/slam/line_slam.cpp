@@ -129,8 +129,8 @@ PoseEstimate LineSlam::estimate() const {
   const Pose2 node_T_now = node_T_base * increment;
   const Matrix3 to_a = compose_jacobian_a(node_T_base, increment);
   const Matrix3 to_b = compose_jacobian_b(node_T_base, increment);
-  const Matrix3 in_node =
-      to_a * lines_->robot_covariance_map() * to_a.transpose() + to_b * travelled.covariance * to_b.transpose();
+  const Matrix3 moved = travelled.covariance + odometry_bias_.covariance_of(travelled.map_T_base);
+  const Matrix3 in_node = to_a * lines_->robot_covariance_map() * to_a.transpose() + to_b * moved * to_b.transpose();
   const Matrix3 node_a = compose_jacobian_a(map_T_node, node_T_now);
   const Matrix3 node_b = compose_jacobian_b(map_T_node, node_T_now);
   PoseEstimate estimate;
@@ -165,7 +165,8 @@ Status LineSlam::update(const LaserScan& scan) {
   used_ranges_ = scan.ranges_m;
   odometry_bias_.note_motion(travelled.map_T_base, travelled.covariance);
   const Pose2 increment = odometry_bias_.corrected(travelled.map_T_base);
-  lines_->predict(increment, odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment)));
+  const Matrix3 random = odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment));
+  lines_->predict(increment, random + to_base_frame(odometry_bias_.covariance_of(travelled.map_T_base), increment));
   travelled_.correct({}, Matrix3::Zero());
   travelled_.set_quality(LocalisationQuality::kLocalised, "");  // a jump is over once a scan has been looked at
   const double way_m = std::hypot(increment.x_m, increment.y_m);

@@ -29,6 +29,18 @@ Pose2 OdometryBias::corrected(const Pose2& increment) const {
   return {along.x() + aside.x(), along.y() + aside.y(), wrap_angle(turn_rad)};
 }
 
+Matrix3 OdometryBias::covariance_of(const Pose2& increment) const {
+  const double turn_rad = increment.theta_rad;
+  const double half_way_m = 0.5 * increment.x_m;
+  Eigen::Matrix<double, 3, kFactors> by_factor;  // of corrected(), where the factors are small
+  by_factor.col(kWay) << increment.x_m, increment.y_m, 0.0;
+  by_factor.col(kBend) << -half_way_m * increment.y_m, half_way_m * increment.x_m, increment.x_m;
+  by_factor.col(kTurn) << -0.5 * turn_rad * increment.y_m, half_way_m * turn_rad, turn_rad;
+  by_factor.col(kSkew) << 0.0, increment.x_m, 0.0;
+  by_factor.col(kLever) << std::cos(turn_rad) - 1.0, std::sin(turn_rad), 0.0;
+  return by_factor * covariance_ * by_factor.transpose();
+}
+
 void OdometryBias::note_motion(const Pose2& increment, const Matrix3& covariance) {
   since_match_ = compose(since_match_, {increment, covariance});
 }

@@ -50,9 +50,12 @@ bool write_all(int fd, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-Status write_and_sync(FileDescriptor& file, std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
+Status write_and_close(FileDescriptor& file, std::span<const std::uint8_t> bytes, const std::filesystem::path& path,
+                       Outlives outlives) {
   constexpr mode_t kMode = 0644;
-  if (!write_all(file.get(), bytes) || ::fchmod(file.get(), kMode) != 0 || ::fsync(file.get()) != 0 || !file.close()) {
+  const bool sync = outlives == Outlives::kPowerCut;
+  if (!write_all(file.get(), bytes) || ::fchmod(file.get(), kMode) != 0 || (sync && ::fsync(file.get()) != 0) ||
+      !file.close()) {
     return system_failure("cannot write", path, errno);
   }
   return {};
@@ -60,13 +63,14 @@ Status write_and_sync(FileDescriptor& file, std::span<const std::uint8_t> bytes,
 
 }  // namespace
 
-Status write_file_atomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+Status write_file_atomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                             Outlives outlives) {
   std::string temporary = path.string() + ".XXXXXX";
   FileDescriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
   if (file.get() < 0) {
     return fail(Errc::kIo, "cannot create a file in the folder of '" + path.string() + "': " + std::strerror(errno));
   }
-  Status ok = write_and_sync(file, bytes, path);
+  Status ok = write_and_close(file, bytes, path, outlives);
   if (ok && ::rename(temporary.c_str(), path.c_str()) != 0) {
     ok = system_failure("cannot replace", path, errno);
   }
@@ -74,7 +78,7 @@ Status write_file_atomically(const std::filesystem::path& path, std::span<const 
     ::unlink(temporary.c_str());
     return ok;
   }
-  return sync_folder(path.parent_path());
+  return outlives == Outlives::kPowerCut ? sync_folder(path.parent_path()) : Status();
 }
 
 Status write_file_atomically(const std::filesystem::path& path, std::string_view text) {

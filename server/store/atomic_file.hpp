@@ -13,9 +13,16 @@
 
 namespace seeker::store {
 
-/// Replaces or creates `path` with `bytes`, on the disk when it returns. The temporary file lies beside it and is
-/// removed on failure; `path` then still has its old content. kIo: full disk, no permission, no such folder.
-[[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+/// What a file that was written outlives.
+enum class Outlives : std::uint8_t {
+  kPowerCut,
+  kItsProgram,  ///< no wait for the disk, which may be busy for seconds; after a power cut it may be old, empty or gone
+};
+
+/// Replaces or creates `path` with `bytes`. The temporary file lies beside it and is removed on failure; `path` then
+/// still has its old content. kIo: full disk, no permission, no such folder.
+[[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                                           Outlives outlives = Outlives::kPowerCut);
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
 /// The whole file. kNotFound: none there; kTooLarge: longer than `limit_bytes`.

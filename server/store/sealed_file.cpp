@@ -58,11 +58,12 @@ Result<std::vector<std::uint8_t>> unseal(const std::string& kind, std::span<cons
   return std::vector<std::uint8_t>(content.begin(), content.end());
 }
 
-Status write_sealed_file(const std::filesystem::path& path, const std::string& kind, std::string_view content) {
+Status write_sealed_file(const std::filesystem::path& path, const std::string& kind, std::string_view content,
+                         Outlives outlives) {
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
-  return write_file_atomically(path, seal(kind, bytes));
+  return write_file_atomically(path, seal(kind, bytes), outlives);
 }
 
 Result<std::vector<std::uint8_t>> read_sealed_file(const std::filesystem::path& path, const std::string& kind,

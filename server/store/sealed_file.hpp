@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/core/result.hpp"
+#include "server/store/atomic_file.hpp"
 
 namespace seeker::store {
 
@@ -28,7 +29,7 @@ inline constexpr std::uint32_t kSealedFileVersion = 1;
 
 /// Replaces `path` as a whole or leaves it as it was; makes its folder. kIo.
 [[nodiscard]] Status write_sealed_file(const std::filesystem::path& path, const std::string& kind,
-                                       std::string_view content);
+                                       std::string_view content, Outlives outlives = Outlives::kPowerCut);
 /// Errors of unseal() with the path in front; kNotFound, kTooLarge, kIo.
 [[nodiscard]] Result<std::vector<std::uint8_t>> read_sealed_file(const std::filesystem::path& path,
                                                                  const std::string& kind, std::size_t limit_bytes);

@@ -33,7 +33,7 @@ class Daemon {
     std::vector<std::string> arguments{"--config",    config,    "--port",  "0",
                                        "--port-file", port_file, "--state", folder_ / "state"};
     arguments.insert(arguments.end(), extra.begin(), extra.end());
-    process.emplace(program("seekerd"), arguments, folder_ / "log");
+    process.emplace(program("seekerd"), arguments, fresh_log());
     const std::optional<std::string> text = wait_for_file(port_file, kStart);
     port = text ? *text : "";
     EXPECT_TRUE(text) << process->output();
@@ -46,6 +46,15 @@ class Daemon {
   std::string port;
 
  private:
+  /// A program that is started again leaves what the one before wrote.
+  [[nodiscard]] std::filesystem::path fresh_log() const {
+    std::filesystem::path log = folder_ / "log";
+    for (int again = 1; std::filesystem::exists(log); ++again) {
+      log = folder_ / ("log-" + std::to_string(again));
+    }
+    return log;
+  }
+
   std::filesystem::path folder_;
 };
 

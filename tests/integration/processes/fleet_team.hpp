@@ -12,6 +12,7 @@
 
 #include "common/core/angle.hpp"
 #include "common/rpc/fleet_client.hpp"
+#include "server/app/kept_files.hpp"
 #include "server/options/world_options.hpp"
 #include "server/store/map_file.hpp"
 #include "tests/integration/processes/emulator.hpp"
@@ -131,6 +132,12 @@ class Team {
   /// Where a restart of the robot takes its map from.
   [[nodiscard]] std::filesystem::path checkpoint(std::size_t k) const {
     return folders_[k] / "state" / "maps" / "checkpoints" / ("r" + std::to_string(k)) / "look-round.seekermap";
+  }
+  /// Where a restart looks for the robot first.
+  [[nodiscard]] std::optional<Pose2> kept_place(std::size_t k) const {
+    constexpr std::uint32_t kAnyEpoch = 0;  // that of the topology
+    std::string ignored;                    // half of it may be there
+    return app::read_kept(checkpoint(k).parent_path(), "look-round", kAnyEpoch, ignored).map_T_base;
   }
   void explore(std::size_t k) const {
     std::string output;

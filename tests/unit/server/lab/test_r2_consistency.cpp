@@ -3,6 +3,8 @@
 
 #include "server/lab/r2_reproduce.hpp"
 #include "server/lab/r2_tracker.hpp"
+#include "server/options/world_options.hpp"
+#include "tests/support/data.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -70,6 +72,32 @@ TEST(R2Consistency, ErrorsTwiceAsLargeAsBelievedFail) {
 }
 
 TEST(R2Consistency, ErrorsHalfAsLargeAsBelievedFailToo) { EXPECT_FALSE(nees_check("blind", drive_blind(0.5)).passed); }
+
+/// The mean over runs and instants of a robot whose wheels nobody has calibrated, on the first rooms of the tour.
+double nees_of_uneven_wheels(const MakeTracker& make_tracker) {
+  ConsistencyParams params;
+  params.seeds = {1, 2, 3, 4, 5, 6};
+  params.tour = office_tour();
+  params.tour.resize(3);
+  params.wheels = {.way_sigma = 0.02, .bend_sigma_rad_per_m = 0.02, .base_sigma = 0.02};
+  const Result<sim::World> world = options::load_world(testing::source_file("config/worlds/office-no-target.yaml"));
+  EXPECT_TRUE(world) << (world ? "" : world.error().message);
+  const Result<NeesStudy> study = study_consistency(*world, {}, make_tracker, params);
+  EXPECT_TRUE(study) << (study ? "" : study.error().message);
+  double sum = 0.0;
+  for (const NeesSample& sample : study->samples) {
+    sum += sample.nees;
+  }
+  return sum / static_cast<double>(study->samples.size());
+}
+
+TEST(R2Consistency, WheelsThatNobodyHasCalibratedAreLearntAndTheirUncertaintyIsToldOf) {
+  // Chi-square of 18 dof, 99 %, over 6 runs, as if all instants of a run erred alike.
+  const double learnt = nees_of_uneven_wheels(learning_tracker());
+  EXPECT_GT(learnt, 1.04);
+  EXPECT_LT(learnt, 6.19);
+  EXPECT_GT(nees_of_uneven_wheels(local_maps_tracker()), 2.0 * 6.19) << "which takes them for calibrated";
+}
 
 TEST(R2Consistency, ATourThroughAWallIsAnError) {
   ConsistencyParams params;

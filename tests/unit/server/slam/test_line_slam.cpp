@@ -173,8 +173,7 @@ double heading_error_rad(const LineSlamParams& params) {
 
 TEST(LineSlam, AScannerThatSitsTurnedDoesNotBendACorridor) {
   LineSlamParams unlearnt;
-  unlearnt.odometry_bias = {
-      .way_sigma = 0.0, .bend_sigma_rad_per_m = 0.0, .turn_sigma = 0.0, .skew_sigma = 0.0, .lever_sigma_m = 0.0};
+  unlearnt.odometry_bias = kCalibratedOdometry;
   const double learnt_rad = heading_error_rad({});
   EXPECT_LT(learnt_rad, 0.05);
   EXPECT_GT(heading_error_rad(unlearnt), 2.0 * learnt_rad) << "what the robot learns makes the difference";

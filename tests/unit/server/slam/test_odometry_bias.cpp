@@ -55,6 +55,19 @@ TEST(OdometryBias, LearnsWhatTheWheelsAndTheMountAreOffBy) {
   EXPECT_LT(std::abs(off[2]), 0.003);
 }
 
+TEST(OdometryBias, SaysHowUncertainAMotionIsBeforeAndAfterItHasLearnt) {
+  OdometryBias bias;
+  const Pose2 metre{1.0, 0.0, 0.0};
+  const Matrix3 before = bias.covariance_of(metre);
+  EXPECT_NEAR(before(0, 0), 0.05 * 0.05, 1e-9) << "the way";
+  EXPECT_NEAR(before(1, 1), 0.02 * 0.02 + 0.025 * 0.025, 1e-9) << "the mount, and half of the bend";
+  EXPECT_NEAR(before(2, 2), 0.05 * 0.05, 1e-9) << "the bend";
+  EXPECT_NEAR(bias.covariance_of({0.0, 0.0, 0.5})(2, 2), 0.025 * 0.025, 1e-9) << "a turn on the spot";
+  drive(bias, 300);
+  EXPECT_LT(bias.covariance_of(metre).trace(), 0.1 * before.trace());
+  EXPECT_EQ(OdometryBias(kCalibratedOdometry).covariance_of(metre), Matrix3::Zero());
+}
+
 TEST(OdometryBias, LearnsTheBendButNoWayInACorridor) {
   OdometryBias bias;
   drive(bias, 300, Point2::UnitX());

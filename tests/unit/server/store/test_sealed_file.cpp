@@ -50,5 +50,14 @@ TEST(SealedFile, IsWrittenIntoAFolderThatItMakes) {
   EXPECT_NE(read_sealed_file(path, "place", 100).error().message.find("a.place"), std::string::npos);
 }
 
+TEST(SealedFile, OneThatNeedNotOutliveAPowerCutIsReplacedAsAWholeToo) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "a.place";
+  ASSERT_TRUE(write_sealed_file(path, "place", "the first, which is longer"));
+  ASSERT_TRUE(write_sealed_file(path, "place", "here", Outlives::kItsProgram));
+  EXPECT_EQ(read_sealed_file(path, "place", 100).value(), (Bytes{'h', 'e', 'r', 'e'}));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "no temporary file is left";
+}
+
 }  // namespace
 }  // namespace seeker::store
