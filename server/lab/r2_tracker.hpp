@@ -17,7 +17,7 @@ struct SpTrackerParams {
   lines::ObservationParams observation;
   slam::SpMapParams map;
   sim::OdometryModel odometry;    ///< its random part is what the increments are believed to be off by
-  double slip_sigma_m = 0.00005;  ///< of every increment, across and along: what the encoders do not round to
+  double slip_sigma_m = 0.00002;  ///< of every increment, across and along: keeps its covariance positive definite
 };
 
 class SpTracker final : public slam::PoseTracker {

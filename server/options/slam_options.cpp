@@ -88,6 +88,7 @@ void describe(config::Fields& f, SpAssociationParams& params) {
   f.field("end_gate", params.end_gate);
   f.field("near_gate", params.near_gate);
   f.field("joint_sigmas", params.joint_sigmas);
+  f.field("surprise_sigmas", params.surprise_sigmas);
   f.angle_deg("max_angle_deg", params.max_angle_rad);
   f.field("virtual_gap_m", params.virtual_gap_m);
   f.field("real_gap_m", params.real_gap_m);

@@ -93,7 +93,7 @@ struct Problem {
   std::vector<std::vector<PairCandidate>> candidates;  ///< per item
 };
 
-Problem make_problem(const SpState& state, const std::vector<SegmentObservation>& observations,
+Problem make_problem(const SpState& state, const std::vector<SegmentObservation>& observations, double gate,
                      Association& association) {
   std::vector<std::vector<PairCandidate>> all;
   for (std::size_t k = 0; k < observations.size(); ++k) {
@@ -108,7 +108,7 @@ Problem make_problem(const SpState& state, const std::vector<SegmentObservation>
     }
     match.verdict = SpVerdict::kRejected;
     match.d2 = candidates.front().d2;
-    std::erase_if(candidates, [&](const PairCandidate& c) { return c.d2 > state.params.association.gate; });
+    std::erase_if(candidates, [&](const PairCandidate& c) { return c.d2 > gate; });
     if (std::any_of(candidates.begin(), candidates.end(), [](const PairCandidate& c) { return c.apart < 0.5; })) {
       std::erase_if(candidates, [](const PairCandidate& c) { return c.beside; });
     }
@@ -207,6 +207,43 @@ void accept(const SpState& state, const PairCandidate& pair, Association& associ
   match.d2 = pair.d2;
 }
 
+/// The largest set of pairs, each within `gate`, that agree to within the quantile of `sigmas`.
+Association associate_within(const SpState& state, const std::vector<SegmentObservation>& observations, double gate,
+                             double sigmas) {
+  Association association;
+  association.matches.resize(observations.size());
+  const Problem problem = make_problem(state, observations, gate, association);
+  const JointChoice choice = search_joint(state.p, problem.items, sigmas, state.params.association.max_nodes);
+  association.nodes = choice.nodes;
+  association.capped = choice.capped;
+  std::vector<RowGroup> line_groups;
+  std::vector<EndCandidate> ends;
+  for (std::size_t k = 0; k < problem.items.size(); ++k) {
+    if (choice.option[k] < 0) {
+      continue;
+    }
+    const auto option = static_cast<std::size_t>(choice.option[k]);
+    const PairCandidate& pair = problem.candidates[k][option];
+    accept(state, pair, association);
+    line_groups.push_back(problem.items[k].options[option].group);
+    for (EndCandidate& end : end_candidates(state, pair, observations[pair.observation])) {
+      ends.push_back(std::move(end));
+    }
+  }
+  choose_ends(state, line_groups, std::move(ends), association);
+  return association;
+}
+
+std::ptrdiff_t count(const Association& association, SpVerdict verdict) {
+  return std::count_if(association.matches.begin(), association.matches.end(),
+                       [&](const SpMatch& match) { return match.verdict == verdict; });
+}
+
+/// Of the observations that are near a segment.
+bool most_are_paired(const Association& association) {
+  return count(association, SpVerdict::kPaired) >= count(association, SpVerdict::kRejected);
+}
+
 }  // namespace
 
 std::vector<PairCandidate> candidates_of(const SpState& state, std::size_t index,
@@ -252,29 +289,14 @@ double group_d2(const SpCovariance& p, const RowGroup& group) {
 }
 
 Association associate_jointly(const SpState& state, const std::vector<SegmentObservation>& observations) {
-  Association association;
-  association.matches.resize(observations.size());
-  const Problem problem = make_problem(state, observations, association);
-  const JointChoice choice =
-      search_joint(state.p, problem.items, state.params.association.joint_sigmas, state.params.association.max_nodes);
-  association.nodes = choice.nodes;
-  association.capped = choice.capped;
-  std::vector<RowGroup> line_groups;
-  std::vector<EndCandidate> ends;
-  for (std::size_t k = 0; k < problem.items.size(); ++k) {
-    if (choice.option[k] < 0) {
-      continue;
-    }
-    const auto option = static_cast<std::size_t>(choice.option[k]);
-    const PairCandidate& pair = problem.candidates[k][option];
-    accept(state, pair, association);
-    line_groups.push_back(problem.items[k].options[option].group);
-    for (EndCandidate& end : end_candidates(state, pair, observations[pair.observation])) {
-      ends.push_back(std::move(end));
-    }
+  const SpAssociationParams& params = state.params.association;
+  Association association = associate_within(state, observations, params.gate, params.joint_sigmas);
+  if (most_are_paired(association)) {
+    return association;
   }
-  choose_ends(state, line_groups, std::move(ends), association);
-  return association;
+  Association wider = associate_within(state, observations, params.near_gate, params.surprise_sigmas);
+  const bool several = count(wider, SpVerdict::kPaired) > 1;
+  return several && most_are_paired(wider) ? wider : association;
 }
 
 Association associate_nearest(const SpState& state, const std::vector<SegmentObservation>& observations) {

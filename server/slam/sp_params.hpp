@@ -13,10 +13,13 @@ enum class SpMode : std::uint8_t {
 };
 
 struct SpAssociationParams {
-  double gate = 5.991;                  ///< of a pair's (y, theta): 2 dof, 95 %
-  double end_gate = 6.635;              ///< of an endpoint: 1 dof, 99 %
-  double near_gate = 36.0;              ///< no new segment where an observation is this near to an old one
-  double joint_sigmas = 2.326;          ///< joint gate: quantile of chi-square at this many normal sigmas (99 %)
+  double gate = 5.991;          ///< of a pair's (y, theta): 2 dof, 95 %
+  double end_gate = 6.635;      ///< of an endpoint: 1 dof, 99 %
+  double near_gate = 36.0;      ///< no new segment where an observation is this near to an old one
+  double joint_sigmas = 2.326;  ///< joint gate: quantile of chi-square at this many normal sigmas (99 %)
+  /// ... where most walls miss their gates: then it is the robot that is off, for all of them alike, and those within
+  /// the near gate are paired if most of them agree (99.99 %).
+  double surprise_sigmas = 3.719;
   double max_angle_rad = 0.5235987756;  ///< pairs differ by less (30 degrees, spec S1.5)
   double virtual_gap_m = 0.5;           ///< an observation beyond a virtual end may be this far off
   double real_gap_m = 0.15;             ///< beyond a real one, plus real_gap_sigmas

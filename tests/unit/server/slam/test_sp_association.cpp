@@ -1,6 +1,8 @@
 /// Which segment an observation is: gates, overlap, joint compatibility.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "server/slam/sp_joint_search.hpp"
 #include "sp_world.hpp"
 
@@ -60,6 +62,30 @@ TEST(SpAssociation, RecognisesEveryWallOfTheRoom) {
   }
   EXPECT_EQ(association.dof, 16);
   EXPECT_LT(association.joint_d2, 1e-9);
+}
+
+/// Four walls seen by a robot that is turned by so many deviations from where it is predicted; how many are recognised.
+std::ptrdiff_t recognised_where_the_wheels_slipped(double sigmas) {
+  constexpr double kSigma_rad = 0.005;
+  SpMap map(Pose2{}, 1e-8 * Matrix3::Identity(), {});
+  std::vector<SegmentObservation> seen;
+  std::vector<SegmentObservation> seen_turned;
+  const Pose2 turned{0.0, 0.0, sigmas * kSigma_rad};
+  for (const TrueWall& wall : test::room()) {
+    seen.push_back(whole({}, wall));
+    seen_turned.push_back(whole(turned, wall));
+  }
+  map.update(seen, map.associate(seen));
+  map.predict({}, Eigen::Vector3d(1e-6, 1e-6, kSigma_rad * kSigma_rad).asDiagonal());
+  const Association association = map.associate(seen_turned);
+  return std::count_if(association.matches.begin(), association.matches.end(),
+                       [](const SpMatch& match) { return match.verdict == SpVerdict::kPaired; });
+}
+
+TEST(SpAssociation, RecognisesWallsThatAreAllOffAlikeForTheRobotIsOff) {
+  EXPECT_EQ(recognised_where_the_wheels_slipped(2.0), 4);
+  EXPECT_EQ(recognised_where_the_wheels_slipped(4.0), 4) << "each misses its gate alone";
+  EXPECT_EQ(recognised_where_the_wheels_slipped(8.0), 0) << "this is no chance any more";
 }
 
 TEST(SpAssociation, TakesTheTwoFacesOfAWallForTwo) {
