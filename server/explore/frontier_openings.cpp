@@ -53,6 +53,10 @@ std::vector<Piece> cut(const nav::Frontier& frontier, const OpeningsInput& input
   return pieces;
 }
 
+double length_of(const Piece& piece, const OpeningsInput& input) {
+  return input.floor.cost.frame().resolution_m * static_cast<double>(piece.cells.size());
+}
+
 /// Cells of unknown floor beside the piece that the robot may explore.
 struct Beyond {
   Point2 direction = Point2::Zero();  ///< sum of unit steps into the unknown
@@ -91,7 +95,6 @@ std::optional<Opening> opening_of(const Piece& piece, const OpeningsInput& input
   const Point2 outward = beyond.direction.squaredNorm() > 0.5 ? beyond.direction : from_robot;
   opening.outward_map = outward.norm() > 0.0 ? Point2(outward.normalized()) : Point2(Point2::UnitX());
   opening.cost = *input.costs.cost_to(piece.cells.front());
-  opening.size_m = resolution_m * static_cast<double>(piece.cells.size());
   opening.map_T_view = {opening.p_map.x(), opening.p_map.y(),
                         std::atan2(opening.outward_map.y(), opening.outward_map.x())};
   return opening;
@@ -102,12 +105,15 @@ std::optional<Opening> opening_of(const Piece& piece, const OpeningsInput& input
 std::vector<Opening> frontier_openings(const OpeningsInput& input, const ViewpointParams& params) {
   std::vector<Opening> openings;
   for (const nav::Frontier& frontier : nav::find_frontiers(input.floor.cost, input.costs, params.min_frontier_m)) {
-    for (const Piece& piece : cut(frontier, input, params.max_frontier_m)) {
-      const double length_m = input.floor.cost.frame().resolution_m * static_cast<double>(piece.cells.size());
+    const std::vector<Piece> pieces = cut(frontier, input, params.max_frontier_m);
+    for (const Piece& piece : pieces) {
+      // One that was not cut is as long as what the robot's body keeps it from, too.
+      const double length_m = pieces.size() == 1 ? frontier.length_m : length_of(piece, input);
       if (length_m < params.min_frontier_m) {
         continue;
       }
       if (auto opening = opening_of(piece, input, params)) {
+        opening->size_m = length_m;
         openings.push_back(*opening);
       }
     }

@@ -6,7 +6,7 @@ namespace seeker::explore {
 
 struct ViewpointParams {
   // What is left to explore.
-  double min_frontier_m = 0.4;   ///< shorter borders are noise
+  double min_frontier_m = 0.4;   ///< shorter borders, obstacle to obstacle, are noise: no robot fits through
   double max_frontier_m = 3.0;   ///< longer ones are cut into pieces
   double min_pocket_m2 = 0.1;    ///< unknown floor smaller than this is noise
   double min_face_m = 0.5;       ///< shorter sides of walls that nobody has seen are noise

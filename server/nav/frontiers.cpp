@@ -1,6 +1,8 @@
 #include "server/nav/frontiers.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <utility>
 
 namespace seeker::nav {
@@ -40,8 +42,32 @@ Frontier take_frontier(Grid<std::uint8_t>& mark, const DistanceField& costs, Cel
       }
     }
   }
-  frontier.length_m = mark.frame().resolution_m * static_cast<double>(cells.size());
   return frontier;
+}
+
+/// Cells of the border that go on from `cells` where the robot's centre cannot be, no farther than its radius keeps it
+/// from what the border ends at: a border along a whole wall is none of a gap's width.
+std::size_t cells_beside(const CostMap& map, const std::vector<CellIndex>& cells) {
+  const int steps = static_cast<int>(std::ceil(map.params().robot_radius_m / map.frame().resolution_m));
+  std::set<CellIndex> beside;
+  std::vector<CellIndex> ring = cells;
+  for (int step = 0; step < steps && !ring.empty(); ++step) {
+    std::vector<CellIndex> next_ring;
+    for (const CellIndex cell : ring) {
+      for (int dj = -1; dj <= 1; ++dj) {
+        for (int di = -1; di <= 1; ++di) {
+          const CellIndex next{cell.i + di, cell.j + dj};
+          const bool goes_on =
+              map.state(next) == CellState::kFree && !map.traversable(next) && beside_unknown(map, next);
+          if (goes_on && beside.insert(next).second) {
+            next_ring.push_back(next);
+          }
+        }
+      }
+    }
+    ring = std::move(next_ring);
+  }
+  return beside.size();
 }
 
 }  // namespace
@@ -61,6 +87,8 @@ std::vector<Frontier> find_frontiers(const CostMap& map, const DistanceField& co
   for (const CellIndex cell : border) {
     if (mark[cell] != 0) {
       Frontier frontier = take_frontier(mark, costs, cell);
+      const std::size_t length_cells = frontier.cells.size() + cells_beside(map, frontier.cells);
+      frontier.length_m = map.frame().resolution_m * static_cast<double>(length_cells);
       if (frontier.length_m >= min_length_m) {
         frontiers.push_back(std::move(frontier));
       }

@@ -13,11 +13,13 @@ namespace seeker::nav {
 struct Frontier {
   Point2 p_map = Point2::Zero();  ///< its cheapest cell
   double cost = 0.0;              ///< to get there
+  /// Of all of it. A border ends at obstacles, from which the robot's centre keeps its radius: of a door of 0.8 m it
+  /// can reach 0.2 m, and yet the door is as wide as it is.
   double length_m = 0.0;
-  std::vector<CellIndex> cells;  ///< all of it, of the cost map
+  std::vector<CellIndex> cells;  ///< what the robot's centre can reach of it, of the cost map
 };
 
-/// Every frontier of at least `min_length_m`, cheapest first. Only cells that the robot's centre can reach.
+/// Every frontier of at least `min_length_m` of which the robot's centre can reach something, cheapest first.
 [[nodiscard]] std::vector<Frontier> find_frontiers(const CostMap& map, const DistanceField& costs, double min_length_m);
 
 /// True when p lies within `radius_m` of one of the places.

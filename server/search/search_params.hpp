@@ -44,7 +44,7 @@ struct PlanParams {
   double min_gain_cells = 6.0;            ///< expected new evidence (cells x probability) that is worth a drive
   double frontier_bonus_cells = 12.0;     ///< worth of an unknown border in the same unit
   double travel_offset_m = 1.0;           ///< gain / (cost + offset): keeps near crumbs from winning
-  double min_frontier_m = 0.4;            ///< shorter borders are noise
+  double min_frontier_m = 0.4;            ///< shorter borders, obstacle to obstacle, are noise
   double frontier_reach_m = 0.5;          ///< a goal so near to a frontier observes it
   int max_failures = 2;                   ///< failed drives to a goal before it is unreachable
   double goal_time_s = 120.0;             ///< longest drive to one goal
