@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "server/nav/ray.hpp"
+#include "server/nav/way_out.hpp"
 
 namespace seeker::nav {
 namespace {
@@ -222,7 +223,7 @@ Result<CellIndex> snap_start(const CostMap& map, const Point2& start, const Plan
   if (!start.allFinite()) {
     return fail(Errc::kInvalidArgument, "the start of the way is not a finite point");
   }
-  if (const auto cell = map.nearest_traversable(start, params.start_snap_m)) {
+  if (const auto cell = way_out(map, start, params.start_snap_m)) {
     return *cell;
   }
   return fail(Errc::kUnreachable,

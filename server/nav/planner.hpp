@@ -24,7 +24,7 @@ struct Path {
 };
 
 struct PlannerParams {
-  double start_snap_m = 0.6;  ///< a start inside inflated space leaves it over the nearest traversable cell within this
+  double start_snap_m = 0.6;  ///< a start inside inflated space, or on floor that leads nowhere, is left by way_out()
   double goal_snap_m = 0.3;   ///< a goal that cannot be entered is moved to the nearest traversable cell within this
   bool shorten = true;        ///< any-angle: drop waypoints where the straight way is clear and not costlier
 };

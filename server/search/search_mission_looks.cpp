@@ -191,9 +191,10 @@ void SearchMission::Impl::finish_covered(const StrategyStep& step, const Strateg
   const double share = summary_.reachable_area_m2 > 0.0 ? summary_.covered_area_m2 / summary_.reachable_area_m2 : 0.0;
   const std::string covered = text(kPercent * share) + " % of " + text(summary_.reachable_area_m2) +
                               " m2 reachable floor seen with probability " + text(summary_.threshold) + " or more";
-  const bool nothing = step.trapped && strategy_->lists().searched.size() <= 1;
-  if (nothing) {
-    finish(EndKind::kUnreachable, step.activity + "; " + covered, "free the robot or move it, then start again", out);
+  const bool walled_in = summary_.reachable_area_m2 <= 0.0;
+  if ((step.trapped || walled_in) && strategy_->lists().searched.size() <= 1) {
+    const std::string cause = walled_in ? "the robot is walled in: there is no floor around it to drive on" : covered;
+    finish(EndKind::kUnreachable, step.activity + "; " + cause, "free the robot or move it, then start again", out);
     return;
   }
   const std::size_t unreachable = strategy_->lists().unreachable.size();
