@@ -78,6 +78,11 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
     left.no_floor = costs.error();
     return left;
   }
+  const auto& reachable = (*floor)->reachable.cells();
+  if (std::all_of(reachable.begin(), reachable.end(), [](std::uint8_t cell) { return cell == 0; })) {
+    left.no_floor = Error{Errc::kUnreachable, "the robot is walled in: there is no floor around it to drive on"};
+    return left;
+  }
   left.cut_off = cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2);
   // What only other robots have seen is theirs to look after.
   std::erase_if(left.cut_off, [&](const Point2& p_map) { return !seen_by_itself(**floor, p_map); });

@@ -28,6 +28,9 @@ PlaceStrategy::PlaceStrategy(const ExploreParams& params, std::unique_ptr<PlaceC
 StrategyStep PlaceStrategy::step(const StrategyInput& input) {
   StrategyStep out;
   out.phase = "drive";
+  const Point2 here = input.map_T_base.translation();
+  began_map_ = began_map_.value_or(here);
+  looked_round_ = looked_round_ || (here - *began_map_).norm() > params_.viewpoints.reached_m;
   switch (state_) {
     case State::kChoose: choose(input, out); break;
     case State::kDrive: drive(input, out); break;
@@ -80,30 +83,32 @@ void PlaceStrategy::choose(const StrategyInput& input, StrategyStep& out) {
       finish(found.error().message, out);
       return;
     }
-    why_ = "turning on the spot to see more: " + found.error().message;
-    state_ = State::kTurn;
-    since_ = input.now;
-    turn(input, out);
+    begin_turn(input, "turning on the spot to see more: " + found.error().message, out);
     return;
   }
   turned_ = false;
   since_ = input.now;
   considered_ = input.now;
   if (found->open.empty()) {
-    wait_or_finish(*found, out);
+    wait_or_finish(input, *found, out);
     return;
   }
   go(input, chooser_->choose({input, *found->floor, found->costs, found->open}), out);
   if (!goal_) {
-    wait_or_finish(*found, out);
+    wait_or_finish(input, *found, out);
   }
 }
 
-void PlaceStrategy::wait_or_finish(const Survey& found, StrategyStep& out) {
+void PlaceStrategy::wait_or_finish(const StrategyInput& input, const Survey& found, StrategyStep& out) {
   goal_.reset();
   if (found.resting) {
     state_ = State::kWait;
     why_ = "waiting to try again what could not be reached";
+    return;
+  }
+  if (!looked_round_) {
+    // One scan, or the first few cells of a map, may hold no border that is long enough; nor does a wall close by.
+    begin_turn(input, "turning on the spot to see what is around the start", out);
     return;
   }
   finish("nothing is left to explore", out);
@@ -205,10 +210,18 @@ void PlaceStrategy::look(const StrategyInput& input, StrategyStep& out) {
   out.step_done = true;
 }
 
+void PlaceStrategy::begin_turn(const StrategyInput& input, std::string why, StrategyStep& out) {
+  why_ = std::move(why);
+  state_ = State::kTurn;
+  since_ = input.now;
+  turn(input, out);
+}
+
 void PlaceStrategy::turn(const StrategyInput& input, StrategyStep& out) {
   out.phase = "turn";
   if (to_seconds(input.now - since_) > kTwoPi / kTurn_rad_s) {
     turned_ = true;
+    looked_round_ = true;
     state_ = State::kChoose;
     return;
   }
@@ -225,6 +238,9 @@ void PlaceStrategy::transform(const Pose2& new_T_old) {
   driver_.transform(new_T_old);
   if (goal_) {
     goal_ = moved(std::move(*goal_), new_T_old);
+  }
+  if (began_map_) {
+    began_map_ = new_T_old * *began_map_;
   }
   corrected_ = true;
 }

@@ -44,8 +44,8 @@ class PlaceChooser {
 };
 
 /// A goal that has been seen on the way is dropped; one is kept when the map moves, and the way to it planned again
-/// when the goal is next reconsidered: by then the floor has followed the walls. Without a usable map it turns on the
-/// spot once, to let the sensors see.
+/// when the goal is next reconsidered: by then the floor has followed the walls. Without a usable map, and before it is
+/// over where it began, it turns on the spot once, to let the sensors see.
 class PlaceStrategy final : public ExploreStrategy {
  public:
   PlaceStrategy(const ExploreParams& params, std::unique_ptr<PlaceChooser> chooser);
@@ -73,7 +73,8 @@ class PlaceStrategy final : public ExploreStrategy {
   void reconsider(const StrategyInput& input, StrategyStep& out);
   void look(const StrategyInput& input, StrategyStep& out);
   void turn(const StrategyInput& input, StrategyStep& out);
-  void wait_or_finish(const Survey& found, StrategyStep& out);
+  void begin_turn(const StrategyInput& input, std::string why, StrategyStep& out);
+  void wait_or_finish(const StrategyInput& input, const Survey& found, StrategyStep& out);
   void finish(std::string why, StrategyStep& out);
   void start_anew();
 
@@ -87,7 +88,9 @@ class PlaceStrategy final : public ExploreStrategy {
   RobotTime considered_;  ///< when the goal was last looked at again
   std::string why_;       ///< of the present state
   bool turned_ = false;
-  bool corrected_ = false;  ///< the map moved since the present drive was planned
+  std::optional<Point2> began_map_;  ///< where the robot stood at first
+  bool looked_round_ = false;        ///< it has left that place, or turned there
+  bool corrected_ = false;           ///< the map moved since the present drive was planned
 };
 
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_frontier_chooser(const ExploreParams& params);

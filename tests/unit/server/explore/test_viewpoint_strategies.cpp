@@ -42,6 +42,16 @@ TEST_P(ViewpointStrategy, MapsARingAndEnds) {
   EXPECT_LT(run.path_m, 60.0);
 }
 
+TEST_P(ViewpointStrategy, TurnsRoundBeforeItIsOverWhereItBegan) {
+  ToyWorld world;
+  world.walls = joined(box(-5, -5, 5, 5), box(-0.35, -0.35, 0.35, 0.35));
+  const ToyRun run = run_in(world, {}, GetParam(), 9);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_NE(std::find(run.phases.begin(), run.phases.end(), "turn"), run.phases.end());
+  EXPECT_GT(run.seconds, 10.0);
+  EXPECT_EQ(run.end->kind, EndKind::kUnreachable) << "there is no floor to drive on";
+}
+
 TEST_P(ViewpointStrategy, TellsWhyItChose) {
   const ToyRun run = run_in(two_rooms(), {1.0, 1.0, 0.3}, GetParam(), 7);
   ASSERT_FALSE(run.decisions.empty());
