@@ -173,6 +173,11 @@ void ActiveStrategy::interrupted(RobotTime now) {
   mode_ = Mode::kExplore;
 }
 
+void ActiveStrategy::try_again(RobotTime now) {
+  path_.try_again(now);
+  interrupted(now);
+}
+
 void ActiveStrategy::transform(const Pose2& new_T_old) {
   path_.transform(new_T_old);
   for (Point2& p : closed_map_) {

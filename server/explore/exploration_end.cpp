@@ -4,7 +4,6 @@
 
 #include "common/core/text.hpp"
 #include "server/explore/exploration_impl.hpp"
-#include "server/explore/lookout.hpp"
 #include "server/explore/openings.hpp"
 #include "server/nav/frontiers.hpp"
 
@@ -19,8 +18,6 @@ constexpr double kDepthBehindBorder_m = 2.0;
 constexpr double kProgressPeriod_s = 3.0;
 /// So far beyond the border of the unknown lies what it leads to.
 constexpr double kBeyond_m = 0.3;
-/// The floor grew by so much: waiting had a use.
-constexpr double kNewFloor_m2 = 2.0;
 
 void add_places(const std::vector<Point2>& from, std::vector<Point2>& to) {
   for (const Point2& p : from) {
@@ -54,16 +51,28 @@ bool more_beyond_limits(const nav::FloorView& floor, const nav::ForbiddenAreas& 
   });
 }
 
-ExploreEnd unreachable_end(std::vector<Point2> places) {
+std::string list_of(const std::vector<Point2>& places) {
   std::string list;
   for (const Point2& p : places) {
     list += (list.empty() ? "" : ", ") + text(p);
   }
-  return {EndKind::kUnreachable, "no way leads to what is left: " + list,
+  return list;
+}
+
+ExploreEnd unreachable_end(std::vector<Point2> places, const std::vector<Point2>& somebody_at) {
+  const std::string who = somebody_at.empty() ? "" : "; somebody or something stands in the way at ";
+  return {EndKind::kUnreachable, "no way leads to what is left: " + list_of(places) + who + list_of(somebody_at),
           "open doors or clear the way, then explore again; or give a bound without these places", std::move(places)};
 }
 
 }  // namespace
+
+/// Whether a way led to enough of it: then somebody is in the way now.
+bool Exploration::Impl::was_reachable(const CutOffFloor& part, const GridFrame& frame) const {
+  const auto cells = std::count_if(part.cells.begin(), part.cells.end(),
+                                   [&](CellIndex cell) { return known_floor_.was_reachable(frame.centre_of(cell)); });
+  return frame.resolution_m * frame.resolution_m * static_cast<double>(cells) >= params_.viewpoints.min_cut_off_m2;
+}
 
 Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& input) {
   Left left;
@@ -83,64 +92,16 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
     left.no_floor = Error{Errc::kUnreachable, "the robot is walled in: there is no floor around it to drive on"};
     return left;
   }
-  left.cut_off = cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2);
-  // What only other robots have seen is theirs to look after.
-  std::erase_if(left.cut_off, [&](const Point2& p_map) { return !seen_by_itself(**floor, p_map); });
-  left.blocked = known_floor_.occupied_now(**floor, input.segments);
-  left.blocked.insert(left.blocked.end(), left.cut_off.begin(), left.cut_off.end());
+  for (const CutOffFloor& part : cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2)) {
+    // What only other robots have seen is theirs to look after.
+    if (seen_by_itself(**floor, part.p_map)) {
+      left.cut_off.push_back({part.p_map, was_reachable(part, (*floor)->cost.frame())});
+    }
+  }
+  left.people = blocked_ways({**floor, *costs, input.segments, request_.areas, input.map_T_base, input.now},
+                             known_floor_, floors_.obstacles_map(), params_.viewpoints);
   left.beyond_limits = more_beyond_limits(**floor, request_.areas, here, params_);
   return left;
-}
-
-/// Goes to where it sees the place, and stands there.
-void Exploration::Impl::begin_wait(const Point2& place_map, const StrategyInput& input, ExploreStep& out) {
-  ++waits_;
-  floor_at_wait_m2_ = known_floor_.present_area_m2();
-  waiting_since_ = input.now;
-  out.phase = "wait";
-  out.activity = "waiting for the way to " + text(place_map) + " to become free again";
-  Point2 lookout = input.map_T_base.translation();
-  if (const auto floor = floors_.view()) {
-    const auto costs = nav::DistanceField::build((*floor)->cost, lookout);
-    lookout = costs ? lookout_for(place_map, **floor, *costs).value_or(lookout) : lookout;
-  }
-  const Point2 to = place_map - lookout;
-  if (!lookout_.start(input, lookout, std::atan2(to.y(), to.x()))) {
-    out.activity += "; no way to where one would see it: " + lookout_.reason();
-  }
-}
-
-/// False: there is nothing to wait for, or no longer.
-bool Exploration::Impl::waits(const StrategyInput& input, ExploreStep& out) {
-  if (!waiting_since_) {
-    return false;
-  }
-  const nav::DriveStep driven = lookout_.step(input);
-  if (driven.state == nav::DriveState::kDriving) {
-    waiting_since_ = input.now;
-  } else if (to_seconds(input.now - *waiting_since_) >= params_.viewpoints.retry_s) {
-    waiting_since_.reset();
-    strategy_->interrupted(input.now);
-    return false;
-  }
-  out.command = driven.command;
-  out.planned_path = lookout_.path();
-  out.phase = "wait";
-  out.activity = "waiting for the way to become free again";
-  return true;
-}
-
-/// Somebody who stands in the way is given some time to go on.
-void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out) {
-  const Left left = what_is_left(input);
-  if (known_floor_.present_area_m2() > floor_at_wait_m2_ + kNewFloor_m2) {
-    waits_ = 0;
-  }
-  if (!left.blocked.empty() && waits_ < params_.viewpoints.max_failures) {
-    begin_wait(left.blocked[static_cast<std::size_t>(waits_) % left.blocked.size()], input, out);
-    return;
-  }
-  conclude(end_for(left, last, input.map_T_base.translation()), input.now, out);
 }
 
 ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last, const Point2& here_map) const {
@@ -152,9 +113,12 @@ ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last
   }
   std::vector<Point2> unreachable;
   add_places(last.unreachable, unreachable);
-  add_places(left.cut_off, unreachable);
+  for (const BlockedPlace& place : left.cut_off) {
+    add_places({place.p_map}, unreachable);
+  }
+  add_places(left.people.behind_map, unreachable);
   if (!unreachable.empty()) {
-    return unreachable_end(std::move(unreachable));
+    return unreachable_end(std::move(unreachable), left.people.at_map);
   }
   const std::string known = text(known_floor_.present_area_m2()) + " m2 of floor are known";
   if (left.beyond_limits) {

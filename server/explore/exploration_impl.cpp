@@ -20,7 +20,8 @@ Exploration::Impl::Impl(const ExploreRequest& request, const ExploreParams& para
       floors_(params.cost, request.areas, params.floor_cell_m, params.map_period_s),
       home_(params.driver, kHomeAttempts, kRetry_s),
       back_(params.driver, kBackAttempts, kRetry_s),
-      lookout_(params.driver) {}
+      lookout_(params.driver),
+      turns_(params.viewpoints) {}
 
 StrategyInput Exploration::Impl::strategy_input(const ExploreInput& input) {
   return {{input.now - paused_, input.pose.map_T_base, input.sonar, input.laser, floors_},
@@ -183,6 +184,7 @@ void Exploration::Impl::transform(const Pose2& new_T_old) {
   sonar_obstacles_.transform(new_T_old);
   trail_.transform(new_T_old);
   known_floor_.clear();
+  turns_.transform(new_T_old);
   home_.transform(new_T_old);
   back_.transform(new_T_old);
   lookout_.stop();

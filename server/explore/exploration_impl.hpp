@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "server/explore/blocked_ways.hpp"
 #include "server/explore/exploration.hpp"
 #include "server/explore/known_floor.hpp"
 #include "server/explore/retry_drive.hpp"
 #include "server/explore/sonar_obstacles.hpp"
 #include "server/explore/trail.hpp"
+#include "server/explore/wait_turns.hpp"
 
 namespace seeker::explore {
 
@@ -36,9 +38,6 @@ class Exploration::Impl {
   void act(const ExploreInput& input, ExploreStep& out);
 
   void explore(const StrategyInput& input, ExploreStep& out);
-  void begin_wait(const Point2& place_map, const StrategyInput& input, ExploreStep& out);
-  [[nodiscard]] bool waits(const StrategyInput& input, ExploreStep& out);
-  void strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out);
   void hand_over(StrategyStep&& from, ExploreStep& out);
   void note_traps(const std::string& phase, const std::string& activity, ExploreStep& out);
 
@@ -49,14 +48,20 @@ class Exploration::Impl {
   void regain(const StrategyInput& input, double sigma_m, ExploreStep& out);
   void go_home(const StrategyInput& input, ExploreStep& out);
 
+  // exploration_wait.cpp
+  void begin_wait(const Point2& place_map, const StrategyInput& input, ExploreStep& out);
+  [[nodiscard]] bool waits(const StrategyInput& input, ExploreStep& out);
+  void strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out);
+
   // exploration_end.cpp
   /// What keeps it from being complete, as the map shows it now.
   struct Left {
-    std::optional<Error> no_floor;  ///< the robot stands walled in, or there is no map
-    std::vector<Point2> cut_off;    ///< floor that was seen, but no way leads there
-    std::vector<Point2> blocked;    ///< somebody may stand in the way there: cut off, or occupied and once free
+    std::optional<Error> no_floor;      ///< the robot stands walled in, or there is no map
+    std::vector<BlockedPlace> cut_off;  ///< floor that was seen, but no way leads there
+    BlockedWays people;                 ///< who stands in a way, and what lies behind
     bool beyond_limits = false;
   };
+  [[nodiscard]] bool was_reachable(const CutOffFloor& part, const GridFrame& frame) const;
   [[nodiscard]] Left what_is_left(const StrategyInput& input);
   [[nodiscard]] ExploreEnd end_for(const Left& left, const StrategyStep& last, const Point2& here_map) const;
   void conclude(ExploreEnd end, RobotTime now, ExploreStep& out);
@@ -85,7 +90,7 @@ class Exploration::Impl {
   KnownFloor known_floor_;
   nav::PlannedDriver lookout_;              ///< to where one sees whether the way is free again
   std::optional<RobotTime> waiting_since_;  ///< for somebody to move out of the way
-  int waits_ = 0;                           ///< in a row, without new floor in between
+  WaitTurns turns_;                         ///< since new floor was seen
   double floor_at_wait_m2_ = 0.0;
 
   std::optional<RobotTime> battery_low_since_;

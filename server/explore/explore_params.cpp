@@ -81,9 +81,11 @@ Status check_one_step(const OneStepParams& p) {
 }
 
 Status check_viewpoints(const ViewpointParams& p) {
-  if (p.max_visits < 1 || p.max_failures < 1 || p.horizon < 1 || p.beam < 1 || p.max_candidates < 1) {
+  if (p.max_visits < 1 || p.max_failures < 1 || p.max_waits < 0 || p.horizon < 1 || p.beam < 1 ||
+      p.max_candidates < 1) {
     return fail(Errc::kInvalidArgument,
-                "viewpoints: max_visits, max_failures, horizon, beam and max_candidates must be 1 or more");
+                "viewpoints: max_visits, max_failures, horizon, beam and max_candidates must be 1 or more, max_waits 0 "
+                "or more");
   }
   if (const Status weights = none_negative({{"viewpoints.min_pocket_m2", p.min_pocket_m2},
                                             {"viewpoints.look_s", p.look_s},

@@ -121,10 +121,10 @@ std::vector<Opening> frontier_openings(const OpeningsInput& input, const Viewpoi
   return openings;
 }
 
-std::vector<Point2> cut_off_floor(const nav::CostMap& map, const nav::DistanceField& costs, double min_m2) {
+std::vector<CutOffFloor> cut_off_floor(const nav::CostMap& map, const nav::DistanceField& costs, double min_m2) {
   const double cell_m2 = map.frame().resolution_m * map.frame().resolution_m;
   Grid<std::uint8_t> seen(map.frame(), map.width(), map.height(), 0);
-  std::vector<Point2> places;
+  std::vector<CutOffFloor> parts;
   for (CellIndex seed{0, 0}; seed.j < map.height(); ++seed.j) {
     for (seed.i = 0; seed.i < map.width(); ++seed.i) {
       const auto is_part = [&](CellIndex c) { return map.traversable(c) && !costs.cost_to(c) && seen[c] == 0; };
@@ -142,11 +142,11 @@ std::vector<Point2> cut_off_floor(const nav::CostMap& map, const nav::DistanceFi
         }
       }
       if (cell_m2 * static_cast<double>(part.size()) >= min_m2) {
-        places.push_back(map.frame().centre_of(part[part.size() / 2]));
+        parts.push_back({map.frame().centre_of(part[part.size() / 2]), std::move(part)});
       }
     }
   }
-  return places;
+  return parts;
 }
 
 }  // namespace seeker::explore

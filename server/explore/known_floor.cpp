@@ -11,7 +11,7 @@ namespace {
 
 /// Occupied cells so near to each other are one thing; fewer cells are noise.
 constexpr double kSameThing_m = 1.0;
-constexpr int kThingCells = 3;
+constexpr std::size_t kThingCells = 3;
 /// Cells so near to a mapped wall are the wall's; shorter segments may be what stands there.
 constexpr double kWallBand_m = 0.2;
 constexpr double kShortestWall_m = 0.5;
@@ -29,6 +29,11 @@ Grid<std::uint8_t> covering(const Grid<std::uint8_t>& a, const Grid<std::uint8_t
   return {GridFrame{low, cell_m}, static_cast<int>(std::lround(size.x())), static_cast<int>(std::lround(size.y())), 0};
 }
 
+bool holds(const Grid<std::uint8_t>& floor, const Point2& p_map) {
+  const CellIndex cell = floor.frame().cell_of(p_map);
+  return floor.contains(cell) && floor[cell] != 0;
+}
+
 template <class Wanted>
 void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from, Wanted&& wanted) {
   for (std::size_t k = 0; k < from.cells().size(); ++k) {
@@ -39,14 +44,23 @@ void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from, Wanted&& 
   }
 }
 
+/// Both, of the new one what is wanted.
+template <class Wanted>
+Grid<std::uint8_t> joined(const Grid<std::uint8_t>& old, const Grid<std::uint8_t>& added, Wanted&& wanted) {
+  Grid<std::uint8_t> both = covering(old, added);
+  copy_into(both, old, [](const Point2&) { return true; });
+  copy_into(both, added, wanted);
+  return both;
+}
+
+}  // namespace
+
 bool on_wall(const Point2& p_map, const std::vector<MapSegment>& segments) {
   return std::any_of(segments.begin(), segments.end(), [&](const MapSegment& segment) {
     return segment.length_m >= kShortestWall_m &&
            distance_to_segment_m(segment.left(), segment.right(), p_map) < kWallBand_m;
   });
 }
-
-}  // namespace
 
 bool seen_by_itself(const nav::FloorView& view, const Point2& p_map) {
   if (!view.own) {
@@ -62,28 +76,23 @@ void KnownFloor::add(const nav::FloorView& view, const Point2& robot_map, double
   if (reachable.cells().empty()) {
     return;
   }
-  Grid<std::uint8_t> both = covering(floor_, reachable);
-  copy_into(both, floor_, [](const Point2&) { return true; });
-  copy_into(both, reachable, [&](const Point2& p) { return (p - robot_map).squaredNorm() <= near_m * near_m; });
-  floor_ = std::move(both);
+  const auto all = [](const Point2&) { return true; };
+  const auto near = [&](const Point2& p) { return (p - robot_map).squaredNorm() <= near_m * near_m; };
+  floor_ = joined(floor_, reachable, near);
+  from_afar_ = joined(from_afar_, reachable, all);
   const double cell_m = reachable.frame().resolution_m;
   present_m2_ = cell_m * cell_m *
                 static_cast<double>(std::count_if(reachable.cells().begin(), reachable.cells().end(),
                                                   [](std::uint8_t cell) { return cell != 0; }));
 }
 
-bool KnownFloor::contains(const Point2& p_map) const {
-  const CellIndex cell = floor_.frame().cell_of(p_map);
-  return floor_.contains(cell) && floor_[cell] != 0;
-}
+bool KnownFloor::contains(const Point2& p_map) const { return holds(floor_, p_map); }
 
-std::vector<Point2> KnownFloor::occupied_now(const nav::FloorView& view,
-                                             const std::vector<MapSegment>& segments) const {
-  struct Thing {
-    Point2 p_map;
-    int cells = 0;
-  };
-  std::vector<Thing> things;
+bool KnownFloor::was_reachable(const Point2& p_map) const { return holds(from_afar_, p_map); }
+
+std::vector<StandingThing> KnownFloor::occupied_now(const nav::FloorView& view,
+                                                    const std::vector<MapSegment>& segments) const {
+  std::vector<StandingThing> things;
   const Grid<nav::CellState>& states = view.cost.states();
   for (std::size_t k = 0; k < states.cells().size(); ++k) {
     if (states.cells()[k] != nav::CellState::kOccupied) {
@@ -94,22 +103,20 @@ std::vector<Point2> KnownFloor::occupied_now(const nav::FloorView& view,
       continue;
     }
     const auto same = std::find_if(things.begin(), things.end(),
-                                   [&](const Thing& thing) { return (thing.p_map - p).norm() < kSameThing_m; });
+                                   [&](const StandingThing& thing) { return (thing.p_map - p).norm() < kSameThing_m; });
     if (same == things.end()) {
-      things.push_back({p, 1});
+      things.push_back({p, {states.cell(k)}});
     } else {
-      ++same->cells;
+      same->cells.push_back(states.cell(k));
     }
   }
-  std::vector<Point2> places;
-  for (const Thing& thing : things) {
-    if (thing.cells >= kThingCells) {
-      places.push_back(thing.p_map);
-    }
-  }
-  return places;
+  std::erase_if(things, [](const StandingThing& thing) { return thing.cells.size() < kThingCells; });
+  return things;
 }
 
-void KnownFloor::clear() { floor_ = {}; }
+void KnownFloor::clear() {
+  floor_ = {};
+  from_afar_ = {};
+}
 
 }  // namespace seeker::explore

@@ -133,6 +133,15 @@ void Openings::failed(const Opening& opening, RobotTime now) {
   memory.failed_at = now;
 }
 
+void Openings::try_again() {
+  for (Memory& memory : memories_) {
+    if (memory.failures >= params_.max_failures) {
+      memory.failures = params_.max_failures - 1;
+      memory.failed_at = now_ - seconds(params_.retry_s);
+    }
+  }
+}
+
 std::vector<Point2> Openings::given_up() const {
   std::vector<Point2> places;
   for (const Memory& memory : memories_) {

@@ -69,6 +69,8 @@ class Openings {
   void failed(const Opening& opening, RobotTime now);
   /// Places that no drive could reach, unless they have been seen from elsewhere since (as of the last find()).
   [[nodiscard]] std::vector<Point2> given_up() const;
+  /// Who stood in the way may have gone on: what was given up may be driven to once more.
+  void try_again();
   /// The map moved. A map that bends moves far places less than the robot's: for a while what is remembered is
   /// recognised by a wider measure and takes its place from what is found.
   void transform(const Pose2& new_T_old);
@@ -117,8 +119,14 @@ class Openings {
 [[nodiscard]] bool well_in_view(const Opening& opening, const Pose2& map_T_base, const Grid<std::uint8_t>& occupancy,
                                 const ViewpointParams& params);
 
-/// Free floor at least as large as `min_m2` that was seen but that no way leads to: one place of each part.
-[[nodiscard]] std::vector<Point2> cut_off_floor(const nav::CostMap& map, const nav::DistanceField& costs,
-                                                double min_m2);
+/// Free floor that was seen but that no way leads to.
+struct CutOffFloor {
+  Point2 p_map = Point2::Zero();  ///< a place of it
+  std::vector<CellIndex> cells;   ///< all of it, of the cost map
+};
+
+/// Every connected part of at least `min_m2`.
+[[nodiscard]] std::vector<CutOffFloor> cut_off_floor(const nav::CostMap& map, const nav::DistanceField& costs,
+                                                     double min_m2);
 
 }  // namespace seeker::explore

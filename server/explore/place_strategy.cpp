@@ -49,6 +49,7 @@ StrategyStep PlaceStrategy::step(const StrategyInput& input) {
   if (state_ == State::kDone) {
     out.done = true;
     out.unreachable = openings_.given_up();
+    out.tries_again = true;
   } else if (state_ == State::kDrive) {
     out.planned_path = driver_.path();
   }
@@ -231,6 +232,11 @@ void PlaceStrategy::turn(const StrategyInput& input, StrategyStep& out) {
 void PlaceStrategy::interrupted(RobotTime now) {
   since_ = now;
   start_anew();
+}
+
+void PlaceStrategy::try_again(RobotTime now) {
+  openings_.try_again();
+  interrupted(now);
 }
 
 void PlaceStrategy::transform(const Pose2& new_T_old) {

@@ -52,6 +52,7 @@ class PlaceStrategy final : public ExploreStrategy {
 
   [[nodiscard]] StrategyStep step(const StrategyInput& input) override;
   void interrupted(RobotTime now) override;
+  void try_again(RobotTime now) override;
   void transform(const Pose2& new_T_old) override;
 
  private:

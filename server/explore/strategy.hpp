@@ -38,6 +38,7 @@ struct StrategyStep {
   bool step_done = false;           ///< a natural place to stop
   bool done = false;                ///< nothing is left that this strategy could explore
   std::vector<Point2> unreachable;  ///< of done: places left that no way leads to
+  bool tries_again = false;         ///< of done: whether try_again() would have it drive to those once more
 };
 
 class ExploreStrategy {
@@ -50,6 +51,8 @@ class ExploreStrategy {
   [[nodiscard]] virtual StrategyStep step(const StrategyInput& input) = 0;
   /// Something else moved the robot, or time passed: present drives are void, and one that was done looks again.
   virtual void interrupted(RobotTime now) = 0;
+  /// Interrupted to give whoever stood in the way time to go on: what was given up may be tried once more.
+  virtual void try_again(RobotTime now) { interrupted(now); }
   /// The map moved: `new_T_old` takes places of the map before to the map now.
   virtual void transform(const Pose2& new_T_old) = 0;
   /// Places it has been at and still means to go to; null where the strategy keeps none.

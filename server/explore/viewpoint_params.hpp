@@ -19,6 +19,7 @@ struct ViewpointParams {
   double look_s = 1.0;           ///< how long one look takes
   int max_failures = 3;          ///< drives that failed: then no way leads there
   double retry_s = 20.0;         ///< after a failed drive others are tried first for so long
+  int max_waits = 6;             ///< of retry_s, at one place where somebody stands in the way: two minutes
   double failed_radius_m = 0.4;  ///< openings so near to a place that could not be reached rest with it
   double min_cut_off_m2 = 1.0;   ///< free floor seen but not connected to the robot's, if larger, is unreachable
   double replan_period_s = 2.0;  ///< goals are looked at again this often while driving

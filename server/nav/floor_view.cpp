@@ -76,10 +76,7 @@ Result<FloorView> FloorSource::view_of(Grid<std::uint8_t> occupancy) const {
   CostMapLimits limits;
   limits.bound = areas_.bound;
   limits.keep_out = areas_.keep_out;
-  limits.obstacles.reserve(obstacles_.size());
-  for (const Obstacle& one : obstacles_) {
-    limits.obstacles.push_back(one.p_map);
-  }
+  limits.obstacles = obstacles_map();
   auto cost = CostMap::build(occupancy, cost_, limits);
   if (!cost) {
     return tl::unexpected(cost.error());
@@ -120,6 +117,15 @@ void FloorSource::add_obstacle(const Point2& p_map) {
   }
   obstacles_.push_back({p_map, now_});
   stale_ = true;
+}
+
+std::vector<Point2> FloorSource::obstacles_map() const {
+  std::vector<Point2> places;
+  places.reserve(obstacles_.size());
+  for (const Obstacle& one : obstacles_) {
+    places.push_back(one.p_map);
+  }
+  return places;
 }
 
 std::optional<Grid<std::uint8_t>> FloorSource::unrestricted_floor() const {

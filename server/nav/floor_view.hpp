@@ -53,6 +53,8 @@ class FloorSource {
   /// Obstacles that the map does not show (sonar echoes below the lidar's plane), frame `map`. Other robots are none.
   /// Forgotten when not added again for a minute: who stood in a door has gone on, what stands there is met again.
   void add_obstacle(const Point2& p_map);
+  /// Those that are remembered now, frame `map`.
+  [[nodiscard]] std::vector<Point2> obstacles_map() const;
   /// Floor connected to the last view's position when nothing is forbidden: what the forbidden areas cost.
   [[nodiscard]] std::optional<Grid<std::uint8_t>> unrestricted_floor() const;
   [[nodiscard]] const ForbiddenAreas& areas() const { return areas_; }

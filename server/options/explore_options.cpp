@@ -66,6 +66,7 @@ void describe(config::Fields& f, ViewpointParams& params) {
   f.field("look_s", params.look_s);
   f.field("max_failures", params.max_failures);
   f.field("retry_s", params.retry_s);
+  f.field("max_waits", params.max_waits);
   f.field("failed_radius_m", params.failed_radius_m);
   f.field("min_cut_off_m2", params.min_cut_off_m2);
   f.field("replan_period_s", params.replan_period_s);

@@ -1,4 +1,4 @@
-// Explorations through narrow doors.
+// Explorations through doors that are narrow, or that somebody stands in.
 
 #include <iostream>
 #include <utility>
@@ -42,6 +42,62 @@ TEST(Doors, ARoomBehindANarrowDoorIsEntered) {
     EXPECT_EQ(run.end->kind, EndKind::kComplete);
     EXPECT_GT(run.wall_share, 0.9) << door_m << " m";
   }
+}
+
+TEST(Doors, PeopleInTheDoorDelayItOnly) {
+  auto exploration = frontier_exploration();
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 19);
+  const std::size_t walls = robot.world().walls.size();
+  ToyExplorer::Hooks hooks;
+  hooks.world = [&](double t_s, ToyWorld& world) {
+    world.walls.resize(walls);
+    if (t_s > 11.0 && t_s < 50.0) {  // when the robot is on its way
+      for (const Wall& wall : box(4.9, 2.0, 5.3, 3.0)) {
+        world.walls.push_back(wall);
+      }
+    }
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("people", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_GT(run.wall_share, 0.9);
+}
+
+/// Somebody steps into the door of two_rooms() when the robot has looked through it, and stands there until `until_s`.
+ToyRun run_with_somebody_in_the_door(double until_s) {
+  auto exploration = frontier_exploration();
+  ToyExplorer robot(two_rooms(), {2.0, 2.5, 0.0}, 19);
+  const std::size_t walls = robot.world().walls.size();
+  ToyExplorer::Hooks hooks;
+  hooks.world = [&](double t_s, ToyWorld& world) {
+    world.walls.resize(walls);
+    if (t_s > 3.5 && t_s < until_s) {
+      for (const Wall& wall : box(4.9, 2.0, 5.3, 3.0)) {
+        world.walls.push_back(wall);
+      }
+    }
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("in the door", run);
+  return run;
+}
+
+TEST(Doors, WhoStandsInTheDoorForMinutesIsWaitedFor) {
+  const ToyRun run = run_with_somebody_in_the_door(160.0);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
+  EXPECT_GT(run.wall_share, 0.9);
+}
+
+TEST(Doors, WhoStaysInTheDoorMakesWhatLiesBehindUnreachable) {
+  const ToyRun run = run_with_somebody_in_the_door(1e6);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kUnreachable) << run.end->cause;
+  ASSERT_FALSE(run.end->unreachable.empty());
+  EXPECT_GT(run.end->unreachable.front().x(), 5.0);
+  EXPECT_GT(run.seconds, 120.0) << "it has been waited for";
+  EXPECT_LT(run.seconds, 400.0);
 }
 
 }  // namespace

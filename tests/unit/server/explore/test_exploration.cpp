@@ -298,26 +298,6 @@ TEST(Exploration, PausedTimeDoesNotCount) {
   EXPECT_EQ(run.end->kind, EndKind::kComplete);
 }
 
-TEST(Exploration, PeopleInTheDoorDelayItOnly) {
-  auto exploration = exploration_of(request_of(Strategy::kFrontier));
-  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 19);
-  const std::size_t walls = robot.world().walls.size();
-  ToyExplorer::Hooks hooks;
-  hooks.world = [&](double t_s, ToyWorld& world) {
-    world.walls.resize(walls);
-    if (t_s > 11.0 && t_s < 50.0) {  // when the robot is on its way
-      for (const Wall& wall : box(4.9, 2.0, 5.3, 3.0)) {
-        world.walls.push_back(wall);
-      }
-    }
-  };
-  const ToyRun run = robot.run(exploration, 900.0, hooks);
-  print("people", run);
-  ASSERT_TRUE(run.end.has_value());
-  EXPECT_EQ(run.end->kind, EndKind::kComplete);
-  EXPECT_GT(run.wall_share, 0.9);
-}
-
 TEST(Exploration, WhatOnlySonarsSeeIsAvoided) {
   ToyWorld world = two_rooms();
   world.low_things = box(2.6, 1.8, 3.4, 3.2);

@@ -40,13 +40,14 @@ TEST(KnownFloor, SomebodyOnFloorThatWasFreeIsNoticed) {
   known.add(view_of(hall()), kRobot, 3.0);
   const auto places = known.occupied_now(with_a_thing_at(3.0), {});
   ASSERT_EQ(places.size(), 1U);
-  EXPECT_THAT(places.front(), Point2Near(Point2(3.1, 2.1), 0.2));
+  EXPECT_THAT(places.front().p_map, Point2Near(Point2(3.1, 2.1), 0.2));
 }
 
 TEST(KnownFloor, FloorSeenFromAfarIsNotTrusted) {
   KnownFloor known;
   known.add(view_of(hall()), kRobot, 3.0);
   EXPECT_TRUE(known.occupied_now(with_a_thing_at(6.0), {}).empty());
+  EXPECT_TRUE(known.was_reachable({8.0, 2.1})) << "but a way led there";
   known.add(view_of(hall()), {6.0, 2.0}, 3.0);
   EXPECT_EQ(known.occupied_now(with_a_thing_at(6.0), {}).size(), 1U);
 }

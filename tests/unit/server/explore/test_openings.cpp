@@ -144,6 +144,28 @@ TEST(Openings, AFailedDriveRestsAndIsGivenUpAfterSome) {
   EXPECT_THAT(openings.given_up().front(), Point2Near(first.front().p_map, 1e-9));
 }
 
+TEST(Openings, WhatWasGivenUpIsTriedOnceMoreWhenAskedTo) {
+  const Scene scene = scene_of(half_seen(), {1.0, 2.0, 0.0});
+  const ViewpointParams params;
+  Openings openings{params};
+  const auto found = openings.find(scene.at(0.0));
+  for (const Opening& opening : found) {
+    for (int k = 0; k < params.max_failures; ++k) {
+      openings.failed(opening, robot_time_s(0.0));
+    }
+  }
+  ASSERT_TRUE(openings.find(scene.at(1.0)).empty());
+  openings.try_again();
+  const auto again = openings.find(scene.at(2.0));
+  ASSERT_EQ(again.size(), found.size());
+  EXPECT_FALSE(again.front().resting);
+  for (const Opening& opening : again) {
+    openings.failed(opening, robot_time_s(2.0));
+  }
+  EXPECT_TRUE(openings.find(scene.at(100.0)).empty()) << "one failure more is enough";
+  EXPECT_FALSE(openings.given_up().empty());
+}
+
 TEST(Openings, WhatNoDriveReachedButWasSeenFromElsewhereIsNotGivenUp) {
   Scene scene = scene_of(half_seen(), {1.0, 2.0, 0.0});
   scene.segments = {wall_below(0.25, 3.0)};
@@ -312,7 +334,7 @@ TEST(Openings, FloorBehindAWallOfWhichSomeIsSeenIsCutOff) {
   const Scene scene = scene_of(rows, {1.0, 2.0, 0.0});
   const auto places = cut_off_floor(scene.floor.cost, scene.costs, 1.0);
   ASSERT_EQ(places.size(), 1U);
-  EXPECT_GT(places.front().x(), 2.75);
+  EXPECT_GT(places.front().p_map.x(), 2.75);
 }
 
 // The memory survives a moved map: the same opening has the same id wherever the map went.

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/text.hpp"
+#include "server/explore/exploration_impl.hpp"
+#include "server/explore/lookout.hpp"
+
+namespace seeker::explore {
+namespace {
+
+/// The floor grew by so much: waiting had a use.
+constexpr double kNewFloor_m2 = 2.0;
+
+}  // namespace
+
+/// Goes to where it sees the place, and stands there.
+void Exploration::Impl::begin_wait(const Point2& place_map, const StrategyInput& input, ExploreStep& out) {
+  // The most so far: floor that comes back when somebody has walked by is no new floor.
+  floor_at_wait_m2_ = std::max(floor_at_wait_m2_, known_floor_.present_area_m2());
+  waiting_since_ = input.now;
+  out.phase = "wait";
+  out.activity = "waiting for the way to " + text(place_map) + " to become free again";
+  Point2 lookout = input.map_T_base.translation();
+  if (const auto floor = floors_.view()) {
+    const auto costs = nav::DistanceField::build((*floor)->cost, lookout);
+    lookout = costs ? lookout_for(place_map, **floor, *costs).value_or(lookout) : lookout;
+  }
+  const Point2 to = place_map - lookout;
+  if (!lookout_.start(input, lookout, std::atan2(to.y(), to.x()))) {
+    out.activity += "; no way to where one would see it: " + lookout_.reason();
+  }
+}
+
+/// False: there is nothing to wait for, or no longer.
+bool Exploration::Impl::waits(const StrategyInput& input, ExploreStep& out) {
+  if (!waiting_since_) {
+    return false;
+  }
+  const nav::DriveStep driven = lookout_.step(input);
+  if (driven.state == nav::DriveState::kDriving) {
+    waiting_since_ = input.now;
+  } else if (to_seconds(input.now - *waiting_since_) >= params_.viewpoints.retry_s) {
+    waiting_since_.reset();
+    strategy_->try_again(input.now);
+    return false;
+  }
+  out.command = driven.command;
+  out.planned_path = lookout_.path();
+  out.phase = "wait";
+  out.activity = "waiting for the way to become free again";
+  return true;
+}
+
+/// Somebody who stands in the way is given some time to go on, and what could not be reached is tried again.
+void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out) {
+  const Left left = what_is_left(input);
+  if (known_floor_.present_area_m2() > floor_at_wait_m2_ + kNewFloor_m2) {
+    turns_.reset();
+  }
+  std::vector<BlockedPlace> places = left.cut_off;
+  for (const Point2& p_map : left.people.at_map) {
+    places.push_back({p_map, true});
+  }
+  for (const Point2& p_map : last.unreachable) {
+    if (last.tries_again) {
+      places.push_back({p_map, false});
+    }
+  }
+  if (const auto place = turns_.next(places)) {
+    begin_wait(*place, input, out);
+    return;
+  }
+  conclude(end_for(left, last, input.map_T_base.translation()), input.now, out);
+}
+
+}  // namespace seeker::explore

@@ -1,0 +1,61 @@
+#include "server/explore/wait_turns.hpp"
+
+#include <algorithm>
+
+namespace seeker::explore {
+namespace {
+
+/// Who stands so near to where somebody stood before is the same one.
+constexpr double kSamePlace_m = 1.0;
+/// All waits together, in those of one place: people who walk to and fro are in another place each time.
+constexpr int kPlaces = 4;
+
+}  // namespace
+
+int WaitTurns::turns_at(const Point2& p_map) const {
+  const auto known = std::find_if(waited_.begin(), waited_.end(),
+                                  [&](const Waited& one) { return (one.p_map - p_map).norm() < kSamePlace_m; });
+  return known == waited_.end() ? 0 : known->turns;
+}
+
+std::optional<Point2> WaitTurns::next(const std::vector<BlockedPlace>& places) {
+  if (total_ >= kPlaces * params_.max_waits) {
+    return std::nullopt;
+  }
+  const BlockedPlace* chosen = nullptr;
+  int fewest = params_.max_waits;
+  for (const BlockedPlace& place : places) {
+    const int turns = turns_at(place.p_map);
+    const bool deserves = place.somebody || turns == 0 || for_nobody_ < params_.max_failures;
+    if (deserves && turns < fewest) {
+      chosen = &place;
+      fewest = turns;
+    }
+  }
+  if (chosen == nullptr) {
+    return std::nullopt;
+  }
+  if (fewest == 0) {
+    waited_.push_back({chosen->p_map, 0});
+  }
+  const auto known = std::find_if(waited_.begin(), waited_.end(),
+                                  [&](const Waited& one) { return (one.p_map - chosen->p_map).norm() < kSamePlace_m; });
+  ++known->turns;
+  ++total_;
+  for_nobody_ += chosen->somebody ? 0 : 1;
+  return chosen->p_map;
+}
+
+void WaitTurns::reset() {
+  waited_.clear();
+  total_ = 0;
+  for_nobody_ = 0;
+}
+
+void WaitTurns::transform(const Pose2& new_T_old) {
+  for (Waited& one : waited_) {
+    one.p_map = new_T_old * one.p_map;
+  }
+}
+
+}  // namespace seeker::explore

@@ -1,0 +1,45 @@
+/// \file
+/// Where to wait next for a way to become free again, and when waiting is over.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "server/explore/viewpoint_params.hpp"
+
+namespace seeker::explore {
+
+struct BlockedPlace {
+  Point2 p_map = Point2::Zero();
+  /// A way led there before, or somebody is seen to stand in it. Else it may just as well be a gap that is too narrow.
+  bool somebody = false;
+};
+
+/// Each place has its turn before any has the next. So an exploration goes on after a bounded time, however people
+/// walk.
+class WaitTurns {
+ public:
+  explicit WaitTurns(const ViewpointParams& params) : params_(params) {}
+
+  /// The place whose turn it is, which counts as waited for from now on; nothing when none deserves another wait.
+  [[nodiscard]] std::optional<Point2> next(const std::vector<BlockedPlace>& places);
+  /// Waiting had a use: all have their turns again.
+  void reset();
+  /// The map moved.
+  void transform(const Pose2& new_T_old);
+
+ private:
+  struct Waited {
+    Point2 p_map;
+    int turns = 0;
+  };
+  [[nodiscard]] int turns_at(const Point2& p_map) const;
+
+  ViewpointParams params_;
+  std::vector<Waited> waited_;
+  int total_ = 0;
+  int for_nobody_ = 0;  ///< of them where nobody was seen
+};
+
+}  // namespace seeker::explore
