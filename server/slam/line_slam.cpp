@@ -155,6 +155,7 @@ Status LineSlam::update(const LaserScan& scan) {
   }
   ++counts_.scans;
   const PoseEstimate travelled = travelled_.estimate();
+  const bool jumped = travelled.quality == LocalisationQuality::kDegraded;
   if (stands_still(scan)) {
     ++counts_.still;
     look_again(scan);
@@ -172,12 +173,13 @@ Status LineSlam::update(const LaserScan& scan) {
   const double way_m = std::hypot(increment.x_m, increment.y_m);
   way_m_ += way_m;
   way_since_loops_m_ += way_m;
+  way_since_kept_m_ += way_m;
   way_since_leftover_m_ += way_m;
   turn_since_leftover_rad_ += std::abs(increment.theta_rad);
 
   Scan step{
       .scan = scan, .found = {}, .observations = {}, .all_points = {}, .points = {}, .predicted = lines_->robot()};
-  step.gap = moved({}, increment, params_.points.gap_m, params_.points.gap_rad);
+  step.gap = jumped || moved({}, increment, params_.points.gap_m, params_.points.gap_rad);
   extractor_.extract(scan, step.found);
   step.all_points = oriented_points(scan, params_.points.normals, extractor_.noise());
   Status outcome;
@@ -202,6 +204,7 @@ Status LineSlam::update(const LaserScan& scan) {
 void LineSlam::follow(Scan& scan) {
   if (cloud_.empty()) {
     lines_->update(scan.observations, lines_->associate(scan.observations));
+    ++revision_;
     quality_ = LocalisationQuality::kLocalised;
     cause_.clear();
     keep(scan);
@@ -344,6 +347,7 @@ void LineSlam::note_failure(const Scan& scan) {
     quality_ = LocalisationQuality::kDegraded;
     cause_ = "unseen space: the pose goes on by odometry";
     lines_->update(scan.observations, lines_->associate(scan.observations));
+    ++revision_;
     keep(scan);
     return;
   }

@@ -107,6 +107,7 @@ class LineSlam final : public MapTracker {
   bool matched_ = false;  ///< the last scan that was looked at fitted the map
   double way_m_ = 0.0;    ///< driven in the newest local map
   double way_since_loops_m_ = 0.0;
+  double way_since_kept_m_ = 0.0;         ///< since kept_map_T_node_ was told
   double way_since_leftover_m_ = 0.0;     ///< driven since points on no line were used,
   double turn_since_leftover_rad_ = 0.0;  ///< and turned
   std::uint64_t revision_ = 0;

@@ -135,6 +135,7 @@ Status LineSlam::look_where_it_stood(const Pose2& map_T_base) {
   }
   // What is driven from now on is known: the robot may roll out, or turn to look round.
   kept_map_T_node_ = map_T_base * inverse(lines_->robot());
+  way_since_kept_m_ = 0.0;
   return {};
 }
 
@@ -181,7 +182,7 @@ std::vector<SeenPoints> LineSlam::seen_lately() const {
 PlaceAnswer LineSlam::find_place(const std::vector<SeenPoints>& seen) const {
   const RelocaliseParams& params = params_.relocalise;
   std::optional<SearchWindow> window;
-  if (kept_map_T_node_ && way_m_ <= params.place.kept.about_m) {
+  if (kept_map_T_node_ && way_since_kept_m_ <= params.place.kept.about_m) {
     PlaceAnswer there = recogniser_.confirm(*place_, seen, *kept_map_T_node_ * lines_->robot());
     if (there.verdict == PlaceVerdict::kUnique) {
       return there;

@@ -134,7 +134,10 @@ PlaceAnswer PlaceRecogniser::locate(const PlaceMap& map, const std::vector<SeenP
   const Query query(seen_base, params_);
   const GlobalSearchResult found = search_.search(map.pyramid(), query.points, window);
   PlaceAnswer answer = judge(refine_all(map, query, found), query.cells.size(), params_.judge);
-  answer.complete = found.complete;
+  if (!found.complete && answer.verdict == PlaceVerdict::kUnique) {
+    answer.verdict = PlaceVerdict::kAmbiguous;
+    answer.reason = "a place fits, but the search was cut short before all others were excluded";
+  }
   return answer;
 }
 

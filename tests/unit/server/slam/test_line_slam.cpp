@@ -106,6 +106,24 @@ TEST(LineSlam, AJumpOfTheOdometryIsPutRight) {
   EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.15);
 }
 
+TEST(LineSlam, AJumpOfTheOdometryIsAGapInWhichTheRobotMayHaveGoneAnywhere) {
+  Rng rng(14);
+  Pose2 truth{2.0, 3.0, 0.0};
+  Pose2 odom;
+  LineSlam slam({}, truth);
+  for (int k = 0; k < 4; ++k) {
+    ASSERT_TRUE(slam.predict(odom, robot_time_s(k)));
+    ASSERT_TRUE(slam.update(scan_at(furnished_room(), truth, k, rng)));
+    truth = truth * Pose2{0.2, 0.0, 0.0};
+    odom = odom * Pose2{0.2, 0.0, 0.0};
+  }
+  truth = truth * Pose2{0.7, 0.5, 0.3};
+  EXPECT_FALSE(slam.predict(odom * Pose2{20.0, 0.0, 0.0}, robot_time_s(4.0)));
+  ASSERT_TRUE(slam.update(scan_at(furnished_room(), truth, 4.0, rng)));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, truth), 0.05);
+}
+
 TEST(LineSlam, GapsOfAlmostAMetreBetweenScansAreBridged) {
   for (const std::uint64_t seed : {11U, 12U, 13U}) {
     Trip trip(seed);

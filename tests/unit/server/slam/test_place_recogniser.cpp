@@ -105,6 +105,22 @@ TEST(PlaceRecogniser, FindsItselfInAFurnishedRoomWhateverTheScannersView) {
   }
 }
 
+TEST(PlaceRecogniser, ASearchThatWasCutShortExcludesNoOtherPlace) {
+  Rng rng(1);
+  const PlaceMap map = room_map(rng);
+  const SeenPoints seen = seen_points(scan_at(office(), {2.0, 3.0, 0.5}, 1.0, rng));
+  ASSERT_EQ(PlaceRecogniser().locate(map, {seen}).verdict, PlaceVerdict::kUnique);
+  PlaceParams params;
+  bool cut_with_a_place = false;
+  for (params.search.max_expansions = 1; params.search.max_expansions < 2'000'000; params.search.max_expansions *= 2) {
+    const bool complete = GlobalMatcher(params.search).search(map.pyramid(), seen.points).complete;
+    const PlaceAnswer answer = PlaceRecogniser(params).locate(map, {seen});
+    ASSERT_TRUE(complete || answer.verdict != PlaceVerdict::kUnique) << params.search.max_expansions;
+    cut_with_a_place |= !complete && !answer.candidates.empty();
+  }
+  EXPECT_TRUE(cut_with_a_place) << "no search was cut after it had found a place";
+}
+
 TEST(PlaceRecogniser, TwoEqualRoomsAreAmbiguous) {
   Rng rng(2);
   const auto walls = both(furnished_room(), shifted(furnished_room(), 14.0));
