@@ -26,10 +26,6 @@ const std::array<Case, 4> kCases = {Case{"odometry", 1.0, {}, &sp_tracker, "r2.c
                                     Case{"local-maps", 1.0, {}, &local_maps_tracker, "r2-local-maps.csv"},
                                     Case{"uneven-wheels", 1.0, kUneven, &learning_tracker, "r2-uneven.csv"}};
 
-/// SpMapParams::end_inflation is for robots that creep at 0.15 m/s past the end of a wall. This tour is driven at 0.5
-/// m/s.
-constexpr double kQuickEndInflation = 2.0;
-
 slam::LineSlamParams line_slam_params(const sim::RobotModel& model) {
   slam::LineSlamParams params;
   params.extractor.bearing_sigma_rad = model.lidar.sigma_bearing_rad;
@@ -40,7 +36,6 @@ slam::LineSlamParams line_slam_params(const sim::RobotModel& model) {
   params.odometry_scale.max = 1.0;
   // Walls of the simulator are straight and its scanner is level: what real ones add would hide the filter's own.
   params.observation = {};
-  params.lines.end_inflation = kQuickEndInflation;
   params.local.joint_sigma_m = 0.0;
   params.local.joint_sigma_rad = 0.0;
   params.points.use = slam::PointUse::kNone;

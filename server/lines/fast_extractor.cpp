@@ -249,7 +249,8 @@ void FastExtractor::move_corner(Piece& from, Piece& to, int i) {
 }
 
 bool FastExtractor::settle_corner(Piece& a, Piece& b) {
-  if (a.last + 1 != b.first || a.points < kMinPiece || b.points < kMinPiece) {
+  const bool neighbours = a.last + 1 == b.first && !breaks_before(b.first);  // a door is no corner
+  if (!neighbours || a.points < kMinPiece || b.points < kMinPiece) {
     return false;
   }
   const int corner = b.first;
@@ -314,12 +315,8 @@ NoiseSums FastExtractor::noise_of(const Piece& piece) {
 void FastExtractor::finish(const LaserScan& scan, const Piece& piece, Line& line) {
   const NoiseSums noise = noise_of(piece);
   line.covariance = line_covariance(piece.fit, piece.sums.w, noise);
-  // A worse fit than the noise explains says that the wall or the noise is worse than believed.
   const double dof = std::max(1.0, piece.points - 2.0);
-  const double excess = piece.fit.across_m2 / noise.wv * (piece.points / dof);
-  if (excess > 1.0 + params_.inflation_sigmas * std::sqrt(2.0 / dof)) {
-    line.covariance *= excess;
-  }
+  scatters_.push_back({dof, piece.fit.across_m2 / noise.wv * (piece.points / dof)});
   describe_line(piece.fit, point(piece.first), point(piece.last), line);
   line.first_beam = beam_of(piece.first);
   line.last_beam = beam_of(piece.last);
@@ -344,10 +341,41 @@ void FastExtractor::mark_beams(const Piece& piece, std::int32_t line, ScanLines&
   }
 }
 
+/// Variance of this scan in units of what its neighbouring beams made believe: edges and short corners are among those,
+/// and what the bearings are off by is in their ranges and stated beside them.
+double FastExtractor::noise_factor() const {
+  double sum = 0.0;
+  double dof = 0.0;
+  for (const Scatter& scatter : scatters_) {
+    if (scatter.excess <= 1.0 + params_.excess_sigmas * std::sqrt(2.0 / scatter.dof)) {
+      sum += scatter.excess * scatter.dof;
+      dof += scatter.dof;
+    }
+  }
+  if (params_.noise.sigma_m > 0.0 || dof < params_.noise.min_samples) {
+    return 1.0;
+  }
+  const double least_sigma = std::min(1.0, params_.noise.min_sigma_m / noise_.floor_m);
+  return std::max(sum / dof, least_sigma * least_sigma);
+}
+
+void FastExtractor::settle_noise(ScanLines& found) {
+  const double factor = noise_factor();
+  for (std::size_t k = 0; k < found.lines.size(); ++k) {
+    // A worse fit than the noise explains says that this wall is worse than believed.
+    const Scatter& scatter = scatters_[k];
+    const bool crooked = scatter.excess > factor * (1.0 + params_.inflation_sigmas * std::sqrt(2.0 / scatter.dof));
+    found.lines[k].covariance *= crooked ? scatter.excess : factor;
+  }
+  noise_.floor_m *= std::sqrt(factor);
+  noise_.slope *= std::sqrt(factor);
+}
+
 void FastExtractor::write(const LaserScan& scan, ScanLines& found) {
   const auto turn = static_cast<std::int32_t>(beams_);
   const auto beyond_cut = [&](const Piece& piece) { return rank_[at(piece.first)] >= turn; };
   std::rotate(merged_.begin(), std::find_if(merged_.begin(), merged_.end(), beyond_cut), merged_.end());
+  scatters_.clear();
   constexpr double kShortest_m = 1e-3;
   const double min_length_m = std::max(params_.min_length_m, kShortest_m);
   for (const Piece& piece : merged_) {
@@ -358,6 +386,7 @@ void FastExtractor::write(const LaserScan& scan, ScanLines& found) {
     mark_beams(piece, static_cast<std::int32_t>(found.lines.size()), found);
     finish(scan, piece, found.lines.emplace_back());
   }
+  settle_noise(found);
 }
 
 void FastExtractor::extract(const LaserScan& scan, ScanLines& found) {

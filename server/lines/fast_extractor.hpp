@@ -57,6 +57,12 @@ class FastExtractor {
     LineFit fit;             ///< of pieces that are lines; fragments have none
   };
 
+  /// How a line's points lie about it: their mean square in units of what the noise explains.
+  struct Scatter {
+    double dof = 0.0;
+    double excess = 0.0;
+  };
+
   void use_geometry(const LaserScan& scan);
   void load(const LaserScan& scan);
   /// load() of a scan whose beams all returned; false for others.
@@ -84,6 +90,8 @@ class FastExtractor {
   void finish(const LaserScan& scan, const Piece& piece, Line& line);
   void mark_beams(const Piece& piece, std::int32_t line, ScanLines& found) const;
   void write(const LaserScan& scan, ScanLines& found);
+  [[nodiscard]] double noise_factor() const;
+  void settle_noise(ScanLines& found);
   [[nodiscard]] std::size_t rank_in_circle(int i) const;
   [[nodiscard]] std::size_t beam_of(int i) const;
 
@@ -115,8 +123,9 @@ class FastExtractor {
   std::vector<Piece> pieces_;
   std::vector<Piece> merged_;
   std::vector<std::pair<int, int>> stack_;
-  Eigen::ArrayXf gap2_m2_;  ///< squared distance of each return of the row from the next
-  Eigen::ArrayXf along_;    ///< scratch of noise_of()
+  std::vector<Scatter> scatters_;  ///< of the lines found
+  Eigen::ArrayXf gap2_m2_;         ///< squared distance of each return of the row from the next
+  Eigen::ArrayXf along_;           ///< scratch of noise_of()
   Eigen::ArrayXf weighted_;
   double max_variance_m2_ = 0.0;  ///< of any return of the scan
 };

@@ -169,6 +169,7 @@ SegmentObservation observe_line(const Context& context, std::size_t index) {
   seen.covariance = t * line.covariance * t.transpose();
   seen.covariance(0, 0) += context.params.wall_sigma_m * context.params.wall_sigma_m;
   seen.covariance(1, 1) += context.params.wall_sigma_rad * context.params.wall_sigma_rad;
+  seen.beam_step_rad = std::abs(context.scan.angle_step_rad);
   seen.points = line.points;
   seen.line = index;
   return seen;

@@ -20,6 +20,7 @@ struct SegmentObservation {
   std::array<bool, 2> real{};                   ///< by Side: a physical end (corner, door post), not a limit of sight
   Matrix2 covariance = Matrix2::Identity();     ///< of (p_y, p_theta): across the segment and its direction
   std::array<double, 2> end_sigma_m{0.0, 0.0};  ///< by Side: of p_e, independent of (p_y, p_theta)
+  double beam_step_rad = 0.0;                   ///< between neighbouring beams; 0: ends do not depend on the beams
   int points = 0;
   std::size_t line = 0;  ///< index in ScanLines::lines
 };

@@ -134,7 +134,7 @@ void describe(config::Fields& f, SpMapParams& params) {
   f.angle_deg("relinearise_deg", params.relinearise_rad);
   f.field("sigma_floor_m", params.sigma_floor_m);
   f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
-  f.field("end_inflation", params.end_inflation);
+  f.field("end_beams", params.end_beams);
   f.field("drift_sigma_m", params.drift_sigma_m);
   f.angle_deg("drift_sigma_deg", params.drift_sigma_rad);
   f.field("robot_sigma_max_m", params.robot_sigma_max_m);

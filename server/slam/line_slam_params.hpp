@@ -124,8 +124,7 @@ struct LineSlamParams {
   double min_turn_rad = 0.01;
   double still_range_m = 0.04;  ///< ... unless more than this share of its ranges changed by more than this
   double still_share = 0.15;
-  /// So many scans of a stand still correct the lines, since their noise is new each time. Where walls end lies between
-  /// the same beams again, and is not taken from them.
+  /// So many scans of a stand still correct the lines, since their noise is new each time.
   int stand_scans = 30;
   double stand_m = 0.001;  ///< wheels that say less than this stand
   double stand_rad = 0.0005;

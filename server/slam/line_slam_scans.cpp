@@ -54,11 +54,7 @@ void LineSlam::look_again(const LaserScan& scan) {
   lines::ScanLines found;
   extractor_.extract(scan, found);
   const std::vector<lines::SegmentObservation> observations = lines::observe(scan, found, params_.observation);
-  Association association = lines_->associate(observations);
-  for (SpMatch& match : association.matches) {
-    match.ends = {};
-  }
-  lines_->update(observations, association);
+  lines_->update(observations, lines_->associate(observations));
 }
 
 }  // namespace seeker::slam

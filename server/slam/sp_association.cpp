@@ -144,7 +144,8 @@ std::vector<EndCandidate> end_candidates(const SpState& state, const PairCandida
                                          const SegmentObservation& observation) {
   std::vector<EndCandidate> ends;
   for (std::size_t side = 0; side < 2; ++side) {
-    if (!observation.real[side] || !state.segments[pair.segment].real[side]) {
+    if (!observation.real[side] || !state.segments[pair.segment].real[side] ||
+        !state.is_end_news(pair.segment, side, observation.beam_step_rad)) {
       continue;
     }
     RowChoice choice{.line = false, .ends = {}};

@@ -34,6 +34,7 @@ void make_real(SpState& state, std::size_t segment, std::size_t side, const Segm
   f.real[side] = true;
   state.p.insert(at + state.rows_of(segment).end(side), covariances, variance);
   state.shift_rows(segment + 1, 1);
+  state.note_end_used(segment, side);
 }
 
 void make_virtual(SpState& state, std::size_t segment, std::size_t side) {
@@ -131,6 +132,11 @@ SegmentId add_segment(SpState& state, const SegmentObservation& observation) {
   record.at = state.p.append(of_robot, own);
   state.segments.push_back(segment);
   state.records.push_back(record);
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (segment.real[side]) {
+      state.note_end_used(state.segments.size() - 1, side);
+    }
+  }
   return segment.id;
 }
 

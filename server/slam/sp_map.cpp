@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/core/angle.hpp"
 #include "common/core/assert.hpp"
 #include "server/slam/sp_association.hpp"
 #include "server/slam/sp_existence.hpp"
@@ -40,17 +41,22 @@ std::vector<SpPair> pairs_of(const SpState& state, const Association& associatio
   return pairs;
 }
 
-void note_sighting(SpState& state, std::size_t segment) {
-  SpSegment& f = state.segments[segment];
+void note_sighting(SpState& state, const SpPair& pair) {
+  SpSegment& f = state.segments[pair.segment];
   f.hits += f.last_seen == state.scans && f.hits > 0 ? 0 : 1;
   f.last_seen = state.scans;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (pair.ends[side]) {
+      state.note_end_used(pair.segment, side);
+    }
+  }
 }
 
 void update_at_once(SpState& state, const std::vector<SegmentObservation>& observations,
                     const std::vector<SpPair>& pairs, SpUpdateReport& report) {
   update_jointly(state, observations, pairs, report);
   for (const SpPair& pair : pairs) {
-    note_sighting(state, pair.segment);
+    note_sighting(state, pair);
     follow_ends(state, pair.segment, observations[pair.observation]);
   }
   report.paired = static_cast<int>(pairs.size());
@@ -162,6 +168,22 @@ std::optional<std::size_t> SpState::index_of(SegmentId id) const {
     return std::nullopt;
   }
   return static_cast<std::size_t>(found - segments.begin());
+}
+
+double SpState::end_bearing_rad(std::size_t segment, std::size_t side) const {
+  const SpSegment& f = segments[segment];
+  const Point2 end = inverse(map_T_base) * f.map_T_segment * Point2(0.5 * end_sign(side) * f.length_m, 0.0);
+  return std::atan2(end.y(), end.x());
+}
+
+bool SpState::is_end_news(std::size_t segment, std::size_t side, double beam_step_rad) const {
+  const std::optional<double>& used_rad = records[segment].end_used_rad[side];
+  return !used_rad ||
+         std::abs(wrap_angle(end_bearing_rad(segment, side) - *used_rad)) >= params.end_beams * beam_step_rad;
+}
+
+void SpState::note_end_used(std::size_t segment, std::size_t side) {
+  records[segment].end_used_rad[side] = end_bearing_rad(segment, side);
 }
 
 void SpState::shift_rows(std::size_t first, Index by) {

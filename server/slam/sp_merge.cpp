@@ -93,6 +93,7 @@ void take_end(SpState& state, std::size_t first, std::size_t second, std::size_t
   const double variance = of_theta * covariances(at + 1) - s * covariances(j.at) - q * s * covariances(j.at + 1) +
                           c * covariances(j.at + j.end(side));
   state.segments[first].real[side] = true;
+  state.records[first].end_used_rad[side] = state.records[second].end_used_rad[side];
   state.p.insert(at + state.rows_of(first).end(side), covariances, variance);
   state.shift_rows(first + 1, 1);
 }

@@ -65,9 +65,10 @@ struct SpMapParams {
   double relinearise_rad = 0.003;
   double sigma_floor_m = 1e-4;  ///< no observation is believed to be better
   double sigma_floor_rad = 1e-4;
-  /// On the standard deviation of an end: where between two beams a wall ends stays the same while the robot hardly
-  /// moves, so that consecutive sightings err alike.
-  double end_inflation = 3.0;
+  /// An end is used again when its bearing has moved by so many beams. Where between two beams a wall ends stays the
+  /// same while the same two see it, so that such sightings err alike. The golden ratio has the beams meet the end in
+  /// ever other places; a whole number would have them meet it in the same one.
+  double end_beams = 1.618;
   /// Random walk of a segment per update: keeps the covariance positive definite however long the robot looks.
   double drift_sigma_m = 1e-5;
   double drift_sigma_rad = 1e-5;

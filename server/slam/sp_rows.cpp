@@ -19,7 +19,7 @@ Matrix4 observed_covariance(const lines::SegmentObservation& observation, const 
 }
 
 double end_variance_m2(const lines::SegmentObservation& observation, std::size_t side, const SpMapParams& params) {
-  const double sigma_m = std::max(observation.end_sigma_m[side] * params.end_inflation, params.sigma_floor_m);
+  const double sigma_m = std::max(observation.end_sigma_m[side], params.sigma_floor_m);
   return sigma_m * sigma_m;
 }
 

@@ -13,9 +13,10 @@ namespace seeker::slam {
 
 /// What only the filter needs to know of a segment; in step with SpState::segments.
 struct SegmentRecord {
-  Index at = 0;                        ///< first of its rows in the covariance
-  std::array<int, 2> real_votes{};     ///< sightings in a row that saw this virtual end as a real one
-  std::array<int, 2> overrun_votes{};  ///< sightings in a row that went past this real end
+  Index at = 0;                                         ///< first of its rows in the covariance
+  std::array<int, 2> real_votes{};                      ///< sightings in a row that saw this virtual end as a real one
+  std::array<int, 2> overrun_votes{};                   ///< sightings in a row that went past this real end
+  std::array<std::optional<double>, 2> end_used_rad{};  ///< bearing in `base` of this end when it was used last
 };
 
 /// An observation that waits for a second sight of it (spec S1.8).
@@ -58,6 +59,11 @@ struct SpState {
 
   [[nodiscard]] std::optional<std::size_t> index_of(SegmentId id) const;
   [[nodiscard]] SegmentRows rows_of(std::size_t segment) const { return {records[segment].at, segments[segment].real}; }
+  /// Bearing in `base` at which the end is now.
+  [[nodiscard]] double end_bearing_rad(std::size_t segment, std::size_t side) const;
+  /// Other beams see the end than when it was used last: SpMapParams::end_beams.
+  [[nodiscard]] bool is_end_news(std::size_t segment, std::size_t side, double beam_step_rad) const;
+  void note_end_used(std::size_t segment, std::size_t side);
   /// Moves the first rows of all segments from `first` on.
   void shift_rows(std::size_t first, Index by);
   void erase(std::size_t segment);

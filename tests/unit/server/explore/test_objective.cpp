@@ -105,7 +105,7 @@ TEST(Objective, AgreesWithTheFilterItself) {
   seen.real = part.ends;
   const double scale = static_cast<double>(sensor.nominal_points) / part.beams;
   seen.covariance = scale * Eigen::Vector2d(sensor.sigma_y_m, sensor.sigma_theta_rad).cwiseAbs2().asDiagonal();
-  const double end_sigma_m = sensor.sigma_end_m * std::sqrt(scale) / filter.params().end_inflation;
+  const double end_sigma_m = sensor.sigma_end_m * std::sqrt(scale);
   seen.end_sigma_m = {end_sigma_m, end_sigma_m};
   seen.points = part.beams;
   slam::Association association;

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "server/lines/fast_extractor.hpp"
 #include "tests/unit/server/lines/scenes.hpp"
@@ -160,6 +161,44 @@ TEST(FastExtractor, NoiseOfTheScanIsFoundInTheScan) {
       sum += extractor.extract(scan_of(room, ScannerModel::full_circle(360, 0.0), sigma_m, seed)).range_sigma_m;
     }
     EXPECT_NEAR(sum / 20.0, sigma_m, 0.05 * sigma_m);
+  }
+}
+
+TEST(FastExtractor, WhatTheBearingsAreOffByIsNotCountedTwice) {
+  // Beams that graze a wall: a bearing that is off shows in their ranges, from which the noise is told.
+  ScannerModel model{.beams = 91, .first_rad = deg_to_rad(60.0), .step_rad = deg_to_rad(0.2)};
+  model.bearing_sigma_rad = 0.0008;
+  FastParams params;
+  params.bearing_sigma_rad = model.bearing_sigma_rad;
+  FastExtractor extractor(params);
+  constexpr int kScans = 1000;
+  double nees = 0.0;
+  int whole = 0;  // here and there noise splits the wall
+  for (std::uint64_t seed = 1; seed <= kScans; ++seed) {
+    const ScanLines found = extractor.extract(scan_of({{{1.0, 0.0}, {1.0, 20.0}}}, model, 0.01, seed));
+    if (found.lines.size() != 1U) {
+      continue;
+    }
+    ++whole;
+    const Line& line = found.lines.front();
+    const Point2 error(line.r_m - 1.0, wrap_angle(line.alpha_rad));
+    nees += error.dot(line.covariance.inverse() * error);
+  }
+  ASSERT_GT(whole, 9 * kScans / 10);
+  // A mean of 1000 values of chi-square with 2 degrees of freedom: 2 with a standard deviation of 0.06.
+  EXPECT_NEAR(nees / whole, 2.0, 0.25);
+}
+
+TEST(FastExtractor, AnOpenDoorIsNoCornerOfTheWall) {
+  // Through the doors of 0.9 m the beams return nothing: left and right of them are neighbours among the returns.
+  const testing::Room room{{{2.0, -3.0}, {2.0, -1.35}}, {{2.0, -0.45}, {2.0, 0.45}}, {{2.0, 1.35}, {2.0, 3.0}}};
+  FastExtractor extractor;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const ScanLines found = extractor.extract(scan_of(room, ScannerModel::half_circle(181, 0.0), 0.01, seed));
+    ASSERT_GE(found.lines.size(), 3U);
+    for (const Line& line : found.lines) {
+      EXPECT_LT(line.length_m, 1.7) << "seed " << seed;
+    }
   }
 }
 

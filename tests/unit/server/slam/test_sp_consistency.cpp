@@ -23,13 +23,6 @@ struct MeanNees {
 /// The robot drives a circle in the room; `seen` says what it sees of the walls in step k.
 using Seen = std::function<std::vector<lines::SegmentObservation>(int k, const Pose2& truth, Rng& rng)>;
 
-/// The observations of these tests err independently.
-SpMapParams independent() {
-  SpMapParams params;
-  params.end_inflation = 1.0;
-  return params;
-}
-
 MeanNees run(SpMapParams params, int steps, const std::vector<TrueWall>& walls, const Seen& seen) {
   MeanNees mean;
   int segments = 0;
@@ -97,19 +90,19 @@ constexpr double kRobotBand = 0.45;
 constexpr double kSegmentBand = 0.45;
 
 TEST(SpConsistency, RealEndsSeenFromTheStart) {
-  const MeanNees mean = run_with_real_ends(independent());
+  const MeanNees mean = run_with_real_ends({});
   EXPECT_NEAR(mean.robot, 3.0, kRobotBand);
   EXPECT_NEAR(mean.segment, 4.0, kSegmentBand);
 }
 
 TEST(SpConsistency, EndsThatGrowAndBecomeReal) {
-  const MeanNees mean = run_with_growing_ends(independent());
+  const MeanNees mean = run_with_growing_ends({});
   EXPECT_NEAR(mean.robot, 3.0, kRobotBand);
   EXPECT_NEAR(mean.segment, 4.0, kSegmentBand);
 }
 
 TEST(SpConsistency, ThePapersModeIsConsistentToo) {
-  SpMapParams params = independent();
+  SpMapParams params;
   params.mode = SpMode::kPaper;
   params.features.real_scans = 1;
   params.association.gate = 1e9;  // known pairs
@@ -143,7 +136,7 @@ TEST(SpConsistency, PiecesOfAWallThatAreMerged) {
   int merged = 0;
   for (int seed = 1; seed <= kRuns; ++seed) {
     Rng rng(static_cast<std::uint64_t>(seed));
-    SpMap map({0.0, -1.5, 0.0}, covariance_of(OdometryNoise{}), independent());
+    SpMap map({0.0, -1.5, 0.0}, covariance_of(OdometryNoise{}));
     Pose2 truth = map.robot() * true_motion({}, OdometryNoise{}, rng);
     for (int k = 0; k < 30; ++k) {
       const Pose2 increment{0.12, 0.0, 0.08};

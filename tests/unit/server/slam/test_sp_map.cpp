@@ -1,6 +1,7 @@
 /// Life of the map: segments come, grow, get ends, become one, go; poses are measured; the robot is moved.
 #include <gtest/gtest.h>
 
+#include "common/core/angle.hpp"
 #include "sp_world.hpp"
 #include "tests/support/matchers.hpp"
 
@@ -74,12 +75,31 @@ TEST(SpMap, MakesAnEndRealWhenItWasSeenTwice) {
   EXPECT_FALSE(segment.real[lines::kLeft]);
   const SegmentCovariance covariance = map.segment_covariance(segment.id);
   ASSERT_EQ(covariance.rows(), 3);
-  // Sensor (0.02 m, inflated) and robot: the start's 0.01 m, and its heading over the wall's distance of 2 m.
-  EXPECT_NEAR(std::sqrt(covariance(2, 2)), std::sqrt(std::pow(0.02 * SpMapParams{}.end_inflation, 2) + 1e-4 + 4e-4),
-              2e-3);
+  // Sensor (0.02 m) and robot: the start's 0.01 m, and its heading over the wall's distance of 2 m.
+  EXPECT_NEAR(std::sqrt(covariance(2, 2)), std::sqrt(4e-4 + 1e-4 + 4e-4), 2e-3);
   const double before = covariance(2, 2);
   EXPECT_EQ(feed(map, {part(-1.0, 1.0, {false, true})}).ends, 1);
   EXPECT_LT(map.segment_covariance(segment.id)(2, 2), before);
+}
+
+TEST(SpMap, UsesAnEndAgainWhenOtherBeamsSeeIt) {
+  SpMap map({}, kStart);
+  // The end is at 63 degrees; from 0.1 m farther on it is 2.2 degrees farther round.
+  const auto seen_from = [](const Pose2& truth) {
+    SegmentObservation seen = part(-1.0, 1.0, {false, true}, kWall, truth);
+    seen.beam_step_rad = deg_to_rad(1.0);
+    return seen;
+  };
+  feed(map, {seen_from({})});
+  feed(map, {seen_from({})});
+  ASSERT_TRUE(map.segments()[0].real[lines::kRight]);
+  for (int scan = 0; scan < 5; ++scan) {
+    EXPECT_EQ(feed(map, {seen_from({})}).ends, 0) << "the same two beams see where it is";
+  }
+  const Pose2 step{0.1, 0.0, 0.0};
+  map.predict(step, 1e-6 * Matrix3::Identity());
+  EXPECT_EQ(feed(map, {seen_from(step)}).ends, 1);
+  EXPECT_EQ(feed(map, {seen_from(step)}).ends, 0);
 }
 
 TEST(SpMap, TakesBackAnEndThatIsOverrunAgainAndAgain) {
@@ -126,7 +146,7 @@ TEST(SpMap, TakesTheRealEndOfThePieceThatGoes) {
   ASSERT_EQ(map.segments().size(), 1U);
   EXPECT_TRUE(map.segments()[0].real[lines::kRight]);
   EXPECT_EQ(map.segment_covariance(1).rows(), 3);
-  EXPECT_NEAR(std::sqrt(map.segment_covariance(1)(2, 2)), std::hypot(0.02 * params.end_inflation, 0.02), 0.01);
+  EXPECT_NEAR(std::sqrt(map.segment_covariance(1)(2, 2)), std::hypot(0.02, 0.02), 0.01);
 }
 
 TEST(SpMap, NeverUsesAnIdTwice) {
