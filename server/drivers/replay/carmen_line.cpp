@@ -36,7 +36,7 @@ bool read_ranges(Words& words, std::vector<float>& ranges_m) {
     return false;
   }
   for (int k = 0; k < static_cast<int>(count) && words.good(); ++k) {
-    ranges_m.push_back(static_cast<float>(words.number()));
+    ranges_m.push_back(static_cast<float>(words.range()));
   }
   return true;
 }
@@ -109,6 +109,19 @@ Result<std::optional<CarmenRecord>> parse_stated_laser(Words& words, bool with_r
 }
 
 }  // namespace
+
+std::optional<double> stated_range_max_m(std::string_view line) {
+  Words words(line);
+  if (words.word() != "PARAM") {
+    return std::nullopt;
+  }
+  const std::string_view name = words.word();
+  if (name != "laser_front_laser_max_range" && name != "robot_front_laser_max") {
+    return std::nullopt;
+  }
+  const double range_max_m = words.number();
+  return words.good() && range_max_m > 0.0 ? std::optional(range_max_m) : std::nullopt;
+}
 
 Result<std::optional<CarmenRecord>> parse_carmen_line(std::string_view line) {
   Words words(line);

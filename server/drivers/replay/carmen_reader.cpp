@@ -1,5 +1,6 @@
 #include "server/drivers/replay/carmen_reader.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "server/drivers/replay/scan_csv.hpp"
@@ -34,9 +35,16 @@ std::optional<CarmenRecord> CarmenReader::take(std::string_view line) {
   }
   if (!*record) {
     ++summary_.ignored;
+    if (const auto range_max_m = stated_range_max_m(line)) {
+      range_max_m_ = std::min(*range_max_m, range_max_m_.value_or(*range_max_m));
+    }
     return std::nullopt;
   }
   last_was_scan_ = std::holds_alternative<CarmenScan>(**record);
+  if (last_was_scan_ && range_max_m_) {
+    auto& scan = std::get<CarmenScan>(**record);
+    scan.range_max_m = scan.range_max_m.value_or(*range_max_m_);
+  }
   ++(last_was_scan_ ? summary_.scans : summary_.odometry);
   return std::move(*record);
 }

@@ -55,6 +55,7 @@ class CarmenReader {
   LineFile file_;
   ReplaySummary summary_;
   bool last_was_scan_ = false;
+  std::optional<double> range_max_m_;  ///< the least that a PARAM line stated, for scans that state none themselves
 };
 
 }  // namespace seeker::drivers

@@ -35,7 +35,22 @@ Result<LineFile> LineFile::open(const std::filesystem::path& path) {
   if (file == nullptr) {
     return fail(Errc::kIo, path.string() + " cannot be opened; check its permissions");
   }
-  return LineFile(std::make_unique<File>(file));
+  LineFile lines(std::make_unique<File>(file));
+  if (lines.skip_byte_order_mark()) {
+    return lines;
+  }
+  return fail(Errc::kParse, path.string() + " is text in UTF-16, of which nothing can be read; save it as UTF-8");
+}
+
+bool LineFile::skip_byte_order_mark() {
+  std::array<unsigned char, 3> head{};
+  const int read = gzread(file_->handle, head.data(), head.size());
+  if (read == 3 && head == std::array<unsigned char, 3>{0xEF, 0xBB, 0xBF}) {
+    return true;
+  }
+  const bool wide = read >= 2 && ((head[0] == 0xFF && head[1] == 0xFE) || (head[0] == 0xFE && head[1] == 0xFF));
+  gzrewind(file_->handle);
+  return !wide;
 }
 
 LineFile::LineFile(std::unique_ptr<File> file) : file_(std::move(file)) {}

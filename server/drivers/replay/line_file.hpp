@@ -34,7 +34,7 @@ class LineFile {
   static constexpr std::size_t kMaxLine_bytes = 256 * 1024;
   enum class Line : std::uint8_t { kGood, kTooLong, kEnd };
 
-  /// kNotFound or kIo with the file named.
+  /// kNotFound or kIo with the file named; kParse for text in UTF-16. A byte order mark of UTF-8 is passed over.
   [[nodiscard]] static Result<LineFile> open(const std::filesystem::path& path);
   LineFile(LineFile&&) noexcept;
   LineFile& operator=(LineFile&&) noexcept;
@@ -51,6 +51,8 @@ class LineFile {
   struct File;
   explicit LineFile(std::unique_ptr<File> file);
   [[nodiscard]] Line read(std::string& line);
+  /// False where the mark says UTF-16.
+  [[nodiscard]] bool skip_byte_order_mark();
 
   std::unique_ptr<File> file_;
   std::uint64_t number_ = 0;

@@ -52,6 +52,17 @@ class Words {
     }
     return value;
   }
+  /// A reading of a scanner. "inf" is one too, and says that nothing is there; "nan" and "-inf" say nothing: 0.
+  double range() {
+    const std::string_view text = word();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      good_ = false;
+      return 0.0;
+    }
+    return std::isnan(value) || value < 0.0 ? 0.0 : value;
+  }
   Pose2 pose() {
     const double x = number();
     const double y = number();

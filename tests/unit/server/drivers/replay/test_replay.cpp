@@ -125,9 +125,55 @@ TEST(CarmenLine, EveryCutOfALineIsRefused) {
 TEST(CarmenLine, RefusesImpossibleCountsAndNumbers) {
   EXPECT_EQ(parse_carmen_line("FLASER 99999999 1 2 3").error().code, Errc::kTooLarge);
   EXPECT_EQ(parse_carmen_line("FLASER -1 1").error().code, Errc::kTooLarge);
-  EXPECT_EQ(parse_carmen_line("FLASER 1 inf 0 0 0 0 0 0 1 h 1").error().code, Errc::kParse);
+  EXPECT_EQ(parse_carmen_line("FLASER 1 far 0 0 0 0 0 0 1 h 1").error().code, Errc::kParse);
+  EXPECT_EQ(parse_carmen_line("FLASER 1 2 inf 0 0 0 0 0 1 h 1").error().code, Errc::kParse);
   EXPECT_EQ(parse_carmen_line("FLASER 1 1e999 0 0 0 0 0 0 1 h 1").error().code, Errc::kParse);
   EXPECT_EQ(parse_carmen_line("1.02 1.03 0.5").error().code, Errc::kParse);
+}
+
+TEST(CarmenLine, ABeamWithoutEchoMayBeWrittenAsInfOrNan) {
+  const auto scan = parse_carmen_line("FLASER 5 1.5 inf nan -nan -inf 9 9 9 0.1 0.2 0.3 100.5 robot 100.6");
+  ASSERT_TRUE(scan && *scan);
+  EXPECT_EQ(std::get<CarmenScan>(**scan).ranges_m, (std::vector<float>{1.5F, kNoReturn, 0.0F, 0.0F, 0.0F}));
+}
+
+TEST(CarmenReader, WhatPARAMSaysOfTheLasersReachHoldsForScansThatDoNotSayIt) {
+  const TemporaryLog log("reach.clf",
+                         "FLASER 1 1.0 9 9 9 0.1 0.2 0.3 1.0 h 1.0\n"
+                         "PARAM laser_front_laser_max_range 8.19\n"
+                         "PARAM robot_front_laser_max 50\n"
+                         "PARAM laser_front_laser_max_range -1\n"
+                         "PARAM robot_front_laser_max far\n"
+                         "FLASER 1 8.19 9 9 9 0.1 0.2 0.3 2.0 h 2.0\n");
+  auto reader = CarmenReader::open(log.path());
+  ASSERT_TRUE(reader) << reader.error().message;
+  auto record = reader->next();
+  ASSERT_TRUE(record);
+  EXPECT_FALSE(std::get<CarmenScan>(*record).range_max_m);
+  record = reader->next();
+  ASSERT_TRUE(record);
+  const auto& scan = std::get<CarmenScan>(*record);
+  EXPECT_EQ(scan.range_max_m, 8.19);
+  EXPECT_EQ(to_laser_scan(scan, {}, {}).ranges_m.front(), kNoReturn);
+  EXPECT_EQ(reader->summary().bad, 0U);
+}
+
+TEST(LineFile, AByteOrderMarkOfUtf8IsPassedOverAndUtf16IsRefused) {
+  for (const bool compressed : {false, true}) {
+    const TemporaryLog marked("marked.clf", std::string("\xEF\xBB\xBF") + "first\nsecond\n", compressed);
+    auto file = LineFile::open(marked.path());
+    ASSERT_TRUE(file) << file.error().message;
+    std::string line;
+    ASSERT_EQ(file->next(line), LineFile::Line::kGood);
+    EXPECT_EQ(line, "first");
+    const TemporaryLog plain("plain.clf", "no", compressed);
+    auto shorter = LineFile::open(plain.path());
+    ASSERT_TRUE(shorter) << shorter.error().message;
+    ASSERT_EQ(shorter->next(line), LineFile::Line::kGood);
+    EXPECT_EQ(line, "no");
+    const TemporaryLog wide("wide.clf", std::string("\xFF\xFE") + "f", compressed);
+    EXPECT_EQ(LineFile::open(wide.path()).error().code, Errc::kParse);
+  }
 }
 
 /// Takes all records; nobody reads them.
