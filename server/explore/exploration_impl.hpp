@@ -49,7 +49,7 @@ class Exploration::Impl {
   void go_home(const StrategyInput& input, ExploreStep& out);
 
   // exploration_wait.cpp
-  void begin_wait(const Point2& place_map, const StrategyInput& input, ExploreStep& out);
+  void begin_wait(const WaitTurn& turn, const StrategyInput& input, ExploreStep& out);
   [[nodiscard]] bool waits(const StrategyInput& input, ExploreStep& out);
   void strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out);
 

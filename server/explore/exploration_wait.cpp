@@ -13,21 +13,24 @@ constexpr double kNewFloor_m2 = 2.0;
 
 }  // namespace
 
-/// Goes to where it sees the place, and stands there.
-void Exploration::Impl::begin_wait(const Point2& place_map, const StrategyInput& input, ExploreStep& out) {
+/// Goes to where it sees the place, or out of the way of who is there, and stands there.
+void Exploration::Impl::begin_wait(const WaitTurn& turn, const StrategyInput& input, ExploreStep& out) {
   // The most so far: floor that comes back when somebody has walked by is no new floor.
   floor_at_wait_m2_ = std::max(floor_at_wait_m2_, known_floor_.present_area_m2());
   waiting_since_ = input.now;
   out.phase = "wait";
-  out.activity = "waiting for the way to " + text(place_map) + " to become free again";
-  Point2 lookout = input.map_T_base.translation();
+  out.activity = "waiting for the way to " + text(turn.p_map) + " to become free again";
+  Point2 place = input.map_T_base.translation();
   if (const auto floor = floors_.view()) {
-    const auto costs = nav::DistanceField::build((*floor)->cost, lookout);
-    lookout = costs ? lookout_for(place_map, **floor, *costs).value_or(lookout) : lookout;
+    if (const auto costs = nav::DistanceField::build((*floor)->cost, place)) {
+      const auto found =
+          turn.aside ? place_aside(turn.p_map, **floor, *costs) : lookout_for(turn.p_map, **floor, *costs);
+      place = found.value_or(place);
+    }
   }
-  const Point2 to = place_map - lookout;
-  if (!lookout_.start(input, lookout, std::atan2(to.y(), to.x()))) {
-    out.activity += "; no way to where one would see it: " + lookout_.reason();
+  const Point2 to = turn.p_map - place;
+  if (!lookout_.start(input, place, std::atan2(to.y(), to.x()))) {
+    out.activity += "; no way to where one would wait: " + lookout_.reason();
   }
 }
 
@@ -66,8 +69,8 @@ void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyIn
       places.push_back({p_map, false});
     }
   }
-  if (const auto place = turns_.next(places)) {
-    begin_wait(*place, input, out);
+  if (const auto turn = turns_.next(places)) {
+    begin_wait(*turn, input, out);
     return;
   }
   conclude(end_for(left, last, input.map_T_base.translation()), input.now, out);

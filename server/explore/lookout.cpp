@@ -1,5 +1,7 @@
 #include "server/explore/lookout.hpp"
 
+#include <algorithm>
+
 #include "server/nav/visibility.hpp"
 
 namespace seeker::explore {
@@ -11,6 +13,12 @@ constexpr double kNear_m = 1.5;
 constexpr double kFar_m = 3.0;
 /// Whoever stands there hides the place itself.
 constexpr double kBody_m = 0.4;
+/// Room for a robot and somebody who walks by: he keeps a step away from both.
+constexpr double kRoom_m = 1.5;
+/// A metre of room more is worth so many metres of way;
+constexpr double kWayForRoom = 10.0;
+/// farther away it is not looked for.
+constexpr double kFarthest_m = 15.0;
 
 bool sees(const Point2& from_map, const Point2& place_map, const nav::FloorView& floor) {
   const Point2 back = from_map - place_map;
@@ -32,6 +40,27 @@ std::optional<Point2> lookout_for(const Point2& place_map, const nav::FloorView&
   }
   cell = cell ? cell : costs.cheapest_near(place_map, kNear_m);
   return cell ? std::optional(floor.cost.frame().centre_of(*cell)) : std::nullopt;
+}
+
+std::optional<Point2> place_aside(const Point2& place_map, const nav::FloorView& floor,
+                                  const nav::DistanceField& costs) {
+  std::optional<Point2> best;
+  double best_m = 0.0;
+  for (std::size_t k = 0; k < costs.costs().cells().size(); ++k) {
+    const CellIndex cell = costs.costs().cell(k);
+    const auto cost = costs.cost_to(cell);
+    const Point2 p_map = floor.cost.frame().centre_of(cell);
+    if (!cost || *cost > kFarthest_m || (p_map - place_map).norm() < kRoom_m) {
+      continue;
+    }
+    const double room_m = std::min<double>(floor.cost.clearance_m(cell), kRoom_m);
+    const double worth_m = kWayForRoom * room_m - *cost;
+    if (!best || worth_m > best_m) {
+      best = p_map;
+      best_m = worth_m;
+    }
+  }
+  return best;
 }
 
 }  // namespace seeker::explore

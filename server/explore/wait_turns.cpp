@@ -18,7 +18,7 @@ int WaitTurns::turns_at(const Point2& p_map) const {
   return known == waited_.end() ? 0 : known->turns;
 }
 
-std::optional<Point2> WaitTurns::next(const std::vector<BlockedPlace>& places) {
+std::optional<WaitTurn> WaitTurns::next(const std::vector<BlockedPlace>& places) {
   if (total_ >= kPlaces * params_.max_waits) {
     return std::nullopt;
   }
@@ -43,7 +43,7 @@ std::optional<Point2> WaitTurns::next(const std::vector<BlockedPlace>& places) {
   ++known->turns;
   ++total_;
   for_nobody_ += chosen->somebody ? 0 : 1;
-  return chosen->p_map;
+  return WaitTurn{chosen->p_map, chosen->somebody && (total_ - for_nobody_) % 2 == 0};
 }
 
 void WaitTurns::reset() {

@@ -16,6 +16,14 @@ struct BlockedPlace {
   bool somebody = false;
 };
 
+struct WaitTurn {
+  Point2 p_map = Point2::Zero();
+  /// Every second time that somebody is waited for the robot leaves the way: two who wait for each other wait for ever.
+  bool aside = false;
+
+  friend bool operator==(const WaitTurn&, const WaitTurn&) = default;
+};
+
 /// Each place has its turn before any has the next. So an exploration goes on after a bounded time, however people
 /// walk.
 class WaitTurns {
@@ -23,7 +31,7 @@ class WaitTurns {
   explicit WaitTurns(const ViewpointParams& params) : params_(params) {}
 
   /// The place whose turn it is, which counts as waited for from now on; nothing when none deserves another wait.
-  [[nodiscard]] std::optional<Point2> next(const std::vector<BlockedPlace>& places);
+  [[nodiscard]] std::optional<WaitTurn> next(const std::vector<BlockedPlace>& places);
   /// Waiting had a use: all have their turns again.
   void reset();
   /// The map moved.

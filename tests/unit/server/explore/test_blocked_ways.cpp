@@ -93,12 +93,22 @@ TEST(WaitTurns, EveryPlaceHasItsTurnBeforeAnyHasTheNext) {
   const std::vector<BlockedPlace> places{{{0.0, 0.0}, true}, {{5.0, 0.0}, true}, {{0.0, 5.0}, true}};
   for (int round = 0; round < 2; ++round) {
     for (const BlockedPlace& place : places) {
-      EXPECT_EQ(turns.next(places), place.p_map);
+      const auto turn = turns.next(places);
+      ASSERT_TRUE(turn.has_value());
+      EXPECT_EQ(turn->p_map, place.p_map);
     }
   }
   EXPECT_FALSE(turns.next(places).has_value());
   turns.reset();
   EXPECT_TRUE(turns.next(places).has_value());
+}
+
+TEST(WaitTurns, EverySecondTimeTheRobotStepsAside) {
+  WaitTurns turns({});
+  for (const bool aside : {false, true, false, true}) {
+    EXPECT_EQ(turns.next({{{1.0, 0.0}, true}}), (WaitTurn{{1.0, 0.0}, aside}));
+  }
+  EXPECT_EQ(turns.next({{{9.0, 0.0}, false}}), (WaitTurn{{9.0, 0.0}, false})) << "nobody wants to walk by";
 }
 
 TEST(WaitTurns, WhereNobodyWasSeenOneWaitEachIsEnough) {

@@ -65,5 +65,21 @@ TEST(Lookout, IsTheNearestPlaceWhereNoneSeesIt) {
   EXPECT_FALSE(lookout_for({6.0, 4.6}, rooms.floor, rooms.costs)) << "nowhere near";
 }
 
+TEST(PlaceAside, LiesInTheRoomBesideTheCorridor) {
+  // A corridor 1.25 m wide with a room of 4 x 3.5 m on its left half; somebody comes along the corridor.
+  std::vector<std::string> rows(20, "#................#" + std::string(22, '#'));
+  rows.front() = std::string(40, '#');
+  rows.back() = std::string(40, '#');
+  rows[13] = std::string(6, '#') + "...." + std::string(30, '#');
+  for (std::size_t row = 14; row < 19; ++row) {
+    rows[row] = '#' + std::string(38, '.') + '#';
+  }
+  const Rooms rooms = rooms_of(rows, {5.0, 0.9});
+  const auto aside = place_aside({7.0, 0.9}, rooms.floor, rooms.costs);
+  ASSERT_TRUE(aside);
+  EXPECT_GT(aside->y(), 2.0) << "in the room";
+  EXPECT_GT(rooms.floor.cost.clearance_m(rooms.floor.cost.frame().cell_of(*aside)), 1.3);
+}
+
 }  // namespace
 }  // namespace seeker::explore
