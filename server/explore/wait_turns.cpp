@@ -12,10 +12,10 @@ constexpr int kPlaces = 4;
 
 }  // namespace
 
-int WaitTurns::turns_at(const Point2& p_map) const {
-  const auto known = std::find_if(waited_.begin(), waited_.end(),
+WaitTurns::Waited* WaitTurns::known(const Point2& p_map) {
+  const auto found = std::find_if(waited_.begin(), waited_.end(),
                                   [&](const Waited& one) { return (one.p_map - p_map).norm() < kSamePlace_m; });
-  return known == waited_.end() ? 0 : known->turns;
+  return found == waited_.end() ? nullptr : &*found;
 }
 
 std::optional<WaitTurn> WaitTurns::next(const std::vector<BlockedPlace>& places) {
@@ -25,7 +25,8 @@ std::optional<WaitTurn> WaitTurns::next(const std::vector<BlockedPlace>& places)
   const BlockedPlace* chosen = nullptr;
   int fewest = params_.max_waits;
   for (const BlockedPlace& place : places) {
-    const int turns = turns_at(place.p_map);
+    const Waited* before = known(place.p_map);
+    const int turns = before == nullptr ? 0 : before->turns;
     const bool deserves = place.somebody || turns == 0 || for_nobody_ < params_.max_failures;
     if (deserves && turns < fewest) {
       chosen = &place;
@@ -35,12 +36,8 @@ std::optional<WaitTurn> WaitTurns::next(const std::vector<BlockedPlace>& places)
   if (chosen == nullptr) {
     return std::nullopt;
   }
-  if (fewest == 0) {
-    waited_.push_back({chosen->p_map, 0});
-  }
-  const auto known = std::find_if(waited_.begin(), waited_.end(),
-                                  [&](const Waited& one) { return (one.p_map - chosen->p_map).norm() < kSamePlace_m; });
-  ++known->turns;
+  Waited* waited = known(chosen->p_map);
+  ++(waited == nullptr ? waited_.emplace_back(Waited{chosen->p_map, 0}) : *waited).turns;
   ++total_;
   for_nobody_ += chosen->somebody ? 0 : 1;
   return WaitTurn{chosen->p_map, chosen->somebody && (total_ - for_nobody_) % 2 == 0};

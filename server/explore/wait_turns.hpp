@@ -42,7 +42,8 @@ class WaitTurns {
     Point2 p_map;
     int turns = 0;
   };
-  [[nodiscard]] int turns_at(const Point2& p_map) const;
+  /// Null where nobody was waited for.
+  [[nodiscard]] Waited* known(const Point2& p_map);
 
   ViewpointParams params_;
   std::vector<Waited> waited_;

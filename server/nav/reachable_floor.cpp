@@ -7,24 +7,6 @@
 namespace seeker::nav {
 namespace {
 
-/// Traversable cells connected to `start` (over sides: the same as eight directions without cutting corners).
-std::vector<CellIndex> connected_cells(const CostMap& map, CellIndex start) {
-  Grid<std::uint8_t> seen(map.frame(), map.width(), map.height());
-  std::vector<CellIndex> cells{start};
-  seen[start] = 1;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const CellIndex c = cells[k];
-    for (const CellIndex next :
-         {CellIndex{c.i + 1, c.j}, CellIndex{c.i - 1, c.j}, CellIndex{c.i, c.j + 1}, CellIndex{c.i, c.j - 1}}) {
-      if (map.traversable(next) && seen[next] == 0) {
-        seen[next] = 1;
-        cells.push_back(next);
-      }
-    }
-  }
-  return cells;
-}
-
 /// Grid of `resolution_m` that covers `fine`, its borders on multiples of the resolution.
 Grid<std::uint16_t> covering_grid(const CostMap& map, double resolution_m) {
   const Point2 low = map.frame().origin;

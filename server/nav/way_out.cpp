@@ -1,7 +1,6 @@
 #include "server/nav/way_out.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -11,22 +10,6 @@
 
 namespace seeker::nav {
 namespace {
-
-/// Traversable cells connected to `seed`, no more than `enough` of them.
-std::vector<CellIndex> floor_about(const CostMap& map, CellIndex seed, std::size_t enough) {
-  std::set<CellIndex> seen{seed};
-  std::vector<CellIndex> cells{seed};
-  for (std::size_t k = 0; k < cells.size() && cells.size() < enough; ++k) {
-    const CellIndex c = cells[k];
-    for (const CellIndex next :
-         {CellIndex{c.i + 1, c.j}, CellIndex{c.i - 1, c.j}, CellIndex{c.i, c.j + 1}, CellIndex{c.i, c.j - 1}}) {
-      if (map.traversable(next) && seen.insert(next).second) {
-        cells.push_back(next);
-      }
-    }
-  }
-  return cells;
-}
 
 /// Whether the robot's body passes from `p_map` to the cell over floor that is known to be free and not forbidden. What
 /// inflation leaves of a gap may be nothing only because both of its sides were taken half a cell too near: that much
@@ -49,6 +32,23 @@ bool body_passes(const CostMap& map, const Point2& p_map, CellIndex to) {
 
 }  // namespace
 
+std::vector<CellIndex> connected_cells(const CostMap& map, CellIndex start, std::size_t enough) {
+  Grid<std::uint8_t> seen(map.frame(), map.width(), map.height());
+  std::vector<CellIndex> cells{start};
+  seen[start] = 1;
+  for (std::size_t k = 0; k < cells.size() && cells.size() < enough; ++k) {
+    const CellIndex c = cells[k];
+    for (const CellIndex next :
+         {CellIndex{c.i + 1, c.j}, CellIndex{c.i - 1, c.j}, CellIndex{c.i, c.j + 1}, CellIndex{c.i, c.j - 1}}) {
+      if (map.traversable(next) && seen[next] == 0) {
+        seen[next] = 1;
+        cells.push_back(next);
+      }
+    }
+  }
+  return cells;
+}
+
 std::optional<CellIndex> way_out(const CostMap& map, const Point2& p_map, double radius_m) {
   const auto nearest = map.nearest_traversable(p_map, radius_m);
   if (!nearest) {
@@ -58,7 +58,7 @@ std::optional<CellIndex> way_out(const CostMap& map, const Point2& p_map, double
   const GridFrame& f = map.frame();
   const double circle_m2 = kPi * radius_m * radius_m;
   const auto enough = static_cast<std::size_t>(std::ceil(circle_m2 / (f.resolution_m * f.resolution_m)));
-  const std::vector<CellIndex> around = floor_about(map, *nearest, enough);
+  const std::vector<CellIndex> around = connected_cells(map, *nearest, enough);
   if (around.size() >= enough) {
     return nearest;
   }
@@ -73,7 +73,7 @@ std::optional<CellIndex> way_out(const CostMap& map, const Point2& p_map, double
       if (d >= best_m || !map.traversable(cell) || islands.contains(cell) || !body_passes(map, p_map, cell)) {
         continue;
       }
-      const std::vector<CellIndex> floor = floor_about(map, cell, enough);
+      const std::vector<CellIndex> floor = connected_cells(map, cell, enough);
       if (floor.size() >= enough) {
         best = cell;
         best_m = d;

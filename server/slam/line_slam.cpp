@@ -155,7 +155,7 @@ Status LineSlam::update(const LaserScan& scan) {
   }
   ++counts_.scans;
   const PoseEstimate travelled = travelled_.estimate();
-  const bool jumped = travelled.quality == LocalisationQuality::kDegraded;
+  const bool jumped = odometry_jumped();
   if (stands_still(scan)) {
     ++counts_.still;
     look_again(scan);
@@ -203,8 +203,7 @@ Status LineSlam::update(const LaserScan& scan) {
 
 void LineSlam::follow(Scan& scan) {
   if (cloud_.empty()) {
-    lines_->update(scan.observations, lines_->associate(scan.observations));
-    ++revision_;
+    update_lines(scan.observations, lines_->associate(scan.observations));
     quality_ = LocalisationQuality::kLocalised;
     cause_.clear();
     keep(scan);
@@ -312,9 +311,8 @@ void LineSlam::correct(Scan& scan, const MatchResult& match) {
     use_points(scan, match);
   }
   const Association association = lines_->associate(scan.observations);
-  const SpUpdateReport report = lines_->update(scan.observations, association);
+  const SpUpdateReport report = update_lines(scan.observations, association);
   counts_.paired += static_cast<std::uint64_t>(report.paired);
-  ++revision_;
   const bool farther =
       way_since_leftover_m_ >= params_.points.leftover_m || turn_since_leftover_rad_ >= params_.points.leftover_rad;
   if (!points_first && farther && params_.points.use == PointUse::kLeftover) {
@@ -346,8 +344,7 @@ void LineSlam::note_failure(const Scan& scan) {
     failures_ = 0;
     quality_ = LocalisationQuality::kDegraded;
     cause_ = "unseen space: the pose goes on by odometry";
-    lines_->update(scan.observations, lines_->associate(scan.observations));
-    ++revision_;
+    update_lines(scan.observations, lines_->associate(scan.observations));
     keep(scan);
     return;
   }

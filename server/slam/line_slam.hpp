@@ -58,9 +58,14 @@ class LineSlam final : public MapTracker {
 
   void begin(const Pose2& map_T_base, RobotTime stamp);
   [[nodiscard]] Status check_repeats(const LaserScan& scan);
+  /// Since the last scan that was looked at.
+  [[nodiscard]] bool odometry_jumped() const;
   [[nodiscard]] bool stands_still(const LaserScan& scan) const;
   /// One more scan of a stand.
   void look_again(const LaserScan& scan);
+  /// Every update of the lines is a new revision of the map.
+  SpUpdateReport update_lines(const std::vector<lines::SegmentObservation>& observations,
+                              const Association& association);
   void learn_odometry(const MatchResult& match, const Matrix3& covariance);
   void follow(Scan& scan);
   [[nodiscard]] MatchResult match_points(Scan& scan);

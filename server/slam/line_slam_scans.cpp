@@ -24,9 +24,16 @@ Status LineSlam::check_repeats(const LaserScan& scan) {
   return {};
 }
 
+bool LineSlam::odometry_jumped() const { return travelled_.estimate().quality == LocalisationQuality::kDegraded; }
+
+SpUpdateReport LineSlam::update_lines(const std::vector<lines::SegmentObservation>& observations,
+                                      const Association& association) {
+  ++revision_;
+  return lines_->update(observations, association);
+}
+
 bool LineSlam::stands_still(const LaserScan& scan) const {
-  const bool jumped = travelled_.estimate().quality == LocalisationQuality::kDegraded;
-  const bool healthy = failures_ == 0 && matched_ && !jumped && !cloud_.empty() && !backend_.apart();
+  const bool healthy = failures_ == 0 && matched_ && !odometry_jumped() && !cloud_.empty() && !backend_.apart();
   if (!healthy || moved({}, travelled_.estimate().map_T_base, params_.min_move_m, params_.min_turn_rad)) {
     return false;
   }
@@ -50,11 +57,10 @@ void LineSlam::look_again(const LaserScan& scan) {
   }
   ++stood_;
   ++counts_.stood;
-  ++revision_;
   lines::ScanLines found;
   extractor_.extract(scan, found);
   const std::vector<lines::SegmentObservation> observations = lines::observe(scan, found, params_.observation);
-  lines_->update(observations, lines_->associate(observations));
+  update_lines(observations, lines_->associate(observations));
 }
 
 }  // namespace seeker::slam

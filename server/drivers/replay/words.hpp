@@ -34,19 +34,8 @@ class Words {
   }
   /// The next word as a number; 0 and good() == false where it is none, or not finite.
   double number() {
-    const double value = number_or_infinity();
+    const double value = any_number();
     if (!std::isfinite(value)) {
-      good_ = false;
-      return 0.0;
-    }
-    return value;
-  }
-  /// As number(), but "inf" is a value too.
-  double number_or_infinity() {
-    const std::string_view text = word();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || std::isnan(value)) {
       good_ = false;
       return 0.0;
     }
@@ -54,13 +43,7 @@ class Words {
   }
   /// A reading of a scanner. "inf" is one too, and says that nothing is there; "nan" and "-inf" say nothing: 0.
   double range() {
-    const std::string_view text = word();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) {
-      good_ = false;
-      return 0.0;
-    }
+    const double value = any_number();
     return std::isnan(value) || value < 0.0 ? 0.0 : value;
   }
   Pose2 pose() {
@@ -79,6 +62,18 @@ class Words {
   [[nodiscard]] bool at_end() const { return rest_.find_first_not_of(separators_) == std::string_view::npos; }
 
  private:
+  /// The next word as a number, or as "inf" or "nan"; 0 and good() == false where it is none.
+  double any_number() {
+    const std::string_view text = word();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      good_ = false;
+      return 0.0;
+    }
+    return value;
+  }
+
   std::string_view rest_;
   std::string_view separators_;
   bool good_ = true;

@@ -44,19 +44,24 @@ TEST(Doors, ARoomBehindANarrowDoorIsEntered) {
   }
 }
 
-TEST(Doors, PeopleInTheDoorDelayItOnly) {
-  auto exploration = frontier_exploration();
-  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 19);
-  const std::size_t walls = robot.world().walls.size();
+/// Somebody stands in the door of two_rooms() for that time.
+ToyExplorer::Hooks somebody_in_the_door(ToyExplorer& robot, double from_s, double until_s) {
   ToyExplorer::Hooks hooks;
-  hooks.world = [&](double t_s, ToyWorld& world) {
+  hooks.world = [walls = robot.world().walls.size(), from_s, until_s](double t_s, ToyWorld& world) {
     world.walls.resize(walls);
-    if (t_s > 11.0 && t_s < 50.0) {  // when the robot is on its way
+    if (t_s > from_s && t_s < until_s) {
       for (const Wall& wall : box(4.9, 2.0, 5.3, 3.0)) {
         world.walls.push_back(wall);
       }
     }
   };
+  return hooks;
+}
+
+TEST(Doors, PeopleInTheDoorDelayItOnly) {
+  auto exploration = frontier_exploration();
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 19);
+  const auto hooks = somebody_in_the_door(robot, 11.0, 50.0);  // when the robot is on its way
   const ToyRun run = robot.run(exploration, 900.0, hooks);
   print("people", run);
   ASSERT_TRUE(run.end.has_value());
@@ -68,16 +73,7 @@ TEST(Doors, PeopleInTheDoorDelayItOnly) {
 ToyRun run_with_somebody_in_the_door(double until_s) {
   auto exploration = frontier_exploration();
   ToyExplorer robot(two_rooms(), {2.0, 2.5, 0.0}, 19);
-  const std::size_t walls = robot.world().walls.size();
-  ToyExplorer::Hooks hooks;
-  hooks.world = [&](double t_s, ToyWorld& world) {
-    world.walls.resize(walls);
-    if (t_s > 3.5 && t_s < until_s) {
-      for (const Wall& wall : box(4.9, 2.0, 5.3, 3.0)) {
-        world.walls.push_back(wall);
-      }
-    }
-  };
+  const auto hooks = somebody_in_the_door(robot, 3.5, until_s);
   const ToyRun run = robot.run(exploration, 900.0, hooks);
   print("in the door", run);
   return run;
