@@ -5,15 +5,7 @@
 namespace seeker::lab {
 namespace {
 
-bool rises(const Trajectory& trajectory, double stamp_s) {
-  return trajectory.empty() || stamp_s > trajectory.back().stamp_s;
-}
-
-/// False where the scan is out of order.
-bool take(const drivers::CarmenScan& scan, LogPoses& poses, Trajectory& at_scans) {
-  if (!poses.scan_stamps_s.empty() && scan.stamp_s <= poses.scan_stamps_s.back()) {
-    return false;
-  }
+void take(const drivers::CarmenScan& scan, LogPoses& poses, Trajectory& at_scans) {
   poses.scan_stamps_s.push_back(scan.stamp_s);
   if (scan.host == "exact") {
     poses.exact_stamps_s.push_back(scan.stamp_s);
@@ -24,7 +16,6 @@ bool take(const drivers::CarmenScan& scan, LogPoses& poses, Trajectory& at_scans
   if (scan.corrected_T_laser) {
     poses.corrected.push_back({scan.stamp_s, *scan.corrected_T_laser});
   }
-  return true;
 }
 
 }  // namespace
@@ -37,18 +28,11 @@ Result<LogPoses> read_log_poses(const std::filesystem::path& path) {
   LogPoses poses;
   Trajectory at_scans;
   while (const std::optional<drivers::CarmenRecord> record = reader->next()) {
-    bool in_order = true;
     if (const auto* scan = std::get_if<drivers::CarmenScan>(&*record)) {
-      in_order = take(*scan, poses, at_scans);
+      take(*scan, poses, at_scans);
     } else {
       const auto& odometry = std::get<drivers::CarmenOdometry>(*record);
-      in_order = rises(poses.odometry, odometry.stamp_s);
-      if (in_order) {
-        poses.odometry.push_back({odometry.stamp_s, odometry.odom_T_base});
-      }
-    }
-    if (!in_order) {
-      reader->reject_last("its stamp is out of order");
+      poses.odometry.push_back({odometry.stamp_s, odometry.odom_T_base});
     }
   }
   poses.summary = reader->summary();

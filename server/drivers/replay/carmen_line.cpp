@@ -110,6 +110,10 @@ Result<std::optional<CarmenRecord>> parse_stated_laser(Words& words, bool with_r
 
 }  // namespace
 
+double stamp_of(const CarmenRecord& record) {
+  return std::visit([](const auto& r) { return r.stamp_s; }, record);
+}
+
 std::optional<double> stated_range_max_m(std::string_view line) {
   Words words(line);
   if (words.word() != "PARAM") {

@@ -35,6 +35,8 @@ struct CarmenScan {
 
 using CarmenRecord = std::variant<CarmenOdometry, CarmenScan>;
 
+[[nodiscard]] double stamp_of(const CarmenRecord& record);
+
 /// How far the front laser reaches, where the line is a PARAM that says so (`laser_front_laser_max_range`, or what the
 /// robot was told to believe, `robot_front_laser_max`).
 [[nodiscard]] std::optional<double> stated_range_max_m(std::string_view line);

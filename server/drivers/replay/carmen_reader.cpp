@@ -2,68 +2,146 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "server/drivers/replay/scan_csv.hpp"
 
 namespace seeker::drivers {
+namespace {
+
+bool is_scan(const CarmenRecord& record) { return std::holds_alternative<CarmenScan>(record); }
+
+/// What the records at the start of the file tell; the file is read from its start again afterwards.
+LogTraits survey(LineFile file) {
+  LogSurvey survey;
+  std::string line;
+  while (!survey.knows_enough()) {
+    const LineFile::Line read = file.next(line);
+    if (read == LineFile::Line::kEnd) {
+      break;
+    }
+    if (const auto record = parse_log_line(read == LineFile::Line::kGood ? line : ""); record && *record) {
+      survey.add(**record);
+    }
+  }
+  return survey.traits();
+}
+
+}  // namespace
 
 Result<CarmenReader> CarmenReader::open(const std::filesystem::path& path) {
+  Result<LineFile> first = LineFile::open(path);
+  if (!first) {
+    return tl::unexpected<Error>(first.error());
+  }
+  const LogTraits traits = survey(std::move(*first));
   Result<LineFile> file = LineFile::open(path);
   if (!file) {
     return tl::unexpected<Error>(file.error());
   }
-  return CarmenReader(std::move(*file));
+  return CarmenReader(std::move(*file), traits);
 }
 
-void CarmenReader::count_bad(std::string reason) {
+CarmenReader::CarmenReader(LineFile file, const LogTraits& traits)
+    : file_(std::move(file)),
+      traits_(traits),
+      odometry_order_(traits.odometry_period_s),
+      scan_order_(traits.scan_period_s) {}
+
+void CarmenReader::count_bad(std::uint64_t line, std::string reason) {
   ++summary_.bad;
-  if (summary_.examples.size() < BadLines::kMaxExamples) {
-    summary_.examples.push_back({summary_.lines, std::move(reason)});
+  // A stamp is judged after the lines behind it were read: in the order of the lines all the same.
+  std::vector<BadLine>& examples = summary_.examples;
+  const auto behind =
+      std::find_if(examples.begin(), examples.end(), [&](const BadLine& bad) { return bad.number > line; });
+  examples.insert(behind, {line, std::move(reason)});
+  examples.resize(std::min(examples.size(), BadLines::kMaxExamples));
+}
+
+void CarmenReader::mend(CarmenScan& scan) const {
+  if (!scan.range_max_m) {
+    scan.range_max_m = range_max_m_ ? range_max_m_ : traits_.reach_m;
+  }
+  if (traits_.reach_m) {
+    scan.range_max_m = std::min(*scan.range_max_m, *traits_.reach_m);
+  }
+  if (traits_.scan_poses_stand) {
+    scan.odom_T_base.reset();
   }
 }
 
-void CarmenReader::reject_last(std::string reason) {
-  --(last_was_scan_ ? summary_.scans : summary_.odometry);
-  count_bad(std::move(reason));
-}
-
-std::optional<CarmenRecord> CarmenReader::take(std::string_view line) {
+void CarmenReader::take(std::string_view line) {
   auto record = parse_log_line(line);
   if (!record) {
-    count_bad(record.error().message);
-    return std::nullopt;
+    count_bad(summary_.lines, record.error().message);
+    return;
   }
   if (!*record) {
     ++summary_.ignored;
     if (const auto range_max_m = stated_range_max_m(line)) {
       range_max_m_ = std::min(*range_max_m, range_max_m_.value_or(*range_max_m));
     }
-    return std::nullopt;
+    return;
   }
-  last_was_scan_ = std::holds_alternative<CarmenScan>(**record);
-  if (last_was_scan_ && range_max_m_) {
-    auto& scan = std::get<CarmenScan>(**record);
-    scan.range_max_m = scan.range_max_m.value_or(*range_max_m_);
+  if (auto* scan = std::get_if<CarmenScan>(&**record)) {
+    if (traits_.raw_scans_repeat && !scan->odom_T_base) {
+      ++summary_.ignored;
+      return;
+    }
+    mend(*scan);
   }
-  ++(last_was_scan_ ? summary_.scans : summary_.odometry);
-  return std::move(*record);
+  waiting_.push_back({std::move(**record), summary_.lines});
 }
 
-std::optional<CarmenRecord> CarmenReader::next() {
+bool CarmenReader::look_ahead() {
+  constexpr std::size_t kEnough = 2 * StampOrder::kLookAhead;  // of both kinds together
   std::string line;
-  while (true) {
+  while (!at_end_ && waiting_.size() < kEnough) {
     const LineFile::Line read = file_.next(line);
     if (read == LineFile::Line::kEnd) {
       summary_.damage = file_.damage();
-      return std::nullopt;
+      at_end_ = true;
+      break;
     }
     summary_.lines = file_.number();
     if (read == LineFile::Line::kTooLong) {
-      count_bad("the line is longer than " + std::to_string(kMaxLine_bytes) + " bytes");
-    } else if (auto record = take(line)) {
-      return record;
+      count_bad(summary_.lines, "the line is longer than " + std::to_string(kMaxLine_bytes) + " bytes");
+    } else {
+      take(line);
     }
   }
+  return !waiting_.empty();
+}
+
+bool CarmenReader::place(CarmenRecord& record, std::uint64_t line) {
+  const bool scan = is_scan(record);
+  std::vector<double> following_s;
+  for (const Waiting& next : waiting_) {
+    if (is_scan(next.record) == scan && following_s.size() < StampOrder::kLookAhead) {
+      following_s.push_back(stamp_of(next.record));
+    }
+  }
+  const Result<double> stamp_s = (scan ? scan_order_ : odometry_order_).place(stamp_of(record), following_s, offset_s_);
+  if (!stamp_s) {
+    count_bad(line, stamp_s.error().message);
+    return false;
+  }
+  std::visit([&](auto& r) { r.stamp_s = *stamp_s; }, record);
+  ++(scan ? summary_.scans : summary_.odometry);
+  first_s_ = first_s_.value_or(*stamp_s);
+  summary_.duration_s = std::max(summary_.duration_s, *stamp_s - *first_s_);
+  return true;
+}
+
+std::optional<CarmenRecord> CarmenReader::next() {
+  while (look_ahead()) {
+    Waiting first = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (place(first.record, first.line)) {
+      return std::move(first.record);
+    }
+  }
+  return std::nullopt;
 }
 
 std::string describe(const ReplaySummary& summary) {

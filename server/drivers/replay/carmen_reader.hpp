@@ -3,15 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "common/core/result.hpp"
 #include "server/drivers/replay/carmen_line.hpp"
 #include "server/drivers/replay/line_file.hpp"
+#include "server/drivers/replay/log_survey.hpp"
+#include "server/drivers/replay/stamp_order.hpp"
 
 namespace seeker::drivers {
 
@@ -20,7 +23,7 @@ struct ReplaySummary {
   std::uint64_t lines = 0;
   std::uint64_t odometry = 0;
   std::uint64_t scans = 0;
-  std::uint64_t ignored = 0;      ///< comments, PARAM, types not used here
+  std::uint64_t ignored = 0;      ///< comments, PARAM, types not used here, scans written a second time
   std::uint64_t bad = 0;          ///< malformed, too long, or with a stamp out of order
   std::uint64_t overtaken = 0;    ///< scans that were replaced by a newer one before anyone read them
   double duration_s = 0.0;        ///< from the first stamp to the last
@@ -31,7 +34,9 @@ struct ReplaySummary {
 /// One or two sentences for people: how much was read and what was skipped.
 [[nodiscard]] std::string describe(const ReplaySummary& summary);
 
-/// Reads record after record; bad lines are counted and skipped, memory is bounded by one line.
+/// Reads record after record; bad lines are counted and skipped, memory is bounded by a few lines. What the log leaves
+/// out or states wrongly is mended as far as the log itself tells (LogTraits, StampOrder): the stamps of each kind only
+/// rise.
 class CarmenReader {
  public:
   static constexpr std::size_t kMaxLine_bytes = LineFile::kMaxLine_bytes;
@@ -42,19 +47,32 @@ class CarmenReader {
   /// The next record; nothing at the end of the file or where damage ends it (see summary().damage).
   [[nodiscard]] std::optional<CarmenRecord> next();
   [[nodiscard]] const ReplaySummary& summary() const { return summary_; }
-  /// Counts the line of the record that next() returned last as bad after all (its stamp is out of order).
-  void reject_last(std::string reason);
   void note_overtaken() { ++summary_.overtaken; }
-  void note_duration(double duration_s) { summary_.duration_s = duration_s; }
 
  private:
-  explicit CarmenReader(LineFile file) : file_(std::move(file)) {}
-  [[nodiscard]] std::optional<CarmenRecord> take(std::string_view line);
-  void count_bad(std::string reason);
+  struct Waiting {
+    CarmenRecord record;
+    std::uint64_t line = 0;
+  };
+
+  CarmenReader(LineFile file, const LogTraits& traits);
+  /// Reads lines until as many records wait as are needed to judge the first; false where none waits at the end.
+  [[nodiscard]] bool look_ahead();
+  void take(std::string_view line);
+  void mend(CarmenScan& scan) const;
+  /// Puts a record in its place in time and counts it; false where its stamp is wrong.
+  [[nodiscard]] bool place(CarmenRecord& record, std::uint64_t line);
+  void count_bad(std::uint64_t line, std::string reason);
 
   LineFile file_;
+  LogTraits traits_;
   ReplaySummary summary_;
-  bool last_was_scan_ = false;
+  std::deque<Waiting> waiting_;
+  bool at_end_ = false;
+  StampOrder odometry_order_;
+  StampOrder scan_order_;
+  double offset_s_ = 0.0;              ///< from the log's clock to one that was never set
+  std::optional<double> first_s_;      ///< stamp of the first record
   std::optional<double> range_max_m_;  ///< the least that a PARAM line stated, for scans that state none themselves
 };
 

@@ -10,9 +10,6 @@
 namespace seeker::drivers {
 namespace {
 
-/// A stamp farther ahead of the last one than this is damage, not a pause.
-constexpr double kLongestPause_s = 6.0 * 3600.0;
-
 /// Logs state the range of a beam without echo as the scanner's maximum, or a little less.
 constexpr double kAtMaximum_m = 0.01;
 
@@ -27,10 +24,6 @@ double front_laser_view_rad(std::size_t beams) {
   return deg_to_rad(std::find_if(kKnown.begin(), kKnown.end() - 1, [&](const Known& scanner) {
                       return beams == scanner.beams || beams + 1 == scanner.beams;
                     })->view_deg);
-}
-
-double stamp_of(const CarmenRecord& record) {
-  return std::visit([](const auto& r) { return r.stamp_s; }, record);
 }
 
 tl::unexpected<Error> refused() {
@@ -83,28 +76,6 @@ ReplaySource::ReplaySource(CarmenReader reader, const ReplayParams& params)
   fetch();
   if (pending_) {
     first_stamp_s_ = stamp_of(*pending_);
-  }
-}
-
-bool ReplaySource::in_order(double stamp_s, bool scan) {
-  std::optional<double>& last = scan ? last_scan_s_ : last_odometry_s_;
-  const double reference = last.value_or(first_stamp_s_.value_or(stamp_s));
-  const bool repeated = last && stamp_s <= *last;
-  if (repeated || stamp_s < reference || stamp_s > reference + kLongestPause_s) {
-    return false;
-  }
-  last = stamp_s;
-  return true;
-}
-
-void ReplaySource::fetch() {
-  while ((pending_ = reader_.next())) {
-    const double stamp_s = stamp_of(*pending_);
-    if (in_order(stamp_s, std::holds_alternative<CarmenScan>(*pending_))) {
-      reader_.note_duration(std::max(reader_.summary().duration_s, stamp_s - first_stamp_s_.value_or(stamp_s)));
-      return;
-    }
-    reader_.reject_last("its stamp is out of order");
   }
 }
 

@@ -47,8 +47,7 @@ class ReplaySource {
 
  private:
   ReplaySource(CarmenReader reader, const ReplayParams& params);
-  void fetch();
-  [[nodiscard]] bool in_order(double stamp_s, bool scan);
+  void fetch() { pending_ = reader_.next(); }
   void deliver(const CarmenOdometry& odometry);
   void deliver(const CarmenScan& scan);
   void deliver_pose(const Pose2& odom_T_base, RobotTime stamp);
@@ -58,8 +57,6 @@ class ReplaySource {
   ReplayParams params_;
   std::optional<CarmenRecord> pending_;
   std::optional<double> first_stamp_s_;
-  std::optional<double> last_scan_s_;
-  std::optional<double> last_odometry_s_;
   RobotTime now_;
   std::optional<OdometrySample> odometry_;
   std::optional<OdometrySample> last_odometry_;

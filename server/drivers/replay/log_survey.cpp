@@ -1,0 +1,97 @@
+#include "server/drivers/replay/log_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::drivers {
+namespace {
+
+constexpr double kMoved_m = 0.3;
+constexpr double kMoved_rad = 0.3;
+
+/// No wall is as far, to kSame_m, from places this far apart, one after the other.
+constexpr double kApart_m = 0.5;
+constexpr double kSame_m = 0.01;
+constexpr int kPlaces = 4;
+
+/// Enough scans to tell what the recorder wrote; far more where the robot stands until the end of them.
+constexpr std::uint64_t kScans = 500;
+constexpr std::uint64_t kMostScans = 5000;
+
+}  // namespace
+
+void LogSurvey::Motion::add(double stamp_s, const std::optional<Pose2>& pose) {
+  first_s = records == 0 ? stamp_s : first_s;
+  last_s = stamp_s;
+  ++records;
+  if (!pose) {
+    return;
+  }
+  if (!first) {
+    first = pose;
+  }
+  moved = moved || distance_m(*first, *pose) > kMoved_m ||
+          std::abs(wrap_angle(pose->theta_rad - first->theta_rad)) > kMoved_rad;
+}
+
+double LogSurvey::Motion::period_s() const {
+  constexpr double kShortest_s = 1e-3;
+  constexpr double kLongest_s = 1.0;
+  const double mean_s = records > 1 ? (last_s - first_s) / static_cast<double>(records - 1) : LogTraits{}.scan_period_s;
+  return std::clamp(mean_s, kShortest_s, kLongest_s);
+}
+
+void LogSurvey::add(const CarmenRecord& record) {
+  if (const auto* odometry = std::get_if<CarmenOdometry>(&record)) {
+    odometry_.add(odometry->stamp_s, odometry->odom_T_base);
+    robot_ = odometry->odom_T_base;
+  } else {
+    add_scan(std::get<CarmenScan>(record));
+  }
+}
+
+void LogSurvey::add_scan(const CarmenScan& scan) {
+  scans_.add(scan.stamp_s, scan.odom_T_base);
+  raw_scans_ += scan.odom_T_base ? 0 : 1;
+  if (odometry_.records == 0) {
+    robot_ = scan.odom_T_base;
+  }
+  double farthest_m = 0.0;
+  for (const float range_m : scan.ranges_m) {
+    farthest_m = std::isfinite(range_m) ? std::max(farthest_m, static_cast<double>(range_m)) : farthest_m;
+  }
+  watch_reach(farthest_m);
+}
+
+void LogSurvey::watch_reach(double farthest_m) {
+  if (farthest_m > farthest_m_ + kSame_m) {
+    places_ = 0;
+    last_place_.reset();
+  }
+  farthest_m_ = std::max(farthest_m_, farthest_m);
+  const bool as_far = farthest_m > 0.0 && farthest_m >= farthest_m_ - kSame_m;
+  if (as_far && robot_ && (!last_place_ || distance_m(*last_place_, *robot_) > kApart_m)) {
+    ++places_;
+    last_place_ = robot_;
+  }
+}
+
+bool LogSurvey::knows_enough() const {
+  return scans_.records >= kMostScans || (scans_.records >= kScans && places_ >= kPlaces);
+}
+
+LogTraits LogSurvey::traits() const {
+  LogTraits traits;
+  if (places_ >= kPlaces) {
+    traits.reach_m = farthest_m_;
+  }
+  traits.raw_scans_repeat = raw_scans_ > 0 && scans_.first;
+  traits.scan_poses_stand = scans_.first && !scans_.moved && odometry_.moved;
+  traits.odometry_period_s = odometry_.period_s();
+  traits.scan_period_s = scans_.period_s();
+  return traits;
+}
+
+}  // namespace seeker::drivers

@@ -1,0 +1,53 @@
+/// \file
+/// What a log's own records tell of the log, before it is read: logs differ in more than their formats.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "common/core/pose2.hpp"
+#include "server/drivers/replay/carmen_line.hpp"
+
+namespace seeker::drivers {
+
+struct LogTraits {
+  /// What the scanner reports where nothing comes back: the farthest reading, where it is the same from several places.
+  std::optional<double> reach_m;
+  bool raw_scans_repeat = false;   ///< scans without odometry stand beside others: the recorder wrote each scan twice
+  bool scan_poses_stand = false;   ///< the scans' odometry never moves, that of the odometry records does
+  double odometry_period_s = 0.1;  ///< on average
+  double scan_period_s = 0.1;
+};
+
+/// Looks at records from the start of a log until it knows enough.
+class LogSurvey {
+ public:
+  void add(const CarmenRecord& record);
+  [[nodiscard]] bool knows_enough() const;
+  [[nodiscard]] LogTraits traits() const;
+
+ private:
+  struct Motion {
+    std::uint64_t records = 0;
+    std::optional<Pose2> first;
+    double first_s = 0.0;
+    double last_s = 0.0;
+    bool moved = false;
+
+    void add(double stamp_s, const std::optional<Pose2>& pose);
+    [[nodiscard]] double period_s() const;
+  };
+  void add_scan(const CarmenScan& scan);
+  void watch_reach(double farthest_m);
+
+  Motion odometry_;
+  Motion scans_;
+  std::uint64_t raw_scans_ = 0;
+  std::optional<Pose2> robot_;  ///< by the odometry records, or by the scans where there are none
+  double farthest_m_ = 0.0;     ///< of all readings
+  int places_ = 0;              ///< apart from each other, from where it was read
+  std::optional<Pose2> last_place_;
+};
+
+}  // namespace seeker::drivers
