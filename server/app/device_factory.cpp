@@ -22,7 +22,7 @@ Result<sim::World> sim_world(const RobotOptions& options) {
   if (!world) {
     return tl::unexpected<Error>(world.error());
   }
-  world->people_walk = settings.people;
+  world->people_walk = world->people_walk || settings.people;
   if (settings.random_target && !world->targets.empty()) {
     // Its own stream: the world does not change what the sensors draw.
     Rng rng = Rng(settings.seed).fork("target-placement");

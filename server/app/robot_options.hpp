@@ -36,7 +36,7 @@ struct SimSettings {
   double speed = 0.0;          ///< robot seconds per wall second; 0: as fast as possible
   std::uint64_t start = 0;     ///< which of the world's start poses
   bool random_target = false;  ///< put the world's first target at a place drawn from the seed
-  bool people = false;         ///< people walk
+  bool people = false;         ///< people walk, also where the world file does not say so
   sim::RobotModel robot;
   drivers::SimDeviceParams devices;
 };

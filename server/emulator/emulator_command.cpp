@@ -41,7 +41,7 @@ Result<drivers::SharedDevices> make_world(const EmulatorArguments& arguments, co
   if (!world) {
     return tl::unexpected<Error>(world.error());
   }
-  world->people_walk = settings.people;
+  world->people_walk = world->people_walk || settings.people;
   return drivers::make_shared_devices(std::move(*world), places_of(arguments, settings), settings.speed,
                                       settings.devices);
 }

@@ -43,5 +43,30 @@ TEST(RobotFiles, MissingLogOfAReplayIsNamed) {
   EXPECT_NE(assembly.error().message.find("no-such-file.clf"), std::string::npos);
 }
 
+TEST(RobotFiles, PeopleWalkWhereTheWorldOrTheRobotSaysSo) {
+  std::ifstream office(source_file("config/worlds/office.yaml"));
+  std::string text((std::istreambuf_iterator<char>(office)), std::istreambuf_iterator<char>());
+  const auto put = [&text](const std::string& what, const std::string& instead) {
+    const std::size_t at = text.find(what);
+    ASSERT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), instead);
+  };
+  put("people_walk: false", "people_walk: true");
+  put("../targets/", source_file("config/targets/").string());
+  const std::filesystem::path busy = std::filesystem::path(::testing::TempDir()) / "busy_office.yaml";
+  std::ofstream(busy) << text;
+  const std::string quiet = source_file("config/worlds/office.yaml");
+  const auto people_walk = [](const std::string& world, const std::string& people) {
+    const Result<app::RobotOptions> options =
+        app::load_robot_options(source_file("config/robots/sim.yaml"), {"sim.world=" + world, "sim.people=" + people});
+    const Result<app::Assembly> assembly = app::assemble(options.value());
+    EXPECT_TRUE(assembly) << assembly.error().message;
+    return assembly && assembly->simulation->world().people_walk;
+  };
+  EXPECT_TRUE(people_walk(busy.string(), "false"));
+  EXPECT_TRUE(people_walk(quiet, "true"));
+  EXPECT_FALSE(people_walk(quiet, "false"));
+}
+
 }  // namespace
 }  // namespace seeker::testing
