@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# clang-tidy over every source of the preset dev but the tests, which the compiler's warnings and their own runs check. A file that was clean is not checked again until it, a header of ours
-# that it includes, its compile command, a .proto or .clang-tidy changes.
+# clang-tidy over every source of the preset dev but the tests, which the compiler's warnings and their own runs check. A file
+# that was clean is not checked again until it, a header of ours that it includes, its compile command, a .proto or .clang-tidy
+# changes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tests/lint/sources.sh
 
 readonly database=build/dev/compile_commands.json
 readonly cache=build/lint-cache
+readonly batch_files=10
 mkdir -p "$cache"
 [[ -e $database ]] || { echo "no $database: configure first (cmake --preset dev)" >&2; exit 2; }
 
@@ -43,16 +45,75 @@ closures() {
     }' "$database" "${code[@]}"
 }
 
-check_one() {
-  local file=$1 key=$2 output
-  if output=$(clang-tidy -p build/dev --quiet --extra-arg=-Wno-unknown-warning-option "$file" 2>&1); then
-    touch "build/lint-cache/$key"
-  else
-    grep -v 'warnings generated\|Suppressed .* warnings\|Use -header-filter' <<<"$output"
-    return 1
-  fi
+# The compile flags of FILE in the database, a line each, without compiler, output and source.
+flags_of() {
+  local words i
+  read -ra words < <(grep -F '"command":' "$database" | grep -F -- " -c $PWD/$1\"" | head -1 |
+    sed 's/.*"command": "//; s/",\?$//; s/\\//g')
+  for ((i = 0; i < ${#words[@]}; ++i)); do
+    case ${words[i]} in
+      */c++ | */g++* | */ccache) ;;
+      -o | -c) i=$((i + 1)) ;;
+      *) printf '%s\n' "${words[i]}" ;;
+    esac
+  done
 }
-export -f check_one
+
+# tidy FILE FLAGS_OF: findings and exit code of clang-tidy on FILE, compiled as FLAGS_OF is.
+tidy() {
+  local flags
+  mapfile -t flags < <(flags_of "$2")
+  clang-tidy --quiet --config-file=.clang-tidy --extra-arg=-Wno-unknown-warning-option "$1" -- "${flags[@]}" 2>&1
+}
+
+# check_batch "FILE KEY" ...: most of the time of one file goes into the headers, so that the files of one folder are checked as
+# one, and halved where that finds something: names may clash that never meet. What a file alone shows is what counts.
+check_batch() {
+  local pair half=$(($# / 2)) failed=0 output
+  if (($# == 1)); then
+    if output=$(tidy "${1% *}" "${1% *}"); then
+      touch "$cache/${1##* }"
+    else
+      grep -v 'warnings generated\|Suppressed .* warnings\|Use -header-filter' <<<"$output"
+      return 1
+    fi
+    return
+  fi
+  local joined
+  joined=$(mktemp --suffix=.cpp)
+  for pair in "$@"; do cat "${pair% *}"; done >"$joined"
+  if tidy "$joined" "${1% *}" >/dev/null; then
+    for pair in "$@"; do touch "$cache/${pair##* }"; done
+  else
+    check_batch "${@:1:half}" || failed=1
+    check_batch "${@:half+1}" || failed=1
+  fi
+  rm -f "$joined"
+  return "$failed"
+}
+
+# check_line LINE: the batch that `batches` printed.
+check_line() {
+  local pairs
+  IFS=$'\t' read -ra pairs <<<"$1"
+  check_batch "${pairs[@]}"
+}
+export -f flags_of tidy check_batch check_line
+export database cache
+
+# A line of tab-separated "FILE KEY" for each batch: files of one folder, a program's main file alone.
+batches() {
+  sort "$work" | awk -v most="$batch_files" '{
+      folder = $1
+      if (folder !~ /\/main[^\/]*\.cpp$/) sub(/\/[^\/]*$/, "", folder)
+      if (folder != last || count == most) {
+        if (line != "") print line
+        line = ""; count = 0; last = folder
+      }
+      line = line (count++ ? "\t" : "") $0
+    }
+    END { if (line != "") print line }'
+}
 
 work=$(mktemp)
 trap 'rm -f "$work"' EXIT
@@ -67,4 +128,4 @@ while IFS=$'\t' read -r file headers; do
 done < <(closures)
 
 echo "clang-tidy: $(wc -l <"$work") of $total files to check"
-xargs -r -P "${JOBS:-2}" -L 1 bash -c 'check_one "$@"' check <"$work"
+batches | xargs -r -d '\n' -n 1 -P "${JOBS:-2}" bash -c 'check_line "$1"' check

@@ -73,7 +73,7 @@ WorldRuns spoilt(WorldRuns world, const std::string& strategy, std::size_t count
 }
 
 TEST(ExploreResultFile, WhatIsSavedIsLoaded) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explore-seed-3.json";
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "explore-seed-3.json";
   ExploreResult saved = result("active", 3);
   note_share(saved, 0.02, 1.5);
   ASSERT_TRUE(save(file, saved));
