@@ -1,6 +1,7 @@
 #include "server/drivers/replay/stamp_order.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace seeker::drivers {
 namespace {
@@ -10,6 +11,9 @@ constexpr double kLongestPause_s = 6.0 * 3600.0;
 
 /// Records that are stamped on their way may swap places within this; more is another time.
 constexpr double kDisorder_s = 2.0;
+
+/// No clock says so much; beyond it sums of stamps lose their digits.
+constexpr double kMostStamp_s = 1e11;
 
 /// So many records must follow on a new time before the clock is taken to have been set to it.
 constexpr std::ptrdiff_t kAgreeing = 3;
@@ -36,6 +40,9 @@ tl::unexpected<Error> out_of_order() { return fail(Errc::kParse, "its stamp is o
 }  // namespace
 
 Result<double> StampOrder::place(double stamp_s, std::span<const double> following_s, double& offset_s) {
+  if (std::abs(stamp_s) > kMostStamp_s) {
+    return out_of_order();
+  }
   if (!last_s_) {
     if (is_ahead_of_most(stamp_s, following_s) || is_behind_most(stamp_s, following_s)) {
       return out_of_order();

@@ -1,11 +1,15 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "common/core/rng.hpp"
 #include "server/drivers/replay/carmen_reader.hpp"
 #include "server/drivers/replay/log_survey.hpp"
 #include "server/drivers/replay/stamp_order.hpp"
@@ -79,6 +83,25 @@ TEST(StampOrder, AClockThatIsSetWhileItRecordsCostsNoRecord) {
     EXPECT_EQ(refused(result_s), 0U) << to_s;
     for (std::size_t k = 1; k < result_s.size(); ++k) {
       EXPECT_NEAR(result_s[k] - result_s[k - 1], kPeriod_s, 1e-6) << to_s << ' ' << k;
+    }
+  }
+}
+
+TEST(StampOrder, WhateverALogSaysTheStampsRise) {
+  Rng rng(1);
+  for (int run = 0; run < 200; ++run) {
+    std::vector<double> stamps_s;
+    for (int k = 0; k < 100; ++k) {
+      const double magnitude_s = std::pow(10.0, rng.uniform(-3.0, 308.0 * rng.uniform()));
+      stamps_s.push_back((rng.uniform() < 0.3 ? -1.0 : 1.0) * (rng.uniform() < 0.5 ? 0.1 * k : magnitude_s));
+    }
+    double last_s = -std::numeric_limits<double>::infinity();
+    for (const double stamp_s : placed(stamps_s)) {
+      if (stamp_s != -1.0) {
+        EXPECT_TRUE(std::isfinite(stamp_s));
+        EXPECT_GT(stamp_s, last_s) << "run " << run;
+        last_s = stamp_s;
+      }
     }
   }
 }
