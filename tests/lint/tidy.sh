@@ -101,11 +101,16 @@ check_line() {
 export -f flags_of tidy check_batch check_line
 export database cache
 
-# A line of tab-separated "FILE KEY" for each batch: files of one folder, a program's main file alone.
+# A line of tab-separated "FILE KEY" for each batch: files of one folder; alone are the main files of programs, and those that
+# are compiled alone for the names in them.
 batches() {
-  sort "$work" | awk -v most="$batch_files" '{
+  local alone
+  alone=$(grep -oE '(common|server|client)/[a-z0-9_/]+\.cpp' cmake/SeekerUnity.cmake | tr '\n' ' ')
+  sort "$work" | awk -v most="$batch_files" -v alone=" $alone" '
+    $1 ~ /\/main[^\/]*\.cpp$/ || index(alone, " " $1 " ") { print; next }
+    {
       folder = $1
-      if (folder !~ /\/main[^\/]*\.cpp$/) sub(/\/[^\/]*$/, "", folder)
+      sub(/\/[^\/]*$/, "", folder)
       if (folder != last || count == most) {
         if (line != "") print line
         line = ""; count = 0; last = folder
