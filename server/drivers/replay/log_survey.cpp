@@ -16,6 +16,10 @@ constexpr double kApart_m = 0.5;
 constexpr double kSame_m = 0.01;
 constexpr int kPlaces = 4;
 
+/// A laser that sees no farther fades out near its reach, at one range or another; what it writes for nothing comes
+/// often.
+constexpr double kLeastShare = 0.05;
+
 /// Enough scans to tell what the recorder wrote; far more where the robot stands until the end of them.
 constexpr std::uint64_t kScans = 500;
 constexpr std::uint64_t kMostScans = 5000;
@@ -68,10 +72,12 @@ void LogSurvey::add_scan(const CarmenScan& scan) {
 void LogSurvey::watch_reach(double farthest_m) {
   if (farthest_m > farthest_m_ + kSame_m) {
     places_ = 0;
+    as_far_ = 0;
     last_place_.reset();
   }
   farthest_m_ = std::max(farthest_m_, farthest_m);
   const bool as_far = farthest_m > 0.0 && farthest_m >= farthest_m_ - kSame_m;
+  as_far_ += as_far ? 1 : 0;
   if (as_far && robot_ && (!last_place_ || distance_m(*last_place_, *robot_) > kApart_m)) {
     ++places_;
     last_place_ = robot_;
@@ -84,7 +90,7 @@ bool LogSurvey::knows_enough() const {
 
 LogTraits LogSurvey::traits() const {
   LogTraits traits;
-  if (places_ >= kPlaces) {
+  if (places_ >= kPlaces && static_cast<double>(as_far_) >= kLeastShare * static_cast<double>(scans_.records)) {
     traits.reach_m = farthest_m_;
   }
   traits.raw_scans_repeat = raw_scans_ > 0 && scans_.first;

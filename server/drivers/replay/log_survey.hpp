@@ -12,7 +12,8 @@
 namespace seeker::drivers {
 
 struct LogTraits {
-  /// What the scanner reports where nothing comes back: the farthest reading, where it is the same from several places.
+  /// What the scanner reports where nothing comes back: the farthest reading, where it is often the same and from
+  /// several places.
   std::optional<double> reach_m;
   bool raw_scans_repeat = false;   ///< scans without odometry stand beside others: the recorder wrote each scan twice
   bool scan_poses_stand = false;   ///< the scans' odometry never moves, that of the odometry records does
@@ -46,6 +47,7 @@ class LogSurvey {
   std::uint64_t raw_scans_ = 0;
   std::optional<Pose2> robot_;  ///< by the odometry records, or by the scans where there are none
   double farthest_m_ = 0.0;     ///< of all readings
+  std::uint64_t as_far_ = 0;    ///< scans whose farthest reading it is
   int places_ = 0;              ///< apart from each other, from where it was read
   std::optional<Pose2> last_place_;
 };

@@ -165,6 +165,11 @@ TEST(LogSurvey, TheFarthestReadingFromManyPlacesIsWhatTheLaserSaysOfNothing) {
   ASSERT_TRUE(scans.front().range_max_m) << "from the first scan on";
   EXPECT_NEAR(*scans.front().range_max_m, 8.19, 1e-5);
   EXPECT_FALSE(Log(standing).scans().front().range_max_m) << "a wall is as far as it is from one place";
+  std::string fading;
+  for (int k = 0; k < 400; ++k) {
+    fading += front_laser(0.2 * k, k, "1.0 2.0 " + std::to_string(k % 80 == 0 ? 5.6 : 4.0 + 0.01 * (k % 70)));
+  }
+  EXPECT_FALSE(Log(fading).scans().front().range_max_m) << "a weak laser fades out near its reach";
 }
 
 TEST(LogSurvey, AScanThatWasWrittenTwiceIsReadOnceWithItsOdometry) {
