@@ -11,16 +11,23 @@ namespace {
 
 bool is_scan(const CarmenRecord& record) { return std::holds_alternative<CarmenScan>(record); }
 
-/// What the records at the start of the file tell; the file is read from its start again afterwards.
-LogTraits survey(LineFile file) {
+/// What the records at the start of a file tell.
+Result<LogTraits> survey(const std::filesystem::path& path) {
+  Result<LineFile> file = LineFile::open(path);
+  if (!file) {
+    return tl::unexpected<Error>(file.error());
+  }
   LogSurvey survey;
   std::string line;
   while (!survey.knows_enough()) {
-    const LineFile::Line read = file.next(line);
+    const LineFile::Line read = file->next(line);
     if (read == LineFile::Line::kEnd) {
       break;
     }
-    if (const auto record = parse_log_line(read == LineFile::Line::kGood ? line : ""); record && *record) {
+    if (read != LineFile::Line::kGood) {
+      continue;
+    }
+    if (const auto record = parse_log_line(line); record && *record) {
       survey.add(**record);
     }
   }
@@ -30,16 +37,15 @@ LogTraits survey(LineFile file) {
 }  // namespace
 
 Result<CarmenReader> CarmenReader::open(const std::filesystem::path& path) {
-  Result<LineFile> first = LineFile::open(path);
-  if (!first) {
-    return tl::unexpected<Error>(first.error());
+  const Result<LogTraits> traits = survey(path);
+  if (!traits) {
+    return tl::unexpected<Error>(traits.error());
   }
-  const LogTraits traits = survey(std::move(*first));
   Result<LineFile> file = LineFile::open(path);
   if (!file) {
     return tl::unexpected<Error>(file.error());
   }
-  return CarmenReader(std::move(*file), traits);
+  return CarmenReader(std::move(*file), *traits);
 }
 
 CarmenReader::CarmenReader(LineFile file, const LogTraits& traits)

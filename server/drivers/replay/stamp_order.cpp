@@ -21,18 +21,24 @@ constexpr std::ptrdiff_t kAgreeing = 3;
 /// Where a record comes after others at the very same time, or where equal stamps set apart have run ahead.
 constexpr double kCrowded = 0.1;
 
+/// How many of the stamps are so.
+template <class Is>
+std::ptrdiff_t count(std::span<const double> stamps_s, Is is) {
+  return std::count_if(stamps_s.begin(), stamps_s.end(), is);
+}
+
+bool is_most(std::ptrdiff_t count, std::span<const double> stamps_s) {
+  return 2 * count > static_cast<std::ptrdiff_t>(stamps_s.size());
+}
+
 /// True where most of what follows is long before this stamp.
 bool is_ahead_of_most(double stamp_s, std::span<const double> following_s) {
-  const auto before = std::count_if(following_s.begin(), following_s.end(),
-                                    [&](double next_s) { return next_s < stamp_s - kDisorder_s; });
-  return 2 * before > static_cast<std::ptrdiff_t>(following_s.size());
+  return is_most(count(following_s, [&](double next_s) { return next_s < stamp_s - kDisorder_s; }), following_s);
 }
 
 /// True where most of what follows is hours after this stamp.
 bool is_behind_most(double stamp_s, std::span<const double> following_s) {
-  const auto after = std::count_if(following_s.begin(), following_s.end(),
-                                   [&](double next_s) { return next_s > stamp_s + kLongestPause_s; });
-  return 2 * after > static_cast<std::ptrdiff_t>(following_s.size());
+  return is_most(count(following_s, [&](double next_s) { return next_s > stamp_s + kLongestPause_s; }), following_s);
 }
 
 tl::unexpected<Error> out_of_order() { return fail(Errc::kParse, "its stamp is out of order"); }
@@ -71,11 +77,11 @@ Result<double> StampOrder::place(double stamp_s, std::span<const double> followi
 }
 
 bool StampOrder::is_clock_set(std::span<const double> following_s, double offset_s, double ahead_s) const {
-  const auto with_it = std::count_if(following_s.begin(), following_s.end(), [&](double next_s) {
+  const std::ptrdiff_t with_it = count(following_s, [&](double next_s) {
     const double next_ahead_s = next_s + offset_s - *last_logged_s_;
     return ahead_s < 0.0 ? next_ahead_s < -kDisorder_s : next_ahead_s > kLongestPause_s;
   });
-  return with_it >= kAgreeing && 2 * with_it > static_cast<std::ptrdiff_t>(following_s.size());
+  return with_it >= kAgreeing && is_most(with_it, following_s);
 }
 
 }  // namespace seeker::drivers

@@ -1,15 +1,13 @@
 #include "server/drivers/replay/replay.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-#include <zlib.h>
 
 #include "tests/support/data.hpp"
 #include "tests/support/matchers.hpp"
+#include "tests/unit/server/drivers/replay/temporary_log.hpp"
 
 namespace seeker::drivers {
 namespace {
@@ -24,29 +22,6 @@ constexpr const char* kLog =
     "FLASER 3 1.1 0.001 80.0 9 9 9 1.2 2.0 0.5 101.0 robot 101.0\n"
     "FLASER 3 1.1 2.5 3.0 9 9 9 1.3 2.0 0.5 99.0 robot 99.0\n"
     "ODOM 1 2 nan 0 0 0 101.0 robot 101.0\n";
-
-/// A file of its own that is gone after the test.
-class TemporaryLog {
- public:
-  TemporaryLog(const std::string& name, const std::string& text, bool compressed = false)
-      : path_(std::filesystem::temp_directory_path() /
-              ("seeker_" + std::to_string(getpid()) + "_" + name + (compressed ? ".gz" : ""))) {
-    if (compressed) {
-      gzFile file = gzopen(path_.c_str(), "wb");
-      gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
-      gzclose(file);
-    } else {
-      std::ofstream(path_, std::ios::binary) << text;
-    }
-  }
-  TemporaryLog(const TemporaryLog&) = delete;
-  TemporaryLog& operator=(const TemporaryLog&) = delete;
-  ~TemporaryLog() { std::filesystem::remove(path_); }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 TEST(CarmenLine, ReadsEachRecordType) {
   const auto scan = parse_carmen_line(kScan);
