@@ -6,12 +6,13 @@
 #include <string>
 
 #include "common/core/angle.hpp"
+#include "common/core/occupancy_tile.hpp"
 
 namespace seeker::image {
 namespace {
 
-constexpr std::uint8_t kNothingKnown = 255;
-constexpr double kFullScale = 254.0;
+/// Of a cell of occupancy or evidence that something is known of.
+double probability(std::uint8_t cell) { return static_cast<double>(cell) / kOccupiedCell; }
 
 /// The most occupied known value of the cells under a pixel: thin walls stay when the map is drawn small.
 std::uint8_t value_under(const Grid<std::uint8_t>& grid, const Point2& low, const Point2& high) {
@@ -21,12 +22,12 @@ std::uint8_t value_under(const Grid<std::uint8_t>& grid, const Point2& low, cons
   for (int j = std::max(0, a.j); j <= std::min(b.j, grid.height() - 1); ++j) {
     for (int i = std::max(0, a.i); i <= std::min(b.i, grid.width() - 1); ++i) {
       const std::uint8_t value = grid[{i, j}];
-      if (value != kNothingKnown) {
+      if (value != kUnknownCell) {
         best = std::max(best, static_cast<int>(value));
       }
     }
   }
-  return best < 0 ? kNothingKnown : static_cast<std::uint8_t>(best);
+  return best < 0 ? kUnknownCell : static_cast<std::uint8_t>(best);
 }
 
 /// Calls draw(u, v, value) for every pixel with a known value.
@@ -35,15 +36,15 @@ void for_each_pixel(const MapView& view, const Grid<std::uint8_t>& grid, Draw dr
   const bool shrinks = grid.frame().resolution_m * view.px_per_m < 1.0;
   for (int v = 0; v < view.height_px; ++v) {
     for (int u = 0; u < view.width_px; ++u) {
-      std::uint8_t value = kNothingKnown;
+      std::uint8_t value = kUnknownCell;
       if (shrinks) {
         const Point2 a = view.to_map(Point2(u, v + 1.0));
         value = value_under(grid, a, view.to_map(Point2(u + 1.0, v)));
       } else {
         const CellIndex c = grid.frame().cell_of(view.to_map(Point2(u + 0.5, v + 0.5)));
-        value = grid.contains(c) ? grid[c] : kNothingKnown;
+        value = grid.contains(c) ? grid[c] : kUnknownCell;
       }
-      if (value != kNothingKnown) {
+      if (value != kUnknownCell) {
         draw(u, v, value);
       }
     }
@@ -86,7 +87,7 @@ void draw_detection(Canvas& canvas, const MapView& view, const DetectionMark& ma
 
 void draw_occupancy(Canvas& canvas, const MapView& view, const Grid<std::uint8_t>& occupancy) {
   for_each_pixel(view, occupancy, [&](int u, int v, std::uint8_t value) {
-    const double p = value / kFullScale;
+    const double p = probability(value);
     // Steepened about 1/2: cells seen once or twice already look free or occupied.
     const double shade = std::clamp((p - 0.3) / 0.4, 0.0, 1.0);
     canvas.set_pixel(u, v, mix(look::kFree, look::kWall, shade));
@@ -95,7 +96,7 @@ void draw_occupancy(Canvas& canvas, const MapView& view, const Grid<std::uint8_t
 
 void draw_evidence(Canvas& canvas, const MapView& view, const Grid<std::uint8_t>& evidence) {
   for_each_pixel(view, evidence, [&](int u, int v, std::uint8_t value) {
-    canvas.blend(u, v, red_to_green(value / kFullScale), look::kEvidenceAlpha);
+    canvas.blend(u, v, red_to_green(probability(value)), look::kEvidenceAlpha);
   });
 }
 

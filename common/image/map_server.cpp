@@ -3,20 +3,18 @@
 #include <array>
 #include <cstdio>
 
+#include "common/core/occupancy_tile.hpp"
 #include "common/image/files.hpp"
 #include "common/image/pgm.hpp"
 
 namespace seeker::image {
 namespace {
 
-constexpr std::uint8_t kNothingKnown = 255;
-constexpr double kFullScale = 254.0;
-
 std::uint8_t grey_of(std::uint8_t cell) {
-  if (cell == kNothingKnown) {
+  if (cell == kUnknownCell) {
     return kPgmUnknown;
   }
-  const double p = cell / kFullScale;
+  const double p = static_cast<double>(cell) / kOccupiedCell;
   if (p > kOccupiedThreshold) {
     return kPgmOccupied;
   }

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "common/core/occupancy_tile.hpp"
+
 namespace seeker::image {
 namespace {
 
-constexpr std::uint8_t kNothingKnown = 255;
 constexpr double kLargestSide_m = 5000.0;
 constexpr double kSmallestSide_m = 2.0;
 constexpr int kSmallestPicture_px = 64;
@@ -29,7 +30,7 @@ void add_grid(Bounds& bounds, const Grid<std::uint8_t>& grid) {
   CellIndex low{grid.width(), grid.height()};
   CellIndex high{-1, -1};
   for (std::size_t n = 0; n < grid.cells().size(); ++n) {
-    if (grid.cells()[n] != kNothingKnown) {
+    if (grid.cells()[n] != kUnknownCell) {
       const CellIndex c = grid.cell(n);
       low = {std::min(low.i, c.i), std::min(low.j, c.j)};
       high = {std::max(high.i, c.i), std::max(high.j, c.j)};

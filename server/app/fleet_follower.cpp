@@ -6,11 +6,11 @@
 #include "common/log/log.hpp"
 #include "common/net/random_id.hpp"
 #include "common/rpc/wait.hpp"
+#include "server/app/fleet_settings.hpp"
 
 namespace seeker::app {
 namespace {
 
-constexpr std::string_view kPart = "fleet";
 /// Small enough that a piece is not sent for long in vain when the link is cut.
 constexpr std::size_t kChunkBytes = 256UL << 10U;
 
@@ -67,9 +67,9 @@ void FleetFollower::note(const Status& outcome) {
     return;
   }
   if (outcome) {
-    log::info(kPart, "this robot is in the fleet of " + rpc::to_string(params_.main));
+    log::info(kFleetPart, "this robot is in the fleet of " + rpc::to_string(params_.main));
   } else {
-    log::warning(kPart, "this robot goes on alone: " + outcome.error().message);
+    log::warning(kFleetPart, "this robot goes on alone: " + outcome.error().message);
   }
   last_ = outcome;
 }

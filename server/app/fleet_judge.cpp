@@ -6,13 +6,13 @@
 
 #include "common/log/log.hpp"
 #include "server/app/fleet_leader.hpp"
+#include "server/app/fleet_settings.hpp"
 #include "server/fleet/merge_memory.hpp"
 #include "server/store/map_file.hpp"
 
 namespace seeker::app {
 namespace {
 
-constexpr std::string_view kPart = "fleet";
 /// Wall time for the loop to hand its map over.
 constexpr std::chrono::seconds kOwnMapLimit{20};
 constexpr std::uint8_t kMainSlot = 0;
@@ -324,7 +324,7 @@ void FleetLeader::set_state(Member& member, api::FleetState state, std::string r
   ++revision_;
   const std::string& id = member.manifest.robot_id;
   const std::string text = "robot '" + id + "' is " + std::string(api::to_string(state)) + ": " + member.reason;
-  log::info(kPart, text);
+  log::info(kFleetPart, text);
   if (state == api::FleetState::kAmbiguous) {
     host_.tell_operator("fleet-ambiguous",
                         text + "; 'seeker fleet status' shows the ways to lay its map, 'seeker fleet merge " + id +

@@ -11,6 +11,7 @@
 #include "common/wire/sha256.hpp"
 #include "seeker/v1/fleet.pb.h"
 #include "server/app/fleet_leader.hpp"
+#include "server/app/fleet_settings.hpp"
 #include "server/app/kept_message.hpp"
 #include "server/store/atomic_file.hpp"
 
@@ -19,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPart = "fleet";
 constexpr const char* kRecordFile = "record";
 constexpr const char* kRecordKind = "fleet-robot";
 constexpr const char* kPieceSuffix = ".piece";
@@ -29,7 +29,7 @@ std::string piece_name(const api::PieceHash& hash) { return wire::to_hex(hash) +
 }  // namespace
 
 void FleetLeader::tell_damage(const std::string& what) {
-  log::warning(kPart, what);
+  log::warning(kFleetPart, what);
   host_.tell_operator("fleet-memory-damaged", what, api::Severity::kWarning);
 }
 
@@ -103,7 +103,7 @@ void FleetLeader::keep_piece(const std::string& robot_id, const api::PieceHash& 
   std::error_code error;
   fs::create_directories(folder, error);
   if (const Status kept = store::write_file_atomically(folder / piece_name(hash), *bytes); !kept) {
-    log::warning(kPart, "a piece of '" + robot_id + "' is not kept: " + kept.error().message);
+    log::warning(kFleetPart, "a piece of '" + robot_id + "' is not kept: " + kept.error().message);
   }
 }
 
@@ -141,7 +141,7 @@ void FleetLeader::keep_record(const std::string& robot_id) {
   }
   const fs::path file = params_.folder / robot_id / kRecordFile;
   if (const Status kept = store::write_sealed_file(file, kRecordKind, record.SerializeAsString()); !kept) {
-    log::warning(kPart, "what '" + robot_id + "' announced is not kept: " + kept.error().message);
+    log::warning(kFleetPart, "what '" + robot_id + "' announced is not kept: " + kept.error().message);
     return;
   }
   drop_pieces(robot_id, needed);

@@ -11,6 +11,7 @@
 #include "seeker/v1/kept.pb.h"
 #include "server/app/fleet_leader.hpp"
 #include "server/app/fleet_records.hpp"
+#include "server/app/fleet_settings.hpp"
 #include "server/app/kept_message.hpp"
 #include "server/fleet/merge_memory.hpp"
 
@@ -19,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPart = "fleet";
 constexpr const char* kMemoryFile = "memory";
 constexpr const char* kMemoryKind = "fleet";
 constexpr std::size_t kMaxMemoryBytes = 64UL << 20U;
@@ -174,7 +174,7 @@ void FleetLeader::keep_own_pieces() {
   }
   Result<PackedMap> packed = pack_map(prepared_.at(kMainSlot).map(), params_.robot_id);
   if (!packed) {
-    log::warning(kPart, "the main robot's own map is not kept for a restart: " + packed.error().message);
+    log::warning(kFleetPart, "the main robot's own map is not kept for a restart: " + packed.error().message);
     return;
   }
   for (const auto& [hash, bytes] : packed->pieces) {
@@ -221,7 +221,7 @@ void FleetLeader::keep_memory() {
     return;
   }
   if (const Status written = store::write_sealed_file(params_.folder / kMemoryFile, kMemoryKind, bytes); !written) {
-    log::warning(kPart, "how the maps lie is not kept for a restart: " + written.error().message);
+    log::warning(kFleetPart, "how the maps lie is not kept for a restart: " + written.error().message);
     return;
   }
   memory_ = std::move(bytes);

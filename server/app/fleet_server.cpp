@@ -11,6 +11,7 @@
 #include "common/wire/convert_fleet.hpp"
 #include "common/wire/envelope.hpp"
 #include "common/wire/outcome.hpp"
+#include "server/app/fleet_settings.hpp"
 
 namespace seeker::app {
 namespace {
@@ -18,7 +19,6 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-constexpr std::string_view kPart = "fleet";
 constexpr std::size_t kMaxPeers = 64;
 /// Replies that a peer has not read yet; it asks one thing at a time, so more is malice.
 constexpr std::size_t kMaxQueued = 16;
@@ -100,7 +100,7 @@ struct FleetServer::Peer {
 
 FleetServer::FleetServer(FleetLeader& leader, Duration refresh_period)
     : leader_(leader),
-      listener_(io_, kPart, [this](tcp::socket socket) { admit(std::move(socket)); }),
+      listener_(io_, kFleetPart, [this](tcp::socket socket) { admit(std::move(socket)); }),
       timer_(io_),
       refresh_period_(refresh_period) {}
 
@@ -160,7 +160,7 @@ void FleetServer::admit(tcp::socket socket) {
 void FleetServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_view payload) {
   v1::FleetRequest request;
   if (const Status parsed = wire::parse_within_limits(payload, request); !parsed) {
-    log::info(kPart, "a connection was closed: " + parsed.error().message);
+    log::info(kFleetPart, "a connection was closed: " + parsed.error().message);
     drop(peer);
     return;
   }

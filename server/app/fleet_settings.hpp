@@ -4,11 +4,15 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "common/core/time.hpp"
 #include "server/fleet/map_merger.hpp"
 
 namespace seeker::app {
+
+/// What the lines of the log that speak of the fleet begin with.
+inline constexpr std::string_view kFleetPart = "fleet";
 
 struct FleetSettings {
   bool lead = false;                                ///< others may join this robot

@@ -10,7 +10,6 @@ namespace {
 constexpr double kBatterySag_s = 5.0;
 /// Going back so often without having seen new floor in between does not help.
 constexpr int kFruitlessRegains = 3;
-constexpr double kNewFloor_m2 = 2.0;
 
 }  // namespace
 

@@ -18,6 +18,9 @@
 
 namespace seeker::explore {
 
+/// The floor grew by so much since: waiting, or going back to where the robot knows its place, had a use.
+inline constexpr double kNewFloor_m2 = 2.0;
+
 class Exploration::Impl {
  public:
   Impl(const ExploreRequest& request, const ExploreParams& params, std::unique_ptr<ExploreStrategy> strategy);

@@ -6,12 +6,6 @@
 #include "server/explore/lookout.hpp"
 
 namespace seeker::explore {
-namespace {
-
-/// The floor grew by so much: waiting had a use.
-constexpr double kNewFloor_m2 = 2.0;
-
-}  // namespace
 
 /// Goes to where it sees the place, or out of the way of who is there, and stands there.
 void Exploration::Impl::begin_wait(const WaitTurn& turn, const StrategyInput& input, ExploreStep& out) {

@@ -1,6 +1,7 @@
 #include "server/explore/openings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/core/angle.hpp"
@@ -14,6 +15,8 @@ namespace {
 constexpr double kViewHalfAngle_rad = deg_to_rad(80.0);
 /// A wall seen flatter than this gives no line worth the name.
 constexpr double kFlat_rad = deg_to_rad(12.0);
+/// Where one stands to look at the side of something, off the way square out of it.
+constexpr std::array<double, 7> kViewAngles_deg{0.0, 25.0, -25.0, 50.0, -50.0, 65.0, -65.0};
 /// Beside a wall one looks at the floor before it: the wall's own cells are occupied.
 constexpr double kOffWall_m = 0.15;
 /// After a correction of the map openings are looked for about where they were, for so long and no farther than this.
@@ -200,6 +203,29 @@ bool well_in_view(const Opening& opening, const Pose2& map_T_base, const Grid<st
   }
   const Point2 before = target + std::copysign(kOffWall_m, off) * across;
   return nav::line_of_sight(occupancy, eye, before, sight);
+}
+
+bool find_viewpoint(Opening& opening, const SideView& side, const OpeningsInput& input, const ViewpointParams& params) {
+  const Point2 across(-side.into_map.y(), side.into_map.x());
+  bool found = false;
+  for (const double distance_m : side.distances_m) {
+    for (const double angle_deg : kViewAngles_deg) {
+      const double a = deg_to_rad(angle_deg);
+      const Point2 place = side.p_map + distance_m * (std::sin(a) * across - std::cos(a) * side.into_map);
+      const auto cost = input.costs.cost_to(place);
+      if (!cost || (found && *cost >= opening.cost)) {
+        continue;
+      }
+      const Point2 to_side = side.p_map - place;
+      const Pose2 view{place.x(), place.y(), std::atan2(to_side.y(), to_side.x())};
+      if (well_in_view(opening, view, input.floor.occupancy, params)) {
+        opening.map_T_view = view;
+        opening.cost = *cost;
+        found = true;
+      }
+    }
+  }
+  return found;
 }
 
 }  // namespace seeker::explore

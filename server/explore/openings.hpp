@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -118,6 +119,17 @@ class Openings {
 /// Whether somebody at the pose sees what is at the opening: near enough, not too flat, nothing in between.
 [[nodiscard]] bool well_in_view(const Opening& opening, const Pose2& map_T_base, const Grid<std::uint8_t>& occupancy,
                                 const ViewpointParams& params);
+
+/// From where the side of something is looked at.
+struct SideView {
+  Point2 p_map;                         ///< what is looked at
+  Point2 into_map;                      ///< unit vector square into the side
+  std::span<const double> distances_m;  ///< of the places from it, best first
+};
+
+/// Gives the opening the cheapest of the places before the side from which it is well in view; false: there is none.
+[[nodiscard]] bool find_viewpoint(Opening& opening, const SideView& side, const OpeningsInput& input,
+                                  const ViewpointParams& params);
 
 /// Free floor that was seen but that no way leads to.
 struct CutOffFloor {

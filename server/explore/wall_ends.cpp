@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include "common/core/angle.hpp"
 #include "common/core/polygon.hpp"
 #include "server/explore/openings.hpp"
 
@@ -15,9 +14,8 @@ using nav::CellState;
 constexpr double kMeet_m = 0.12;
 /// So far across its line cells of a wall may lie.
 constexpr double kWallBand_m = 0.1;
-/// Where to stand: distances from the end, and directions off the wall's normal.
+/// Where to stand: distances from where the wall would go on.
 constexpr std::array<double, 4> kViewDistances_m{1.2, 1.8, 2.5, 0.7};
-constexpr std::array<double, 7> kViewAngles_deg{0.0, 25.0, -25.0, 50.0, -50.0, 65.0, -65.0};
 
 struct WallEnd {
   Point2 p_map;
@@ -55,29 +53,6 @@ CellState state_across(const nav::CostMap& map, const Point2& p_map, const Point
   return map.state(map.frame().cell_of(p_map));
 }
 
-/// The cheapest place from which the end is well in view.
-bool find_viewpoint(Opening& opening, const WallEnd& end, const OpeningsInput& input, const ViewpointParams& params) {
-  const Point2 target = end.p_map + params.min_extension_m * end.outward_map;
-  bool found = false;
-  for (const double distance_m : kViewDistances_m) {
-    for (const double angle_deg : kViewAngles_deg) {
-      const double a = deg_to_rad(angle_deg);
-      const Point2 place = target + distance_m * (-std::cos(a) * end.into_map + std::sin(a) * end.outward_map);
-      const auto cost = input.costs.cost_to(place);
-      if (!cost || (found && *cost >= opening.cost)) {
-        continue;
-      }
-      const Pose2 view{place.x(), place.y(), std::atan2(target.y() - place.y(), target.x() - place.x())};
-      if (well_in_view(opening, view, input.floor.occupancy, params)) {
-        opening.map_T_view = view;
-        opening.cost = *cost;
-        found = true;
-      }
-    }
-  }
-  return found;
-}
-
 }  // namespace
 
 double possible_extension_m(const nav::CostMap& map, const std::vector<MapSegment>& segments, const MapSegment& segment,
@@ -113,9 +88,9 @@ std::vector<Opening> wall_end_openings(const OpeningsInput& input, const Viewpoi
       opening.outward_map = end.outward_map;
       opening.segment = segment.id;
       opening.size_m = possible_extension_m(input.floor.cost, input.segments, segment, left, params.max_extension_m);
-      if (opening.size_m >= params.min_extension_m &&
-          input.areas.allows(end.p_map + params.min_extension_m * end.outward_map) &&
-          find_viewpoint(opening, end, input, params)) {
+      const Point2 extension = end.p_map + params.min_extension_m * end.outward_map;
+      if (opening.size_m >= params.min_extension_m && input.areas.allows(extension) &&
+          find_viewpoint(opening, {extension, end.into_map, kViewDistances_m}, input, params)) {
         openings.push_back(opening);
       }
     }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 
-#include "common/core/angle.hpp"
 #include "server/explore/openings.hpp"
 #include "server/nav/visibility.hpp"
 
@@ -12,9 +11,8 @@ namespace {
 
 using nav::CellState;
 
-/// Where to stand: distances from the face, and directions off the way out of it.
+/// Where to stand: distances from the face.
 constexpr std::array<double, 5> kViewDistances_m{0.8, 1.2, 1.8, 2.5, 0.5};
-constexpr std::array<double, 7> kViewAngles_deg{0.0, 25.0, -25.0, 50.0, -50.0, 65.0, -65.0};
 /// A border that turns so much that the steps into the unknown cancel has no side to be looked at from.
 constexpr double kOneSided = 0.5;
 /// The side of a mapped wall counts as mapped so far before it and behind it: the grid and the wall are a little apart.
@@ -110,30 +108,6 @@ std::vector<CellIndex> take_edge(Grid<std::uint8_t>& mark, CellIndex seed, doubl
   return cells;
 }
 
-/// The cheapest place from which the face is well in view.
-bool find_viewpoint(Opening& opening, const OpeningsInput& input, const ViewpointParams& params) {
-  const Point2 across(-opening.outward_map.y(), opening.outward_map.x());
-  bool found = false;
-  for (const double distance_m : kViewDistances_m) {
-    for (const double angle_deg : kViewAngles_deg) {
-      const double a = deg_to_rad(angle_deg);
-      const Point2 place = opening.p_map + distance_m * (std::sin(a) * across - std::cos(a) * opening.outward_map);
-      const auto cost = input.costs.cost_to(place);
-      if (!cost || (found && *cost >= opening.cost)) {
-        continue;
-      }
-      const Point2 to_face = opening.p_map - place;
-      const Pose2 view{place.x(), place.y(), std::atan2(to_face.y(), to_face.x())};
-      if (well_in_view(opening, view, input.floor.occupancy, params)) {
-        opening.map_T_view = view;
-        opening.cost = *cost;
-        found = true;
-      }
-    }
-  }
-  return found;
-}
-
 bool long_enough(const std::vector<CellIndex>& edge, const Borders& borders, const ViewpointParams& params) {
   const double cell_m = borders.map.frame().resolution_m;
   const auto unseen =
@@ -159,7 +133,8 @@ std::optional<Opening> opening_of(const std::vector<CellIndex>& edge, const Bord
   opening.p_map = mean / static_cast<double>(edge.size());
   opening.outward_map = outward.normalized();
   opening.size_m = map.frame().resolution_m * static_cast<double>(edge.size());
-  if (!input.areas.allows(opening.p_map) || !find_viewpoint(opening, input, params)) {
+  if (!input.areas.allows(opening.p_map) ||
+      !find_viewpoint(opening, {opening.p_map, opening.outward_map, kViewDistances_m}, input, params)) {
     return std::nullopt;
   }
   return opening;
