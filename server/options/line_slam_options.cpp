@@ -15,6 +15,8 @@ void describe(config::Fields& f, PointNetParams& params) {
   f.field("match_points", params.match_points);
   f.field("leftover_m", params.leftover_m);
   f.angle_deg("leftover_deg", params.leftover_rad);
+  f.field("first_m", params.first_m);
+  f.angle_deg("first_deg", params.first_rad);
   f.field("good_ratio", params.good_ratio);
   f.field("accept_ratio", params.accept_ratio);
   f.field("gap_m", params.gap_m);
@@ -95,6 +97,15 @@ void describe(config::Fields& f, OdometryBiasParams& params) {
   f.field("gate", params.gate);
 }
 
+void describe(config::Fields& f, UnseenMotionParams& params) {
+  f.field("still_m", params.still_m);
+  f.angle_deg("still_deg", params.still_rad);
+  f.field("speed_sigma_mps", params.speed_sigma_mps);
+  f.angle_deg("turn_sigma_degps", params.turn_sigma_radps);
+  f.field("max_speed_mps", params.max_speed_mps);
+  f.angle_deg("max_turn_degps", params.max_turn_radps);
+}
+
 void describe(config::Fields& f, LineSlamParams& params) {
   f.section("odometry", params.odometry);
   f.section("extractor", params.extractor);
@@ -109,13 +120,13 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.angle_deg("min_turn_deg", params.min_turn_rad);
   f.field("still_range_m", params.still_range_m);
   f.field("still_share", params.still_share);
+  f.field("silent_share", params.silent_share);
   f.field("stand_scans", params.stand_scans);
-  f.field("stand_m", params.stand_m);
-  f.angle_deg("stand_deg", params.stand_rad);
   f.field("max_odometry_scale", params.odometry_scale.max);
   f.field("odometry_scale_up", params.odometry_scale.up);
   f.field("odometry_scale_down", params.odometry_scale.down);
   f.section("odometry_bias", params.odometry_bias);
+  f.section("unseen", params.unseen);
   f.field("lost_after", params.lost_after);
   f.field("repeats_fault", params.repeats_fault);
 }

@@ -49,8 +49,11 @@ struct LineSlam::Scan {
   std::vector<lines::SegmentObservation> observations;
   std::vector<OrientedPoint> all_points;  ///< in `base`
   std::vector<OrientedPoint> points;      ///< thinned
-  Pose2 predicted;                        ///< node_T_base by odometry
+  Pose2 before;                           ///< node_T_base at the scan before that was looked at,
+  Pose2 predicted;                        ///< and now, by odometry
+  double dt_s = 0.0;                      ///< since then
   bool gap = false;                       ///< after more way than a match bridges safely
+  bool silent = false;                    ///< the wheels told of no motion
 };
 
 LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
@@ -60,6 +63,7 @@ LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
       far_matcher_(far_search(params.points)),
       odometry_scale_(params.odometry_scale),
       odometry_bias_(params.odometry_bias),
+      unseen_(params.unseen),
       jump_(params.points.jump),
       travelled_(params.odometry),
       cloud_(params.points.cloud),
@@ -79,6 +83,7 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   start_local_map();
   cloud_.clear();
   odometry_bias_.forget_match();
+  unseen_ = UnseenMotion(params_.unseen);
   jump_.clear();
   travelled_.correct({}, Matrix3::Zero());
   next_id_ = 1;
@@ -164,22 +169,22 @@ Status LineSlam::update(const LaserScan& scan) {
   stood_ = 0;
   matched_ = false;
   used_ranges_ = scan.ranges_m;
-  odometry_bias_.note_motion(travelled.map_T_base, travelled.covariance);
-  const Pose2 increment = odometry_bias_.corrected(travelled.map_T_base);
-  const Matrix3 random = odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment));
-  lines_->predict(increment, random + to_base_frame(odometry_bias_.covariance_of(travelled.map_T_base), increment));
-  travelled_.correct({}, Matrix3::Zero());
-  travelled_.set_quality(LocalisationQuality::kLocalised, "");  // a jump is over once a scan has been looked at
-  const double way_m = std::hypot(increment.x_m, increment.y_m);
-  way_m_ += way_m;
-  way_since_loops_m_ += way_m;
-  way_since_kept_m_ += way_m;
-  way_since_leftover_m_ += way_m;
-  turn_since_leftover_rad_ += std::abs(increment.theta_rad);
-
-  Scan step{
-      .scan = scan, .found = {}, .observations = {}, .all_points = {}, .points = {}, .predicted = lines_->robot()};
-  step.gap = jumped || moved({}, increment, params_.points.gap_m, params_.points.gap_rad);
+  Scan step{.scan = scan,
+            .found = {},
+            .observations = {},
+            .all_points = {},
+            .points = {},
+            .before = lines_->robot(),
+            .predicted = {},
+            .dt_s = to_seconds(scan.stamp - std::exchange(used_stamp_, scan.stamp))};
+  step.silent = !jumped && unseen_.is_silent(travelled.map_T_base);
+  const UncertainPose motion = expected_motion(travelled, step.silent, step.dt_s);
+  lines_->predict(motion.a_T_b, motion.covariance);
+  step.predicted = lines_->robot();
+  note_way(motion.a_T_b);
+  const double sigma_m = std::sqrt(motion.covariance.topLeftCorner<2, 2>().maxCoeff());
+  step.gap = jumped || moved({}, motion.a_T_b, params_.points.gap_m, params_.points.gap_rad) ||
+             (step.silent && sigma_m > params_.points.gap_m);
   extractor_.extract(scan, step.found);
   step.all_points = oriented_points(scan, params_.points.normals, extractor_.noise());
   Status outcome;
@@ -241,7 +246,10 @@ MatchResult LineSlam::match_points(Scan& scan) {
   }
   // After a gap even a fair match may be a wrong one, and a poor one may only have begun in the wrong place.
   ++counts_.searched;
-  const Matrix3 covariance = lines_->robot_covariance_map();
+  Matrix3 covariance = lines_->robot_covariance_map();
+  if (scan.silent && !unseen_.on()) {
+    covariance += unseen_.expected(scan.dt_s).covariance;
+  }
   match = matcher_.match_widely(reference, scan.points, scan.predicted, covariance, std::move(match));
   if (scan.gap && match.inlier_ratio < params_.points.good_ratio) {
     match = far_matcher_.match_widely(reference, scan.points, scan.predicted, covariance, std::move(match));
@@ -261,8 +269,10 @@ bool LineSlam::believable(const Scan& scan, const MatchResult& match) {
                        : careful ? params_.points.good_ratio
                                  : params_.points.accept_ratio;
   const bool fits = match.pairs >= params_.points.match.min_pairs && match.inlier_ratio >= ratio;
-  // After a gap wheels may have slipped by any way; within a few centimetres they have not.
-  const bool jumps = !scan.gap && (far || surprise > kJump);
+  // After a gap wheels may have slipped by any way; within a few centimetres they have not. Those that say nothing
+  // contradict nothing that is possible.
+  const bool impossible = unseen_.is_too_fast(inverse(scan.before) * match.map_T_base, scan.dt_s);
+  const bool jumps = !scan.gap && (scan.silent ? impossible : far || surprise > kJump);
   if (!fits || !jumps) {
     jump_.clear();
     return fits;
@@ -282,14 +292,6 @@ void LineSlam::use_points(const Scan& scan, const MatchResult& match) {
   lines_->observe_pose(match.map_T_base, covariance, match.degenerate_direction);
 }
 
-void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covariance) {
-  odometry_bias_.note_match(match.map_T_base, match.degenerate_direction);
-  if (match.degenerate_direction) {
-    return;
-  }
-  odometry_scale_.learn(offset_of(match.map_T_base, lines_->robot()), lines_->robot_covariance_map() + covariance);
-}
-
 void LineSlam::use_leftover(const Scan& scan, const Association& association) {
   const LaserScan rest = without_paired_lines(scan.scan, scan.found, scan.observations, association);
   const std::vector<OrientedPoint> points =
@@ -305,8 +307,14 @@ void LineSlam::use_leftover(const Scan& scan, const Association& association) {
 void LineSlam::correct(Scan& scan, const MatchResult& match) {
   const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
   const bool contradicted = lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction;
-  learn_odometry(match, covariance);
-  const bool points_first = params_.points.use == PointUse::kAll || scan.gap || contradicted;
+  const bool unseen = scan.silent && (unseen_.on() || contradicted);
+  if (unseen) {
+    odometry_bias_.forget_match();
+  } else {
+    learn_odometry(match, covariance);
+  }
+  const bool far = moved(scan.predicted, match.map_T_base, params_.points.first_m, params_.points.first_rad);
+  const bool points_first = params_.points.use == PointUse::kAll || scan.gap || contradicted || unseen || far;
   if (points_first) {
     use_points(scan, match);
   }
@@ -320,14 +328,10 @@ void LineSlam::correct(Scan& scan, const MatchResult& match) {
     turn_since_leftover_rad_ = 0.0;
     use_leftover(scan, association);
   }
+  if (unseen) {
+    unseen_.note(inverse(scan.before) * lines_->robot(), scan.dt_s);
+  }
   lines_->observe_free_space(scan.scan);
-}
-
-void LineSlam::note_quality(const MatchResult& match) {
-  const bool corridor = match.degenerate_direction && lines_->observability().degenerate_direction;
-  counts_.corridor += corridor ? 1 : 0;
-  quality_ = corridor ? LocalisationQuality::kDegraded : LocalisationQuality::kLocalised;
-  cause_ = corridor ? "the scan says nothing along the corridor: odometry only in that direction" : "";
 }
 
 void LineSlam::note_failure(const Scan& scan) {

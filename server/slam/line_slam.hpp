@@ -61,6 +61,9 @@ class LineSlam final : public MapTracker {
   /// Since the last scan that was looked at.
   [[nodiscard]] bool odometry_jumped() const;
   [[nodiscard]] bool stands_still(const LaserScan& scan) const;
+  /// Since the scan before that was looked at, in the frame of `base` there; covariance in that of `base` now.
+  [[nodiscard]] UncertainPose expected_motion(const PoseEstimate& travelled, bool silent, double dt_s);
+  void note_way(const Pose2& motion);
   /// One more scan of a stand.
   void look_again(const LaserScan& scan);
   /// Every update of the lines is a new revision of the map.
@@ -95,6 +98,7 @@ class LineSlam final : public MapTracker {
   ScanMatcher far_matcher_;
   OdometryScale odometry_scale_;
   OdometryBias odometry_bias_;
+  UnseenMotion unseen_;
   JumpWitness jump_;
   OdometryTracker travelled_;     ///< since the last scan: its pose is the increment
   std::unique_ptr<SpMap> lines_;  ///< of the newest local map, in its frame
@@ -103,6 +107,7 @@ class LineSlam final : public MapTracker {
   LocalisationQuality quality_ = LocalisationQuality::kUnknown;
   std::string cause_;
   std::optional<RobotTime> last_scan_;
+  RobotTime used_stamp_;              ///< of the last scan: since then the motion is to be found
   std::vector<float> newest_ranges_;  ///< of the last scan,
   std::vector<float> used_ranges_;    ///< and of the last that was not taken for one more of the same
   int stood_ = 0;                     ///< scans of this stand that were used

@@ -14,6 +14,7 @@
 #include "server/slam/scan_matcher.hpp"
 #include "server/slam/segment_fusion.hpp"
 #include "server/slam/sp_params.hpp"
+#include "server/slam/unseen_motion.hpp"
 
 namespace seeker::slam {
 
@@ -33,6 +34,10 @@ struct PointNetParams {
   /// Points on no line correct the pose once in so much way or turn: matches from one place err alike.
   double leftover_m = 0.05;
   double leftover_rad = 0.1;
+  /// A robot that all points find farther than this from where the odometry has it is moved there before its lines are
+  /// paired: so far off a line may meet the wrong wall, or the wrong end of the right one.
+  double first_m = 0.1;
+  double first_rad = 0.05;
   double good_ratio = 0.5;     ///< inlier ratio that needs no second look
   double accept_ratio = 0.25;  ///< below it the match is not believed
   double gap_m = 0.3;          ///< way since the last scan beyond which a poor match is searched for
@@ -112,6 +117,7 @@ struct LineSlamParams {
   OdometryParams odometry;
   OdometryScaleParams odometry_scale;
   OdometryBiasParams odometry_bias;
+  UnseenMotionParams unseen;
   lines::FastParams extractor;
   lines::ObservationParams observation = kRealWalls;
   SpMapParams lines;
@@ -122,12 +128,12 @@ struct LineSlamParams {
   FusionParams fusion;
   double min_move_m = 0.02;  ///< a scan after less motion than this says nothing new
   double min_turn_rad = 0.01;
-  double still_range_m = 0.04;  ///< ... unless more than this share of its ranges changed by more than this
+  /// ... unless more than this share of its ranges changed by more than this and their noise,
+  double still_range_m = 0.04;
   double still_share = 0.15;
+  double silent_share = 0.03;  ///< or this share by more than their noise, where the wheels have said nothing so far
   /// So many scans of a stand still correct the lines, since their noise is new each time.
   int stand_scans = 30;
-  double stand_m = 0.001;  ///< wheels that say less than this stand
-  double stand_rad = 0.0005;
   int lost_after = 10;    ///< consecutive scans without a believed match
   int repeats_fault = 3;  ///< so many equal scans while the robot moves: the laser repeats itself
 };

@@ -1,9 +1,17 @@
-// Which scans say something new: those that repeat, and those of a robot that stands.
+// What is expected of a scan and made of it: how the robot came there, whether it stands, how well its place is known.
 #include <cmath>
+#include <utility>
 
+#include "server/slam/covariance.hpp"
 #include "server/slam/line_slam.hpp"
 
 namespace seeker::slam {
+namespace {
+
+/// Two ranges of one thing differ by no more than so many deviations of their difference.
+constexpr double kNoiseSigmas = 3.0;
+
+}  // namespace
 
 Status LineSlam::check_repeats(const LaserScan& scan) {
   if (last_scan_ && scan.stamp <= *last_scan_) {
@@ -26,10 +34,49 @@ Status LineSlam::check_repeats(const LaserScan& scan) {
 
 bool LineSlam::odometry_jumped() const { return travelled_.estimate().quality == LocalisationQuality::kDegraded; }
 
+UncertainPose LineSlam::expected_motion(const PoseEstimate& travelled, bool silent, double dt_s) {
+  if (silent && unseen_.on()) {
+    return unseen_.expected(dt_s);
+  }
+  if (!silent) {
+    unseen_.note_wheels();
+  }
+  odometry_bias_.note_motion(travelled.map_T_base, travelled.covariance);
+  const Pose2 increment = odometry_bias_.corrected(travelled.map_T_base);
+  const Matrix3 random = odometry_scale_.applied_to(to_base_frame(travelled.covariance, increment));
+  return {increment, random + to_base_frame(odometry_bias_.covariance_of(travelled.map_T_base), increment)};
+}
+
+void LineSlam::note_way(const Pose2& motion) {
+  travelled_.correct({}, Matrix3::Zero());
+  travelled_.set_quality(LocalisationQuality::kLocalised, "");  // a jump is over once a scan has been looked at
+  const double way_m = std::hypot(motion.x_m, motion.y_m);
+  way_m_ += way_m;
+  way_since_loops_m_ += way_m;
+  way_since_kept_m_ += way_m;
+  way_since_leftover_m_ += way_m;
+  turn_since_leftover_rad_ += std::abs(motion.theta_rad);
+}
+
+void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covariance) {
+  odometry_bias_.note_match(match.map_T_base, match.degenerate_direction);
+  if (match.degenerate_direction) {
+    return;
+  }
+  odometry_scale_.learn(offset_of(match.map_T_base, lines_->robot()), lines_->robot_covariance_map() + covariance);
+}
+
 SpUpdateReport LineSlam::update_lines(const std::vector<lines::SegmentObservation>& observations,
                                       const Association& association) {
   ++revision_;
   return lines_->update(observations, association);
+}
+
+void LineSlam::note_quality(const MatchResult& match) {
+  const bool corridor = match.degenerate_direction && lines_->observability().degenerate_direction;
+  counts_.corridor += corridor ? 1 : 0;
+  quality_ = corridor ? LocalisationQuality::kDegraded : LocalisationQuality::kLocalised;
+  cause_ = corridor ? "the scan says nothing along the corridor: odometry only in that direction" : "";
 }
 
 bool LineSlam::stands_still(const LaserScan& scan) const {
@@ -41,17 +88,31 @@ bool LineSlam::stands_still(const LaserScan& scan) const {
   if (scan.ranges_m.size() != used_ranges_.size()) {
     return false;
   }
+  // A beam that came back in one of the two only says little: glass and the edge of the range flicker.
+  // Wheels that have not shown yet that they tell of motions leave all to the view: along a corridor little changes.
+  const double least_m = unseen_.trusted() ? params_.still_range_m : 0.0;
+  const double share = unseen_.trusted() ? params_.still_share : params_.silent_share;
+  std::size_t compared = 0;
   std::size_t changed = 0;
   for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
-    const bool same = scan.ranges_m[beam] == used_ranges_[beam] ||
-                      std::abs(scan.ranges_m[beam] - used_ranges_[beam]) <= static_cast<float>(params_.still_range_m);
-    changed += same ? 0 : 1;
+    const auto now_m = static_cast<double>(scan.ranges_m[beam]);
+    const auto then_m = static_cast<double>(used_ranges_[beam]);
+    if (std::isfinite(now_m) && std::isfinite(then_m)) {
+      const double noise_m = kNoiseSigmas * std::sqrt(2.0) * extractor_.noise().sigma_m(now_m);
+      ++compared;
+      changed += std::abs(now_m - then_m) > std::max(least_m, noise_m) ? 1U : 0U;
+    }
   }
-  return static_cast<double>(changed) <= params_.still_share * static_cast<double>(scan.ranges_m.size());
+  return compared > 0 && static_cast<double>(changed) <= share * static_cast<double>(compared);
 }
 
 void LineSlam::look_again(const LaserScan& scan) {
-  const bool stands = !moved({}, travelled_.estimate().map_T_base, params_.stand_m, params_.stand_rad);
+  const double dt_s = to_seconds(scan.stamp - std::exchange(used_stamp_, scan.stamp));
+  if (unseen_.on()) {
+    unseen_.note({}, dt_s);
+    return;
+  }
+  const bool stands = unseen_.is_silent(travelled_.estimate().map_T_base);
   if (!stands || repeated_ || stood_ >= params_.stand_scans) {
     return;
   }
