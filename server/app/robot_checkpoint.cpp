@@ -146,7 +146,7 @@ Twist2 RobotLoop::look_round() {
 
 void RobotLoop::resume_when_found() {
   // What is known to be floor decides what is left to explore: the kept scans are written into it first.
-  if (!resuming_ || map_.relocalising() || map_.rendering()) {
+  if (!resuming_ || map_.relocalising() || !map_.settled()) {
     return;
   }
   resuming_ = false;

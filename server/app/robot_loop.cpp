@@ -12,13 +12,6 @@ namespace {
 constexpr double kStill_m_s = 1e-3;
 constexpr double kStill_rad_s = 1e-3;
 
-Status check(const drivers::OdometrySample& sample) {
-  if (!is_finite(sample.odom_T_base) || !std::isfinite(sample.velocity.v_m_s) ||
-      !std::isfinite(sample.velocity.omega_rad_s)) {
-    return fail(Errc::kInvalidArgument, "the odometry is not a finite number; check the base's cable");
-  }
-  return {};
-}
 Result<Recognition> recognise(const vision::Recogniser& recogniser, const Image& picture, Recognition context) {
   Result<vision::RecognitionReport> report = recogniser.recognise(picture);
   if (!report) {
@@ -27,9 +20,6 @@ Result<Recognition> recognise(const vision::Recogniser& recogniser, const Image&
   context.sightings = std::move(report->sightings);
   return context;
 }
-
-Status check(const LaserScan& scan) { return validate(scan); }
-Status check(const SonarScan& scan) { return validate(scan); }
 
 }  // namespace
 
@@ -113,7 +103,7 @@ bool RobotLoop::idle() const {
     return true;
   }
   // A robot that looks for its place needs scans; a map that is written anew is to be finished.
-  const bool settled = !map_.rendering() && !map_.relocalising() && !resuming_;
+  const bool settled = map_.settled() && !map_.relocalising() && !resuming_;
   return !realtime() && !parts_.devices.runs_without_mission && !missions_.running() && !moving() && settled;
 }
 
@@ -153,81 +143,6 @@ void RobotLoop::end_source(const Error& error) {
   log("source-ended", summary.empty() ? error.message : summary);
   republish_ = true;
   publish();
-}
-
-template <class Driver, class Sample>
-void RobotLoop::read(Driver* driver, const std::string& name, Duration timeout, std::optional<Sample>& latest,
-                     bool& fresh, RobotTime& last) {
-  fresh = false;
-  if (driver == nullptr || !components_.active(name)) {
-    return;
-  }
-  Result<std::optional<Sample>> sample = driver->read();
-  const Status ok = !sample ? Status(tl::unexpected<Error>(sample.error())) : *sample ? check(**sample) : Status();
-  if (!ok) {
-    raise(name + "-invalid", name, name + ": " + ok.error().message,
-          "mend the device, then 'seeker components --restart " + name + "'");
-  } else if (*sample) {
-    latest = std::move(**sample);
-    last = now();
-    fresh = true;
-    components_.count_output(name, last);
-    clear(name + "-invalid");
-    clear(name + "-silent");
-  }
-  if (now() - last > timeout && !ended_) {
-    raise(name + "-silent", name,
-          "the " + name + " has been silent for more than " +
-              std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(timeout).count()) + " ms",
-          "check its cable and power; 'seeker components --restart " + name + "' starts it again");
-  }
-}
-
-void RobotLoop::sense() {
-  read(parts_.devices.base.get(), "base", params_.base_timeout, odometry_, fresh_odometry_, last_odometry_);
-  read(parts_.devices.lidar.get(), "lidar", params_.lidar_timeout, scan_, fresh_scan_, last_scan_);
-  read(parts_.devices.sonar.get(), "sonar", params_.sonar_timeout, sonar_, fresh_sonar_, last_sonar_);
-  // A recording cannot be slowed, and is to give the map that it gives offline.
-  if (fresh_scan_ && odometry_ && !parts_.devices.runs_without_mission) {
-    seen_movers_.look(*scan_, odometry_->odom_T_base, now());
-  }
-}
-
-void RobotLoop::estimate() {
-  const auto note = [this](const Status& status, const char* id) {
-    if (!status) {
-      raise(id, "pose", status.error().message, "the estimate goes on without this reading", api::Severity::kWarning);
-    } else {
-      clear(id);
-    }
-  };
-  const LaserScan* building = nullptr;
-  if (fresh_odometry_) {
-    note(parts_.estimator->on_odometry(*odometry_), "odometry-refused");
-  }
-  if (fresh_scan_) {
-    building = &scan_of_building();
-    note(parts_.estimator->on_scan(*building), "scan-refused");
-  }
-  if (fresh_odometry_ || fresh_scan_) {
-    std::optional<Pose2> by_odometry;
-    if (odom_T_base_at_pose_ && odometry_) {
-      by_odometry = pose_.map_T_base * (inverse(*odom_T_base_at_pose_) * odometry_->odom_T_base);
-    }
-    follow_map(by_odometry);
-    odom_T_base_at_pose_ = odometry_ ? std::optional<Pose2>(odometry_->odom_T_base) : std::nullopt;
-    components_.count_output("pose", now());
-  }
-  const bool trusted =
-      pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
-  if (!trusted) {
-    return;
-  }
-  if (building != nullptr) {
-    note(map_.integrate(*building, pose_.map_T_base), "map-full");
-  } else if (fresh_sonar_ && parts_.devices.lidar == nullptr) {
-    note(map_.integrate(*sonar_, pose_.map_T_base), "map-full");
-  }
 }
 
 Situation RobotLoop::situation() const {
@@ -320,15 +235,18 @@ void RobotLoop::take_recognition() {
 
 void RobotLoop::act(const Twist2& wanted) {
   const bool arm = authority_.armed() && faults_.blocking() == nullptr;
-  const SafetyVerdict verdict = supervise({.wanted = wanted,
-                                           .armed = authority_.armed(),
-                                           .estop = authority_.estop(),
-                                           .blocking = faults_.blocking(),
-                                           .scan = scan_ ? &*scan_ : nullptr,
-                                           .sonar = sonar_ ? &*sonar_ : nullptr,
-                                           .velocity = odometry_ ? odometry_->velocity : Twist2{},
-                                           .movers_base = movers_base(pose_.map_T_base)},
-                                          params_.safety);
+  const SafetyVerdict verdict =
+      supervise({.wanted = wanted,
+                 .armed = authority_.armed(),
+                 .estop = authority_.estop(),
+                 .blocking = faults_.blocking(),
+                 .scan = scan_ ? &*scan_ : nullptr,
+                 .sonar = sonar_ ? &*sonar_ : nullptr,
+                 .base_T_scan = scan_ ? odometry_history_.now_T_then(scan_->stamp) : Pose2{},
+                 .base_T_sonar = sonar_ ? odometry_history_.now_T_then(sonar_->stamp) : Pose2{},
+                 .velocity = odometry_ ? odometry_->velocity : Twist2{},
+                 .movers_base = movers_base(pose_.map_T_base)},
+                params_.safety);
   safety_reason_ = verdict.reason;
   command_ = verdict.allowed;
   if (!components_.active("base")) {

@@ -18,6 +18,7 @@
 #include "server/app/faults.hpp"
 #include "server/app/mission_executor.hpp"
 #include "server/app/motion_authority.hpp"
+#include "server/app/odometry_history.hpp"
 #include "server/app/robot_map.hpp"
 #include "server/app/safety_supervisor.hpp"
 #include "server/app/update_hub.hpp"
@@ -167,6 +168,10 @@ class RobotLoop {
   void read(Driver* driver, const std::string& name, Duration timeout, std::optional<Sample>& latest, bool& fresh,
             RobotTime& last);
   void estimate();
+  /// Sweep and odometry, as far as they are fresh, in the order of their stamps: a sweep arrives later than it was
+  /// taken. Returns the sweep as the estimator got it; null when there is none.
+  const LaserScan* tell_estimator();
+  void note_reading(const Status& status, const char* id);
   void end_source(const Error& error);
   [[nodiscard]] Twist2 decide(WallTime wall_now);
   // The fleet (robot_fleet.cpp).
@@ -224,6 +229,8 @@ class RobotLoop {
   RobotMap map_;
 
   std::optional<drivers::OdometrySample> odometry_;
+  OdometryHistory odometry_history_;
+  RobotTime told_odometry_;  ///< stamp of the last that the estimator got
   std::optional<LaserScan> scan_;
   std::optional<SonarScan> sonar_;
   bool fresh_odometry_ = false;

@@ -27,7 +27,11 @@ PoseEstimate RobotMap::follow(const PoseEstimate& estimate, RobotTime now, const
     const bool little =
         old_map_T_base && distance_m(*old_map_T_base, out.map_T_base) < params_.calm_move_m &&
         std::abs(wrap_angle(out.map_T_base.theta_rad - old_map_T_base->theta_rad)) < params_.calm_turn_rad;
-    begin_rendering(little && !rendering());  // one that goes on moving would never be finished
+    if (!rendering()) {
+      begin_rendering(little);
+    } else {
+      moved_again_ = true;
+    }
   }
   const bool found = out.quality == LocalisationQuality::kLocalised || out.quality == LocalisationQuality::kDegraded;
   const bool given_up = out.quality == LocalisationQuality::kLost;
@@ -49,6 +53,8 @@ Status RobotMap::integrate(const SonarScan& scan, const Pose2& map_T_base) {
 }
 
 void RobotMap::begin_rendering(bool calm) {
+  moved_again_ = false;
+  rendered_epoch_ = epoch_;
   scans_per_tick_ = calm ? params_.calm_scans_per_tick : params_.render_scans_per_tick;
   waiting_.clear();
   fresh_.emplace(occupancy_params_);
@@ -60,7 +66,10 @@ void RobotMap::begin_rendering(bool calm) {
 }
 
 void RobotMap::step() {
-  if (!fresh_) {
+  if (moved_again_ && !rendering()) {
+    begin_rendering(false);
+  }
+  if (!rendering()) {
     return;
   }
   for (int k = 0; k < scans_per_tick_ && !waiting_.empty(); ++k) {
@@ -69,16 +78,16 @@ void RobotMap::step() {
     waiting_.pop_front();
   }
   if (waiting_.empty()) {
-    replace_occupancy(std::move(*fresh_));
+    replace_occupancy(std::move(*fresh_), rendered_epoch_);
     fresh_.reset();
   }
 }
 
-void RobotMap::replace_occupancy(nav::OccupancyMap map) {
+void RobotMap::replace_occupancy(nav::OccupancyMap map, std::uint32_t epoch) {
   // Clients' revisions lie below the new map's, so that they get all of it.
   revision_base_ = revision() + 1;
   occupancy_ = std::move(map);
-  occupancy_epoch_ = epoch_;
+  occupancy_epoch_ = epoch;
 }
 
 api::TileUpdate RobotMap::tiles_since(std::uint64_t revision) const {
@@ -153,7 +162,7 @@ void RobotMap::begin_anew() {
 void RobotMap::take_new_frame() {
   ++epoch_;
   epoch_offset_ = epoch_ - tracker_->estimate().map_epoch;
-  replace_occupancy(nav::OccupancyMap(occupancy_params_));
+  replace_occupancy(nav::OccupancyMap(occupancy_params_), epoch_);
   begin_rendering(false);
   tracker_revision_.reset();
   segments_at_.reset();

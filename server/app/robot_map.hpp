@@ -49,7 +49,8 @@ struct LoopMap {
 };
 
 /// When the pose's map epoch rises, the kept scans are written into a new occupancy map, some per tick, so that the
-/// loop is never late; live scans are written into both, and the old one serves until the new one is finished.
+/// loop is never late; live scans are written into both, and the old one serves until the new one is finished. A map
+/// that moves meanwhile is written anew once more after that: one that goes on moving must be finished now and then.
 /// Tiles carry the epoch of the map they were written in. Epochs count on when a map is loaded, whatever its own.
 class RobotMap {
  public:
@@ -67,6 +68,8 @@ class RobotMap {
   /// Once a tick: goes on with a map that is being written anew.
   void step();
   [[nodiscard]] bool rendering() const { return fresh_.has_value(); }
+  /// The occupancy is that of the newest epoch.
+  [[nodiscard]] bool settled() const { return !rendering() && !moved_again_; }
   /// The robot looks for its place; ticks must go on although no mission runs.
   [[nodiscard]] bool relocalising() const { return relocalising_since_.has_value(); }
 
@@ -104,7 +107,7 @@ class RobotMap {
   [[nodiscard]] Status look_for_robot(const std::function<Status(slam::MapTracker&)>& look, RobotTime now);
   void take_new_frame();
   void begin_rendering(bool calm);
-  void replace_occupancy(nav::OccupancyMap map);
+  void replace_occupancy(nav::OccupancyMap map, std::uint32_t epoch);
 
   RobotMapParams params_;
   nav::OccupancyParams occupancy_params_;
@@ -116,8 +119,10 @@ class RobotMap {
   std::uint32_t epoch_ = 0;         ///< of the estimates handed out
   std::uint32_t epoch_offset_ = 0;  ///< added to the tracker's own
   std::optional<nav::OccupancyMap> fresh_;
-  std::deque<KeptScan> waiting_;  ///< to be written into fresh_,
-  int scans_per_tick_ = 0;        ///< so many in a tick
+  std::deque<KeptScan> waiting_;      ///< to be written into fresh_,
+  int scans_per_tick_ = 0;            ///< so many in a tick
+  std::uint32_t rendered_epoch_ = 0;  ///< of the poses in waiting_
+  bool moved_again_ = false;          ///< since then
 
   SegmentLog segments_;
   std::optional<std::uint64_t> tracker_revision_;  ///< of the segments taken last

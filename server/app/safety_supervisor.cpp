@@ -22,24 +22,27 @@ double lidar_range_in_cone(const Pose2& base_T_sonar, double half_angle_rad, con
 
 }  // namespace
 
-std::vector<Point2> obstacle_points(const LaserScan* scan, const SonarScan* sonar, const SafetyParams& params) {
-  std::vector<Point2> points = scan != nullptr ? points_in_base(*scan) : std::vector<Point2>();
-  if (sonar == nullptr) {
+std::vector<Point2> obstacle_points(const SafetyInput& input, const SafetyParams& params) {
+  std::vector<Point2> points = input.scan != nullptr ? points_in_base(*input.scan) : std::vector<Point2>();
+  std::transform(points.begin(), points.end(), points.begin(),
+                 [&](const Point2& p_then) { return input.base_T_scan * p_then; });
+  if (input.sonar == nullptr) {
     return points;
   }
   const std::vector<Point2> seen_by_lidar = points;
-  for (const SonarReading& reading : sonar->readings) {
+  for (const SonarReading& reading : input.sonar->readings) {
+    const Pose2 base_T_transducer = input.base_T_sonar * reading.base_T_sonar;
     const double range = reading.range_m;
     if (!(range <= params.sonar_stop_range_m)) {
       continue;
     }
-    if (scan != nullptr) {
-      const double explained = lidar_range_in_cone(reading.base_T_sonar, sonar->cone_half_angle_rad, seen_by_lidar);
+    if (input.scan != nullptr) {
+      const double explained = lidar_range_in_cone(base_T_transducer, input.sonar->cone_half_angle_rad, seen_by_lidar);
       if (explained <= range + params.sonar_slack_m) {
         continue;
       }
     }
-    points.push_back(reading.base_T_sonar * Point2(range, 0.0));
+    points.push_back(base_T_transducer * Point2(range, 0.0));
   }
   return points;
 }
@@ -59,8 +62,7 @@ SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params) {
   }
   const Twist2 clamped{std::clamp(input.wanted.v_m_s, -params.max_v_m_s, params.max_v_m_s),
                        std::clamp(input.wanted.omega_rad_s, -params.max_omega_rad_s, params.max_omega_rad_s)};
-  const Twist2 allowed =
-      nav::limit_for_clearance(clamped, obstacle_points(input.scan, input.sonar, params), params.clearance);
+  const Twist2 allowed = nav::limit_for_clearance(clamped, obstacle_points(input, params), params.clearance);
   const Twist2 apart = nav::limit_for_movers(allowed, input.velocity, input.movers_base, params.clearance);
   if (apart != allowed) {
     return {apart, "slowed for another robot"};

@@ -21,13 +21,15 @@ struct SafetyParams {
 };
 
 struct SafetyInput {
-  Twist2 wanted;
+  Twist2 wanted = {};
   bool armed = false;
   bool estop = false;
   const api::Fault* blocking = nullptr;  ///< a fault that forbids motion
   const LaserScan* scan = nullptr;
   const SonarScan* sonar = nullptr;
-  Twist2 velocity = {};                      ///< of the robot now
+  Pose2 base_T_scan = {};   ///< where the base was when the scan was taken, in `base` now: readings age
+  Pose2 base_T_sonar = {};  ///< and the echoes
+  Twist2 velocity = {};     ///< of the robot now
   std::vector<nav::Mover> movers_base = {};  ///< other robots, frame `base`
 };
 
@@ -37,8 +39,7 @@ struct SafetyVerdict {
 };
 
 /// Obstacles around the base now: lidar returns, and echoes that the lidar cannot explain.
-[[nodiscard]] std::vector<Point2> obstacle_points(const LaserScan* scan, const SonarScan* sonar,
-                                                  const SafetyParams& params);
+[[nodiscard]] std::vector<Point2> obstacle_points(const SafetyInput& input, const SafetyParams& params);
 
 [[nodiscard]] SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params);
 

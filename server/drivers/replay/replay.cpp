@@ -94,6 +94,9 @@ void ReplaySource::advance_to(RobotTime now) {
     now_ = std::max(now_, robot_time_of(*pending_));
     std::visit([this](const auto& record) { deliver(record); }, *pending_);
     fetch();
+    if (is_scan && !scans_have_odometry_) {
+      return;  // what the wheels tell after the scan comes after it
+    }
   }
   now_ = std::max(now_, now);
 }

@@ -31,7 +31,8 @@ class ReplaySource {
                                                                   const ReplayParams& params = {});
 
   /// Takes records stamped up to `now`; the newest of each kind waits for its reader. Stops before a second scan, so
-  /// that none is lost where two fall into one tick: now() is then the time of the last record taken.
+  /// that none is lost where two fall into one tick, and behind a scan that does not state its own odometry, so that it
+  /// meets the odometry of before: now() is then the time of the last record taken.
   void advance_to(RobotTime now);
   /// Takes exactly the next record, so that none is overtaken; false at the end.
   bool advance_one();

@@ -54,7 +54,18 @@ TEST(SafetySupervisor, LowObstacleSeenBySonarAloneStopsTheRobot) {
 TEST(SafetySupervisor, EchoThatTheLidarExplainsAddsNoPoint) {
   const LaserScan scan = wall_ahead(0.75);
   const SonarScan sonar = echo_ahead(0.60F);
-  EXPECT_EQ(obstacle_points(&scan, &sonar, {}).size(), points_in_base(scan).size());
+  EXPECT_EQ(obstacle_points({.scan = &scan, .sonar = &sonar}, {}).size(), points_in_base(scan).size());
+}
+
+TEST(SafetySupervisor, AWallIsAsNearAsTheRobotHasComeSinceItWasSeen) {
+  const LaserScan scan = wall_ahead(0.77);
+  const SonarScan sonar = echo_ahead(0.65F);
+  SafetyInput input{.wanted = kForward, .armed = true, .scan = &scan};
+  EXPECT_GT(supervise(input, {}).allowed.v_m_s, 0.3);
+  input.base_T_scan = {-0.5, 0.0, 0.0};
+  EXPECT_DOUBLE_EQ(supervise(input, {}).allowed.v_m_s, 0.0) << "0.27 m are left of 0.77 m";
+  input = {.wanted = kForward, .armed = true, .sonar = &sonar, .base_T_sonar = {-0.5, 0.0, 0.0}};
+  EXPECT_LT(supervise(input, {}).allowed.v_m_s, 0.05) << "0.15 m before the transducer";
 }
 
 TEST(SafetySupervisor, EstopFaultAndDisarmedMeanZeroWithTheReason) {

@@ -230,6 +230,30 @@ TEST(Replay, GivesEveryScanToAReaderWhoLooksOnceATick) {
   EXPECT_EQ((*source)->summary().overtaken, 0U);
 }
 
+TEST(Replay, AScanWithoutOdometryOfItsOwnMeetsThatOfBefore) {
+  std::string text;
+  for (int k = 0; k < 20; ++k) {  // the wheels tell ten times in a tick, the scan lies in the middle of them
+    const std::string stamp = std::to_string(0.01 * k);
+    text += "ODOM " + std::to_string(0.005 * k) + " 0 0 0 0 0 " + stamp + " robot 1.0\n";
+    if (k == 14) {
+      text += "RAWLASER1 0 -1.5708 3.1416 1.0472 80 0.01 0 4 1.0 1.0 1.0 1.0 0 " + stamp + " robot 1.0\n";
+    }
+  }
+  const TemporaryLog log("between", text);
+  auto source = ReplaySource::open(log.path());
+  ASSERT_TRUE(source) << source.error().message;
+  std::optional<LaserScan> scan;
+  std::optional<OdometrySample> odometry;
+  while (!scan && !(*source)->finished()) {
+    (*source)->advance_to((*source)->now() + seconds(0.1));
+    scan = (*source)->take_scan();
+    odometry = (*source)->take_odometry();
+  }
+  ASSERT_TRUE(scan && odometry);
+  EXPECT_NEAR(odometry->odom_T_base.x_m, 0.005 * 14, 1e-9);
+  EXPECT_EQ(odometry->stamp, scan->stamp);
+}
+
 TEST(Replay, ACutCompressedLogIsReadAsFarAsItGoes) {
   std::string text;
   for (int k = 0; k < 5000; ++k) {
