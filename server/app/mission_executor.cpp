@@ -4,6 +4,7 @@
 
 #include "common/api/fleet.hpp"
 #include "common/core/assert.hpp"
+#include "server/app/estimator.hpp"
 
 namespace seeker::app {
 
@@ -131,10 +132,11 @@ bool MissionExecutor::hold_for_trouble(const Situation& situation, const api::Fa
     }
     return true;
   }
-  if (situation.pose.quality == LocalisationQuality::kLost && active_->behaviour->needs_pose()) {
+  if (!is_placed(situation.pose.quality) && active_->behaviour->needs_pose()) {
     if (!active_->unlocalised_since) {
       active_->unlocalised_since = situation.now;
-      log(situation.now, "mission-held", "lost: " + situation.pose.cause, api::Severity::kError);
+      log(situation.now, "mission-held", "the robot does not know where it is: " + situation.pose.cause,
+          api::Severity::kError);
     }
     if (situation.now - *active_->unlocalised_since > params_.lost_grace) {
       end(api::Outcome::kLost, situation.pose.cause, "drive the robot to a known place and start the mission again",
@@ -253,7 +255,9 @@ void MissionExecutor::map_moved(const MapMove& move, RobotTime now) {
     active_->last_pose.reset();
     active_->pose = move.new_T_old * active_->pose;
     active_->map_epoch = move.to_epoch;
-    log(now, "map-moved", "the map was corrected; what was searched and found moved with it");
+    if (move.new_T_old != Pose2{}) {
+      log(now, "map-moved", "the map was corrected; what was searched and found moved with it");
+    }
     collect_detections();  // moved by the behaviour, which knows best how
   }
   for (api::Detection& detection : detections_) {

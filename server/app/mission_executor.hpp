@@ -36,7 +36,7 @@ struct MissionOutputs {
 
 /// A correction of the map that is in use.
 struct MapMove {
-  Pose2 new_T_old;               ///< takes places in the map before to places in the map now
+  Pose2 new_T_old;               ///< takes places in the map before to places in the map now; identity: it only grew
   std::uint32_t from_epoch = 0;  ///< of the map before: only what belongs to it moves
   std::uint32_t to_epoch = 0;    ///< of the map now
 };

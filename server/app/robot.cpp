@@ -20,8 +20,7 @@ constexpr const char* kMapWaits =
 
 std::optional<Pose2> known_place(const RobotLoop& loop) {
   const PoseEstimate pose = loop.status().pose;
-  const bool known = pose.quality == LocalisationQuality::kLocalised || pose.quality == LocalisationQuality::kDegraded;
-  return known ? std::optional<Pose2>(pose.map_T_base) : std::nullopt;
+  return is_placed(pose.quality) ? std::optional<Pose2>(pose.map_T_base) : std::nullopt;
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ std::optional<Pose2> last_place(const LineMap& map) {
 void RobotLoop::keep_checkpoint() {
   const api::MissionRequest* mission = missions_.request();
   slam::MapTracker* tracker = parts_.estimator->map_tracker();
-  if (!on_checkpoint || mission == nullptr || tracker == nullptr || !builds_map(mission->task) || map_.relocalising()) {
+  if (!on_checkpoint || mission == nullptr || tracker == nullptr || !builds_map(mission->task) ||
+      !is_placed(pose_.quality)) {
     return;
   }
   const bool far =
@@ -52,9 +53,7 @@ void RobotLoop::keep_checkpoint() {
 
 /// More often than the map, which costs more; it says nothing without one.
 void RobotLoop::keep_place(const api::MissionId& mission) {
-  const bool known =
-      pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
-  if (!on_place || !checkpoint_kept_ || place_waits_ || !known || now() - place_at_ < params_.map.place_period) {
+  if (!on_place || !checkpoint_kept_ || place_waits_ || now() - place_at_ < params_.map.place_period) {
     return;
   }
   place_at_ = now();
@@ -150,9 +149,7 @@ void RobotLoop::resume_when_found() {
     return;
   }
   resuming_ = false;
-  const bool found =
-      pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
-  if (!found) {
+  if (!is_placed(pose_.quality)) {
     begin_map_anew();
   }
   const Result<api::MissionId> started = unfinished_

@@ -82,10 +82,19 @@ Status RobotLoop::relocalise(const std::optional<Pose2>& map_T_base) {
   return {};
 }
 
+/// An epoch rises when a loop moves the map, and when a robot that was looked for is found: what it has mapped
+/// meanwhile is joined to the map then, and nothing else moves.
 void RobotLoop::follow_map(const std::optional<Pose2>& old_map_T_base) {
   const std::uint32_t before = pose_.map_epoch;
+  const bool was_placed = is_placed(pose_.quality);
   pose_ = map_.follow(parts_.estimator->estimate(), now(), old_map_T_base);
   if (pose_.map_epoch == before || !old_map_T_base) {
+    return;
+  }
+  if (!was_placed) {
+    // The pose before was in a frame of its own: it tells where the robot was looked for, not how the map has moved.
+    log("robot-found", "the robot has found its place in the map, which stays where it was");
+    missions_.map_moved({.new_T_old = {}, .from_epoch = before, .to_epoch = pose_.map_epoch}, now());
     return;
   }
   const Pose2 new_T_old = pose_.map_T_base * inverse(*old_map_T_base);

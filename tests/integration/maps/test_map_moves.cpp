@@ -13,12 +13,36 @@
 namespace seeker::testing {
 namespace {
 
+/// Stands where it is and has found a mug.
+class Finder final : public app::Behaviour {
+ public:
+  explicit Finder(Point2& mug_map) : mug_map_(mug_map) {}
+  app::Decision step(const app::Situation& /*situation*/) override { return {}; }
+  void map_moved(const Pose2& new_T_old) override { mug_map_ = new_T_old * mug_map_; }
+  std::vector<api::Detection> detections() const override {
+    api::Detection mug;
+    mug.id = 1;
+    mug.target = "mug";
+    mug.position = mug_map_;
+    return {mug};
+  }
+
+ private:
+  Point2& mug_map_;
+};
+
 class MapMoves : public ::testing::Test {
  protected:
   MapMoves() {
     const app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml")).value();
     app::Assembly assembly = app::assemble(options).value();
     assembly.parts.estimator = std::make_unique<app::TrackerEstimator>(std::make_unique<FakeMapTracker>(state));
+    assembly.parts.behaviours = [this, real = assembly.parts.behaviours](const api::MissionTask& task,
+                                                                         const app::Situation& situation) {
+      return std::holds_alternative<api::ReturnMission>(task)
+                 ? Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Finder>(mug_map))
+                 : real(task, situation);
+    };
     loop = std::make_unique<app::RobotLoop>(options.loop, std::move(assembly.parts), hub);
     loop->on_event = [this](const api::Event& event) { events.push_back(event); };
     loop->start();
@@ -37,9 +61,12 @@ class MapMoves : public ::testing::Test {
     return std::count_if(events.begin(), events.end(), [&](const api::Event& e) { return e.kind == kind; });
   }
   [[nodiscard]] Status go() {
+    return go(api::GotoMission{.waypoints = {Point2(2.0, 0.0)}, .final_heading_rad = std::nullopt, .keep_out = {}});
+  }
+  [[nodiscard]] Status go(const api::MissionTask& task) {
     api::MissionRequest mission;
     mission.id = "go";
-    mission.task = api::GotoMission{.waypoints = {Point2(2.0, 0.0)}, .final_heading_rad = std::nullopt, .keep_out = {}};
+    mission.task = task;
     const Result<api::MissionId> id = loop->start_mission(mission, "tester");
     return id ? Status() : Status(tl::unexpected<Error>(id.error()));
   }
@@ -49,6 +76,7 @@ class MapMoves : public ::testing::Test {
   std::unique_ptr<app::RobotLoop> loop;
   std::vector<api::Event> events;
   app::WallTime wall;
+  Point2 mug_map{2.0, 1.0};  ///< as the behaviour that stands in for `return` has found it
 };
 
 TEST_F(MapMoves, MissionGoesOnPoseAndTilesGetTheNewEpoch) {
@@ -72,6 +100,35 @@ TEST_F(MapMoves, MissionGoesOnPoseAndTilesGetTheNewEpoch) {
   ASSERT_TRUE(segments);
   ticks(10);
   EXPECT_TRUE(loop->robot_map().segments_since(1)->full);
+}
+
+TEST_F(MapMoves, RobotThatIsFoundAgainMovesNothingOfWhatItKnows) {
+  for (const bool mission_runs : {true, false}) {
+    SCOPED_TRACE(mission_runs ? "in a mission" : "after it");
+    const std::uint32_t epoch = loop->status().pose.map_epoch;
+    if (mission_runs) {
+      ASSERT_TRUE(go(api::ReturnMission{}));
+    } else {
+      loop->stop();
+    }
+    ticks(5);
+    ASSERT_EQ(loop->missions().detections().size(), 1U);
+    // What it maps while it is looked for lies in a frame of its own, until it is joined to the map.
+    const Pose2 there = state->estimate.map_T_base;
+    state->estimate.quality = LocalisationQuality::kUnknown;
+    state->estimate.map_T_base = {};
+    ticks(5);
+    state->estimate.quality = LocalisationQuality::kLocalised;
+    state->estimate.map_T_base = Pose2{7.0, -3.0, 1.0} * there;
+    ++state->estimate.map_epoch;
+    ticks(1);
+    EXPECT_EQ(loop->status().pose.map_epoch, epoch + 1U);
+    EXPECT_EQ(loop->missions().present(), mission_runs);
+    EXPECT_EQ(loop->missions().detections()[0].map_epoch, epoch + 1U);
+    EXPECT_EQ(*loop->missions().detections()[0].position, Point2(2.0, 1.0));
+  }
+  EXPECT_EQ(count("map-moved"), 0);
+  EXPECT_EQ(count("robot-found"), 2);
 }
 
 TEST_F(MapMoves, MapIsNotExchangedUnderARunningMission) {

@@ -192,6 +192,25 @@ TEST_F(MissionExecutorTest, LostPoseEndsTheMissionAfterTheGrace) {
   EXPECT_EQ(end().outcome, api::Outcome::kLost);
 }
 
+TEST_F(MissionExecutorTest, MissionStandsUntilALostRobotIsFoundNotOnlyUntilItIsLookedFor) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  script->next.command = {0.3, 0.0};
+  situation.pose.quality = LocalisationQuality::kLost;
+  static_cast<void>(tick());
+  situation.pose.quality = LocalisationQuality::kUnknown;
+  situation.pose.cause = "looking for the place in the map";
+  EXPECT_EQ(tick().command, Twist2{});
+  EXPECT_EQ(script->steps, 0);
+  EXPECT_EQ(executor.last()->activity, "waiting: looking for the place in the map");
+  situation.pose.quality = LocalisationQuality::kDegraded;
+  EXPECT_EQ(tick().command, (Twist2{0.3, 0.0}));
+  EXPECT_EQ(events.back().kind, "mission-continues");
+  situation.pose.quality = LocalisationQuality::kUnknown;
+  static_cast<void>(tick());
+  static_cast<void>(tick(11.0));
+  EXPECT_EQ(end().outcome, api::Outcome::kLost);
+}
+
 TEST_F(MissionExecutorTest, DecisionIsReportedAtOnceAndOnlyOnceButKept) {
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
   script->next.phase = "explore";
