@@ -80,18 +80,40 @@ void MissionRun::take(const Context& context, const api::Update& update) {
       }
     }
   } else if (const auto* detection = std::get_if<api::Detection>(&update.payload)) {
-    const auto known = std::find_if(report_.detections.begin(), report_.detections.end(),
-                                    [&](const api::Detection& d) { return d.id == detection->id; });
-    if (known == report_.detections.end()) {
-      report_.detections.push_back(*detection);
+    if (take(*detection)) {
       say(context, text_of(update));
-    } else {
-      *known = *detection;
     }
   } else if (const auto* event = std::get_if<api::Event>(&update.payload)) {
     if (context.verbose || event->severity >= api::Severity::kWarning) {
       say(context, text_of(update));
     }
+  }
+}
+
+bool MissionRun::take(const api::Detection& detection) {
+  // Robots of older versions do not say which mission has found it.
+  if (!detection.mission.empty() && detection.mission != report_.status.id) {
+    return false;
+  }
+  const auto known = std::find_if(report_.detections.begin(), report_.detections.end(),
+                                  [&](const api::Detection& d) { return d.id == detection.id; });
+  const bool is_known = known != report_.detections.end();
+  if (detection.withdrawn && is_known) {
+    report_.detections.erase(known);
+  } else if (is_known) {
+    *known = detection;
+  } else if (!detection.withdrawn) {
+    report_.detections.push_back(detection);
+  }
+  return detection.withdrawn == is_known;
+}
+
+/// The robot's own list is the newest. It lacks what was found before the robot was started anew, which only the stream
+/// has told.
+void MissionRun::take_list(const Context& context) {
+  const auto list = ask<std::vector<api::Detection>>(context, &api::RobotApi::get_detections);
+  for (const api::Detection& detection : list ? *list : std::vector<api::Detection>()) {
+    take(detection);
   }
 }
 
@@ -190,6 +212,7 @@ Result<MissionReport> MissionRun::follow(const Context& context, const FollowOpt
       }
     }
   }
+  take_list(for_clean_up(context));
   while (const auto update = stream_.queue->pop(Duration::zero())) {
     take(context, **update);
   }

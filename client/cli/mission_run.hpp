@@ -21,7 +21,7 @@ struct FollowOptions {
 /// How a mission went.
 struct MissionReport {
   api::MissionStatus status;
-  std::vector<api::Detection> detections;  ///< the newest state of each
+  std::vector<api::Detection> detections;  ///< of this mission, the newest state of each
   Duration wall = Duration::zero();
   bool overran = false;  ///< stopped by us at FollowOptions::robot
 };
@@ -40,6 +40,9 @@ class MissionRun {
 
  private:
   void take(const Context& context, const api::Update& update);
+  /// True when it is new or has been withdrawn.
+  bool take(const api::Detection& detection);
+  void take_list(const Context& context);
   [[nodiscard]] Status poll(const Context& context);
   [[nodiscard]] Error stop_because(const Context& context, Error why) const;
   void show_progress(const Context& context) const;

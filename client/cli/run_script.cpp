@@ -97,14 +97,7 @@ class Player {
       options.wall = run.elapsed() + std::max(Duration::zero(), *context_.timeout - (SteadyClock::now() - start_));
     }
     Result<MissionReport> report = run.follow(calls(), options);
-    if (!report) {
-      return tl::unexpected<Error>(report.error());
-    }
-    if (const auto detections = ask<std::vector<api::Detection>>(calls(), &api::RobotApi::get_detections);
-        detections && detections->size() >= report->detections.size()) {
-      report->detections = *detections;
-    }
-    return std::optional<MissionReport>(std::move(*report));
+    return report ? StepResult(std::move(*report)) : tl::unexpected<Error>(report.error());
   }
 
   /// Single answers have the usual time, whatever --timeout says about the whole.

@@ -13,6 +13,7 @@ void write_json(Json& json, const Pose2& pose) {
 void write_json(Json& json, const api::Detection& detection) {
   json.begin_object()
       .field("id", detection.id)
+      .field("mission", detection.mission)
       .field("target", detection.target)
       .field("stamp_s", to_seconds(detection.stamp))
       .field("score", detection.score)
@@ -28,7 +29,8 @@ void write_json(Json& json, const api::Detection& detection) {
   } else {
     json.null();
   }
-  json.field("range_source", to_string(detection.range_source)).field("sightings", detection.sightings).end_object();
+  json.field("range_source", to_string(detection.range_source)).field("sightings", detection.sightings);
+  json.field("withdrawn", detection.withdrawn).end_object();
 }
 
 void write_json(Json& json, const api::Gap& gap) {

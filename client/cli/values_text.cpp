@@ -58,7 +58,9 @@ struct Describe {
     return (update.full ? "all: " : "") + std::to_string(update.changed.size()) + " segments changed, " +
            std::to_string(update.removed.size()) + " removed, revision " + std::to_string(update.revision);
   }
-  std::string operator()(const api::Detection& detection) const { return text_of(detection); }
+  std::string operator()(const api::Detection& detection) const {
+    return (detection.withdrawn ? "withdrawn: " : "") + text_of(detection);
+  }
 };
 
 }  // namespace

@@ -51,14 +51,6 @@ std::vector<api::Gap> fetch_gaps(const Context& context) {
   return grid ? grid->evidence.gaps : std::vector<api::Gap>();
 }
 
-/// The robot's own list is the fused one; where it cannot be had the stream's is kept.
-void refresh_detections(const Context& context, MissionReport& report) {
-  if (const auto detections = ask<std::vector<api::Detection>>(context, &api::RobotApi::get_detections);
-      detections && detections->size() >= report.detections.size()) {
-    report.detections = *detections;
-  }
-}
-
 void print_json(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps) {
   const api::MissionStatus& m = report.status;
   Json json;
@@ -106,7 +98,6 @@ VerbResult run_mission(const Context& context, const api::MissionRequest& reques
   if (!report) {
     return tl::unexpected<Error>(report.error());
   }
-  refresh_detections(context, *report);
   print_report(
       context, *report,
       std::holds_alternative<api::SearchMission>(request.task) ? fetch_gaps(context) : std::vector<api::Gap>());

@@ -40,6 +40,8 @@ struct Detection {
   RangeSource range_source = RangeSource::kNone;
   int sightings = 1;
   std::uint32_t map_epoch = 0;
+  std::string mission;     ///< that has found it
+  bool withdrawn = false;  ///< only in updates: it was taken for the target and is none; no list has it any more
 
   friend bool operator==(const Detection&, const Detection&) = default;
 };

@@ -35,7 +35,7 @@ enum class Topic : std::uint8_t {
   kImage,      ///< ImageFrame                       LATEST
   kMission,    ///< MissionStatus                    RELIABLE
   kEvent,      ///< Event                            RELIABLE
-  kDetection,  ///< Detection (new or refined)       RELIABLE
+  kDetection,  ///< Detection (new, refined, gone)   RELIABLE
   kSegments,   ///< SegmentUpdate                    RELIABLE
 };
 inline constexpr std::size_t kTopicCount = 10;
@@ -106,6 +106,7 @@ class RobotApi {
   /// Tiles changed since `revision` (0: all of them).
   virtual void get_tiles(std::uint64_t since_revision, Reply<TileUpdate> reply) = 0;
   virtual void get_grid(Reply<GridReport> reply) = 0;
+  /// Of the present map, by rising id: the running or last mission's, and the newest of those before it.
   virtual void get_detections(Reply<std::vector<Detection>> reply) = 0;
   /// Poses of the robot since it was started or a map was loaded, thinned, in the frame `map` as it was then: a loop
   /// closure moves later poses only.

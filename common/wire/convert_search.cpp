@@ -138,6 +138,8 @@ void write(const api::Detection& from, pb::Detection* to) {
   to->set_range_source(static_cast<pb::RangeSource>(wire_enum(from.range_source)));
   to->set_sightings(static_cast<std::uint32_t>(from.sightings));
   to->set_map_epoch(from.map_epoch);
+  to->set_mission(clean_text(from.mission, kMaxNameBytes));
+  to->set_withdrawn(from.withdrawn);
 }
 
 void read(const pb::Detection& from, api::Detection& to, Check& check) {
@@ -163,6 +165,8 @@ void read(const pb::Detection& from, api::Detection& to, Check& check) {
   check.enumerator("range_source", from.range_source(), api::RangeSource::kFloor, to.range_source);
   to.sightings = check.natural("sightings", from.sightings());
   to.map_epoch = from.map_epoch();
+  to.mission = check.text("mission", from.mission(), kMaxNameBytes);
+  to.withdrawn = from.withdrawn();
 }
 
 void write(const api::GridReport& from, pb::GridReport* to) {

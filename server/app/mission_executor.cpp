@@ -2,11 +2,16 @@
 
 #include <algorithm>
 
-#include "common/api/fleet.hpp"
 #include "common/core/assert.hpp"
 #include "server/app/estimator.hpp"
 
 namespace seeker::app {
+namespace {
+
+/// What earlier missions have found and is still listed: more than anybody reads, and far less than a list may hold.
+constexpr std::size_t kMaxEarlierDetections = 1000;
+
+}  // namespace
 
 MissionExecutor::MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs)
     : params_(params), factory_(std::move(factory)), outputs_(std::move(outputs)) {}
@@ -43,6 +48,9 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.pose = situation.pose.map_T_base;
   active.map_epoch = situation.pose.map_epoch;
   active_ = std::move(active);
+  if (detections_.size() > kMaxEarlierDetections) {
+    detections_.erase(detections_.begin(), detections_.end() - kMaxEarlierDetections);
+  }
   event_sequence_ = 0;
   log(situation.now, "mission-started", active_->status.kind + " started");
   report(situation.now);
@@ -247,79 +255,6 @@ void MissionExecutor::on_look(const Result<StereoLook>& look) {
   if (active_) {
     active_->behaviour->on_look(look);
   }
-}
-
-void MissionExecutor::map_moved(const MapMove& move, RobotTime now) {
-  if (active_) {
-    active_->behaviour->map_moved(move.new_T_old);
-    active_->last_pose.reset();
-    active_->pose = move.new_T_old * active_->pose;
-    active_->map_epoch = move.to_epoch;
-    if (move.new_T_old != Pose2{}) {
-      log(now, "map-moved", "the map was corrected; what was searched and found moved with it");
-    }
-    collect_detections();  // moved by the behaviour, which knows best how
-  }
-  for (api::Detection& detection : detections_) {
-    if (detection.map_epoch == move.from_epoch) {
-      detection = api::moved(std::move(detection), move.new_T_old);
-      detection.map_epoch = move.to_epoch;
-    }
-  }
-  if (searched_ && searched_epoch_ == move.from_epoch) {
-    searched_->map_T_grid = move.new_T_old * searched_->map_T_grid;
-    searched_epoch_ = move.to_epoch;
-  }
-}
-
-void MissionExecutor::collect() {
-  collect_grid();
-  collect_detections();
-}
-
-void MissionExecutor::collect_grid() {
-  if (std::optional<api::GridReport> grid = active_->behaviour->grid()) {
-    active_->status.cells_searched = static_cast<int>(grid->lists.searched.size());
-    active_->status.cells_unsearched = static_cast<int>(grid->lists.unsearched.size());
-    active_->status.coverage = grid->evidence.summary;
-    grid->map_epoch = grid->evidence.map_epoch = active_->map_epoch;
-    grid_ = std::move(grid);
-  }
-}
-
-void MissionExecutor::collect_detections() {
-  for (api::Detection& detection : active_->behaviour->detections()) {
-    detection.id += active_->detection_base;
-    detection.map_epoch = active_->map_epoch;
-    const auto known = std::find_if(detections_.begin(), detections_.end(),
-                                    [&](const api::Detection& d) { return d.id == detection.id; });
-    if (known != detections_.end() && *known == detection) {
-      continue;
-    }
-    if (known == detections_.end()) {
-      detections_.push_back(detection);
-    } else {
-      *known = detection;
-    }
-    highest_detection_id_ = std::max(highest_detection_id_, detection.id);
-    outputs_.detection(detection);
-  }
-}
-
-void MissionExecutor::keep_searched() {
-  if (auto searched = active_->behaviour->searched(active_->pose.translation(), api::kMaxFleetSearchedSide_cells)) {
-    searched_ = std::move(searched);
-    searched_epoch_ = active_->map_epoch;
-  }
-}
-
-std::optional<SearchedFloor> MissionExecutor::searched(const PoseEstimate& at) const {
-  auto now = active_ ? active_->behaviour->searched(at.map_T_base.translation(), api::kMaxFleetSearchedSide_cells)
-                     : std::nullopt;
-  if (!now && searched_epoch_ == at.map_epoch) {
-    return searched_;
-  }
-  return now;
 }
 
 void MissionExecutor::client_lost(const std::string& client, WallTime wall_now) {

@@ -31,7 +31,7 @@ using BehaviourFactory = std::function<Result<std::unique_ptr<Behaviour>>(const 
 struct MissionOutputs {
   std::function<void(const api::Event&)> event;
   std::function<void(const api::MissionStatus&)> status;
-  std::function<void(const api::Detection&)> detection;
+  std::function<void(const api::Detection&)> detection;  ///< new, refined, or withdrawn
 };
 
 /// A correction of the map that is in use.
@@ -68,6 +68,9 @@ class MissionExecutor {
   void client_lost(const std::string& client, WallTime wall_now);
   void client_back(const std::string& client);
 
+  /// Another map takes the place of the present one: what was found and searched in that is no part of it.
+  void forget_places();
+
   [[nodiscard]] bool running() const { return active_ && active_->status.state == api::MissionState::kRunning; }
   [[nodiscard]] bool present() const { return active_.has_value(); }
   /// What the running mission was asked for; null when none runs.
@@ -75,6 +78,7 @@ class MissionExecutor {
   /// The running mission or the last one.
   [[nodiscard]] const std::optional<api::MissionStatus>& last() const { return last_; }
   [[nodiscard]] const std::optional<api::GridReport>& grid() const { return grid_; }
+  /// Of the mission that runs or ran last, and the newest of those before; by rising id.
   [[nodiscard]] const std::vector<api::Detection>& detections() const { return detections_; }
   /// What the running search has searched, or the last one of this map epoch; see Behaviour::searched().
   [[nodiscard]] std::optional<SearchedFloor> searched(const PoseEstimate& at) const;
@@ -109,6 +113,8 @@ class MissionExecutor {
   void collect();
   void collect_grid();
   void collect_detections();
+  void take(api::Detection detection);
+  void withdraw_all_but(const std::vector<api::Detection>& told);
   void keep_searched();
   void report(RobotTime now);
   void log(RobotTime now, const std::string& kind, const std::string& text,

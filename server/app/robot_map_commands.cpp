@@ -61,6 +61,7 @@ void RobotLoop::forget_places() {
   trajectory_.clear();
   own_topology_ = {};
   fleet_.reset();
+  missions_.forget_places();
   if (parts_.forget_places) {
     parts_.forget_places();
   }

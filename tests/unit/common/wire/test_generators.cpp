@@ -64,6 +64,8 @@ api::Detection ValueMaker::detection() {
   d.range_source = one_of(api::RangeSource::kFloor);
   d.sightings = count(50);
   d.map_epoch = static_cast<std::uint32_t>(count(9));
+  d.mission = text();
+  d.withdrawn = flag();
   return d;
 }
 

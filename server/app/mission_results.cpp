@@ -1,0 +1,111 @@
+// What missions find and search: told as it grows, moved with the map, forgotten with it.
+
+#include <algorithm>
+
+#include "common/api/fleet.hpp"
+#include "server/app/mission_executor.hpp"
+
+namespace seeker::app {
+
+void MissionExecutor::map_moved(const MapMove& move, RobotTime now) {
+  if (active_) {
+    active_->behaviour->map_moved(move.new_T_old);
+    active_->last_pose.reset();
+    active_->pose = move.new_T_old * active_->pose;
+    active_->map_epoch = move.to_epoch;
+    if (move.new_T_old != Pose2{}) {
+      log(now, "map-moved", "the map was corrected; what was searched and found moved with it");
+    }
+    collect_detections();  // moved by the behaviour, which knows best how
+  }
+  for (api::Detection& detection : detections_) {
+    if (detection.map_epoch == move.from_epoch) {
+      detection = api::moved(std::move(detection), move.new_T_old);
+      detection.map_epoch = move.to_epoch;
+    }
+  }
+  if (searched_ && searched_epoch_ == move.from_epoch) {
+    searched_->map_T_grid = move.new_T_old * searched_->map_T_grid;
+    searched_epoch_ = move.to_epoch;
+  }
+}
+
+void MissionExecutor::collect() {
+  collect_grid();
+  collect_detections();
+}
+
+void MissionExecutor::collect_grid() {
+  if (std::optional<api::GridReport> grid = active_->behaviour->grid()) {
+    active_->status.cells_searched = static_cast<int>(grid->lists.searched.size());
+    active_->status.cells_unsearched = static_cast<int>(grid->lists.unsearched.size());
+    active_->status.coverage = grid->evidence.summary;
+    grid->map_epoch = grid->evidence.map_epoch = active_->map_epoch;
+    grid_ = std::move(grid);
+  }
+}
+
+void MissionExecutor::collect_detections() {
+  std::vector<api::Detection> told = active_->behaviour->detections();
+  for (api::Detection& detection : told) {
+    detection.id += active_->detection_base;
+    detection.map_epoch = active_->map_epoch;
+    detection.mission = active_->request.id;
+    take(detection);
+  }
+  withdraw_all_but(told);
+}
+
+void MissionExecutor::take(api::Detection detection) {
+  const auto known = std::lower_bound(detections_.begin(), detections_.end(), detection.id,
+                                      [](const api::Detection& d, std::uint64_t id) { return d.id < id; });
+  const bool is_known = known != detections_.end() && known->id == detection.id;
+  if (is_known && *known == detection) {
+    return;
+  }
+  highest_detection_id_ = std::max(highest_detection_id_, detection.id);
+  outputs_.detection(detection);
+  if (is_known) {
+    *known = std::move(detection);
+  } else {
+    detections_.insert(known, std::move(detection));
+  }
+}
+
+/// What the behaviour has told and tells no more it has refuted: from near, it is not there.
+void MissionExecutor::withdraw_all_but(const std::vector<api::Detection>& told) {
+  const auto is_refuted = [&](const api::Detection& listed) {
+    return listed.id > active_->detection_base &&
+           std::none_of(told.begin(), told.end(), [&](const api::Detection& d) { return d.id == listed.id; });
+  };
+  for (api::Detection detection : detections_) {
+    if (is_refuted(detection)) {
+      detection.withdrawn = true;
+      outputs_.detection(detection);
+    }
+  }
+  std::erase_if(detections_, is_refuted);
+}
+
+void MissionExecutor::forget_places() {
+  detections_.clear();
+  searched_.reset();
+}
+
+void MissionExecutor::keep_searched() {
+  if (auto searched = active_->behaviour->searched(active_->pose.translation(), api::kMaxFleetSearchedSide_cells)) {
+    searched_ = std::move(searched);
+    searched_epoch_ = active_->map_epoch;
+  }
+}
+
+std::optional<SearchedFloor> MissionExecutor::searched(const PoseEstimate& at) const {
+  auto now = active_ ? active_->behaviour->searched(at.map_T_base.translation(), api::kMaxFleetSearchedSide_cells)
+                     : std::nullopt;
+  if (!now && searched_epoch_ == at.map_epoch) {
+    return searched_;
+  }
+  return now;
+}
+
+}  // namespace seeker::app
