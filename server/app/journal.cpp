@@ -33,6 +33,13 @@ std::optional<api::MissionRequest> parse_request(const store::Blob& blob) {
   return request;
 }
 
+/// Of a mission that nobody goes on with.
+Status close_cut_off(store::Store& store, const store::MissionRecord& mission) {
+  return store.end_mission(
+      mission.id,
+      {.ended_ns = mission.started_ns, .outcome = "FAULT", .cause = "the program was killed", .remedy = ""});
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Journal>> Journal::open(const std::filesystem::path& folder) {
@@ -46,7 +53,7 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::filesystem::path& fold
     return tl::unexpected<Error>(highest.error());
   }
   journal->highest_detection_id_ = *highest;
-  journal->close_unfinished();
+  journal->find_unfinished();
   journal->thread_ = std::thread([raw = journal.get()] { raw->work(); });
   return journal;
 }
@@ -64,17 +71,18 @@ Journal::~Journal() {
   }
 }
 
-void Journal::close_unfinished() {
-  const Result<std::optional<store::UnfinishedMission>> found = store_.unfinished_mission();
+void Journal::find_unfinished() {
+  Result<std::optional<store::UnfinishedMission>> found = store_.unfinished_mission();
   if (!found || !found->has_value()) {
     return;
   }
-  const store::MissionRecord& mission = (*found)->mission;
+  store::MissionRecord& mission = (*found)->mission;
   unfinished_ = parse_request(mission.request);
-  // Its record is closed either way: a resumed mission begins a record of its own.
-  static_cast<void>(store_.end_mission(
-      mission.id,
-      {.ended_ns = mission.started_ns, .outcome = "FAULT", .cause = "the program was killed", .remedy = ""}));
+  if (unfinished_) {
+    open_ = std::move(mission);
+  } else {
+    static_cast<void>(close_cut_off(store_, mission));  // a request that cannot be read will never be resumed
+  }
 }
 
 void Journal::set_on_error(std::function<void(const Error&)> on_error) {
@@ -100,6 +108,11 @@ void Journal::enqueue(Write write) {
 }
 
 void Journal::mission_started(const api::MissionRequest& request, RobotTime now) {
+  const std::optional<store::MissionRecord> cut_off = std::exchange(open_, std::nullopt);
+  if (cut_off && cut_off->id != request.id) {
+    enqueue([record = *cut_off](store::Store& store) { return close_cut_off(store, record); });
+  }
+  // A mission that is resumed takes the place of its own record.
   enqueue([request, now](store::Store& store) {
     wire::pb::MissionRequest message;
     wire::write(request, &message);

@@ -29,7 +29,8 @@ class Journal {
   /// Writes what is waiting, then ends the thread.
   ~Journal();
 
-  /// The mission that was running when the program was killed; nothing after an orderly end.
+  /// The mission that was running when a program was killed; nothing after an orderly end. Its record stays open until
+  /// it is resumed or another mission begins, over any number of restarts.
   [[nodiscard]] const std::optional<api::MissionRequest>& unfinished() const { return unfinished_; }
   [[nodiscard]] std::uint64_t highest_detection_id() const { return highest_detection_id_; }
 
@@ -47,10 +48,11 @@ class Journal {
   explicit Journal(store::Store store);
   void enqueue(Write write);
   void work();
-  void close_unfinished();
+  void find_unfinished();
 
   store::Store store_;
   std::optional<api::MissionRequest> unfinished_;
+  std::optional<store::MissionRecord> open_;  ///< of unfinished_, until a mission begins
   std::uint64_t highest_detection_id_ = 0;
   mutable std::mutex mutex_;
   std::condition_variable wake_;

@@ -79,6 +79,11 @@ TEST(ExploreProcesses, ExplorationGoesOnInItsMapAfterTheServerWasKilled) {
     daemon.process->send(SIGKILL);
     EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
   }
+  {
+    Daemon idle({}, folder);
+    idle.process->send(SIGKILL);
+    EXPECT_EQ(idle.process->wait(seconds(10)), 128 + SIGKILL) << "before anybody has resumed it";
+  }
   const Daemon again({}, folder);
   Watcher watcher(again);
   std::string output;

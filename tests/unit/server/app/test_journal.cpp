@@ -1,0 +1,58 @@
+#include "server/app/journal.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/server/store/temporary_folder.hpp"
+
+namespace seeker::app {
+namespace {
+
+api::MissionRequest exploration(const std::string& id) {
+  api::MissionRequest request;
+  request.id = id;
+  request.task = api::ExploreMission{};
+  return request;
+}
+
+/// The id that a program which is started now could resume. It is killed at once.
+std::string unfinished_in(const std::filesystem::path& folder) {
+  const auto journal = Journal::open(folder).value();
+  return journal->unfinished() ? journal->unfinished()->id : "";
+}
+
+std::optional<store::MissionEndRecord> end_of(const std::filesystem::path& folder, const std::string& id) {
+  return store::Store::open(folder)->mission(id).value().value().end;
+}
+
+TEST(Journal, MissionThatWasCutOffIsOfferedUntilItIsResumedOverAnyNumberOfKills) {
+  const testing::TemporaryFolder folder;
+  Journal::open(folder.path()).value()->mission_started(exploration("round"), RobotTime{});
+  EXPECT_EQ(unfinished_in(folder.path()), "round");
+  EXPECT_EQ(unfinished_in(folder.path()), "round") << "killed again before anybody has resumed it";
+  EXPECT_FALSE(end_of(folder.path(), "round"));
+  Journal::open(folder.path()).value()->mission_started(exploration("round"), RobotTime{});
+  EXPECT_EQ(unfinished_in(folder.path()), "round") << "and after it was resumed";
+  api::MissionStatus status;
+  status.id = "round";
+  status.end = api::MissionEnd{api::Outcome::kComplete, "all is mapped", "", {}};
+  {
+    const auto journal = Journal::open(folder.path()).value();
+    journal->mission_started(exploration("round"), RobotTime{});
+    journal->mission(status);
+  }
+  EXPECT_EQ(unfinished_in(folder.path()), "");
+  EXPECT_EQ(end_of(folder.path(), "round")->outcome, "COMPLETE");
+}
+
+TEST(Journal, AnotherMissionClosesTheRecordOfTheOneThatWasCutOff) {
+  const testing::TemporaryFolder folder;
+  Journal::open(folder.path()).value()->mission_started(exploration("round"), RobotTime{});
+  EXPECT_EQ(unfinished_in(folder.path()), "round");
+  Journal::open(folder.path()).value()->mission_started(exploration("another"), RobotTime{});
+  EXPECT_EQ(end_of(folder.path(), "round")->outcome, "FAULT");
+  EXPECT_EQ(end_of(folder.path(), "round")->cause, "the program was killed");
+  EXPECT_EQ(unfinished_in(folder.path()), "another");
+}
+
+}  // namespace
+}  // namespace seeker::app
