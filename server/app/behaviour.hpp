@@ -32,11 +32,12 @@ struct Situation {
   const slam::MapTracker* tracker = nullptr;  ///< keeper of the map of segments; null: the estimator keeps none
   bool map_is_read_only = false;              ///< the robot only localises in the map of segments
   std::optional<double> battery_v;
-  Pose2 odom_T_base;                 ///< by dead reckoning: goes on where the pose is not known
-  std::string map_name;              ///< under which the map of segments was saved or loaded; empty: neither
-  bool has_stereo = false;           ///< there is a stereo camera to look with
-  const FleetView* fleet = nullptr;  ///< other robots, frame `map`; null: the robot is alone
-  std::vector<nav::Mover> movers;    ///< other robots where they are now, frame `map`
+  Pose2 odom_T_base;                  ///< by dead reckoning: goes on where the pose is not known
+  std::string map_name;               ///< under which the map of segments was saved or loaded; empty: neither
+  bool has_stereo = false;            ///< there is a stereo camera to look with
+  const FleetView* fleet = nullptr;   ///< other robots, frame `map`; null: the robot is alone
+  std::vector<nav::Mover> movers;     ///< other robots where they are now, frame `map`
+  std::optional<Duration> time_left;  ///< of the mission's limit; nothing: it has none
 };
 
 /// A line for the mission's log, without stamps: the executor adds them.
@@ -97,6 +98,8 @@ class Behaviour {
   /// What it goes on from when the program is cut off, and what it is told then before its first step.
   [[nodiscard]] virtual std::optional<TopologyMemory> memory() const { return std::nullopt; }
   virtual void remember(const TopologyMemory& /*memory*/) {}
+  /// Where the mission began, when that is not where the robot makes its first step. Before that.
+  virtual void remember_start(const Point2& /*start_map*/) {}
   /// What it has searched itself, within a square of so many cells around a point, as other robots are told.
   [[nodiscard]] virtual std::optional<SearchedFloor> searched(const Point2& /*middle_map*/, int /*side_cells*/) const {
     return std::nullopt;

@@ -6,21 +6,31 @@
 
 #include "common/api/mission.hpp"
 #include "common/core/topology.hpp"
+#include "server/app/mission_executor.hpp"
 #include "server/app/robot_map.hpp"
 
 namespace seeker::app {
+
+/// Where the robot is, and how far its mission has come.
+struct MissionPlace {
+  Pose2 map_T_base;
+  MissionSoFar so_far;
+
+  friend bool operator==(const MissionPlace&, const MissionPlace&) = default;
+};
 
 /// One moment: what the mission knows belongs to this state of the map.
 struct Checkpoint {
   LoopMap map;
   std::optional<TopologyMemory> topology;  ///< of an exploration by topology
-  Pose2 map_T_base;                        ///< where the robot was
+  MissionPlace place;
 };
 
 /// What there is besides the map.
 struct KeptState {
   std::optional<Pose2> map_T_base;         ///< where the robot was last, kept more often than the map
   std::optional<TopologyMemory> topology;  ///< nothing where it belongs to another state of the map
+  MissionSoFar so_far = {};                ///< kept with map_T_base
 };
 
 }  // namespace seeker::app

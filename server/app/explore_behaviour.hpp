@@ -40,6 +40,7 @@ class ExploreBehaviour final : public Behaviour {
   [[nodiscard]] std::optional<Point2> target_map() const override { return exploration_.strategy().target_map(); }
   [[nodiscard]] std::optional<TopologyMemory> memory() const override { return exploration_.strategy().memory(); }
   void remember(const TopologyMemory& memory) override { exploration_.remember(memory); }
+  void remember_start(const Point2& start_map) override { exploration_.remember_start(start_map); }
 
  private:
   ExploreBehaviour(explore::Exploration exploration, Duration segments_period)

@@ -1,5 +1,7 @@
 #include "server/app/kept_files.hpp"
 
+#include <algorithm>
+
 #include "common/wire/convert.hpp"
 #include "common/wire/convert_fleet.hpp"
 #include "seeker/v1/kept.pb.h"
@@ -21,10 +23,22 @@ fs::path path_of(const fs::path& folder, const api::MissionId& mission, const st
   return folder / (mission + "." + kind);
 }
 
-Result<Pose2> read_place(const fs::path& path) {
+Result<MissionPlace> read_place(const fs::path& path) {
   const auto message = read_kept_message<v1::KeptPlace>(path, kPlaceKind, kMaxFileBytes);
-  return message ? wire::from_message<Pose2>(message->map_t_base())
-                 : Result<Pose2>(tl::unexpected<Error>(message.error()));
+  if (!message) {
+    return tl::unexpected<Error>(message.error());
+  }
+  const Result<Pose2> map_T_base = wire::from_message<Pose2>(message->map_t_base());
+  const Result<Point2> start_map = wire::from_message<Point2>(message->start_map());
+  if (!map_T_base || !start_map) {
+    return tl::unexpected<Error>(!map_T_base ? map_T_base.error() : start_map.error());
+  }
+  MissionPlace place{*map_T_base, {}};
+  if (message->has_start_map()) {
+    place.so_far.start_map = *start_map;
+  }
+  place.so_far.running = std::max(Duration(message->running_ns()), Duration::zero());
+  return place;
 }
 
 /// Nothing where it belongs to another state of the map.
@@ -54,9 +68,13 @@ void note(const Error& error, std::string& trouble) {
 
 }  // namespace
 
-Status keep_place(const fs::path& folder, const api::MissionId& mission, const Pose2& map_T_base) {
+Status keep_place(const fs::path& folder, const api::MissionId& mission, const MissionPlace& place) {
   v1::KeptPlace message;
-  wire::write(map_T_base, message.mutable_map_t_base());
+  wire::write(place.map_T_base, message.mutable_map_t_base());
+  if (place.so_far.start_map) {
+    wire::write(*place.so_far.start_map, message.mutable_start_map());
+  }
+  message.set_running_ns(place.so_far.running.count());
   // Every second: one that waited for a busy disk would be of a place the robot has left long ago.
   return store::write_sealed_file(path_of(folder, mission, kPlaceKind), kPlaceKind, message.SerializeAsString(),
                                   store::Outlives::kItsProgram);
@@ -78,8 +96,9 @@ Status keep_topology(const fs::path& folder, const api::MissionId& mission, cons
 KeptState read_kept(const fs::path& folder, const api::MissionId& mission, std::uint32_t map_epoch,
                     std::string& trouble) {
   KeptState kept;
-  if (const Result<Pose2> place = read_place(path_of(folder, mission, kPlaceKind))) {
-    kept.map_T_base = *place;
+  if (const Result<MissionPlace> place = read_place(path_of(folder, mission, kPlaceKind))) {
+    kept.map_T_base = place->map_T_base;
+    kept.so_far = place->so_far;
   } else {
     note(place.error(), trouble);
   }

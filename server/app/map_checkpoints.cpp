@@ -24,7 +24,7 @@ void MapService::write_checkpoint(const api::MissionId& mission, Checkpoint chec
   };
   const Status ok = enqueue([this, mission, shared, answer](const store::MapFiles& /*files*/) {
     // First, so that no map is without one; a full disk is told with the map.
-    static_cast<void>(keep_place(checkpoint_folder(), mission, shared->map_T_base));
+    static_cast<void>(keep_place(checkpoint_folder(), mission, shared->place));
     const Result<store::MapListing> written = checkpoints_.write(file_of(shared->map, mission), true);
     Status kept = written ? Status() : Status(tl::unexpected<Error>(written.error()));
     // After the map: what is remembered of an older one is less, and never of places that the map does not have.
@@ -38,10 +38,10 @@ void MapService::write_checkpoint(const api::MissionId& mission, Checkpoint chec
   }
 }
 
-void MapService::write_place(const api::MissionId& mission, const Pose2& map_T_base) {
+void MapService::write_place(const api::MissionId& mission, const MissionPlace& place) {
   const auto answer = [this] { static_cast<void>(mailbox_.post([this] { loop_.place_written(); })); };
-  const Status ok = enqueue([this, mission, map_T_base, answer](const store::MapFiles& /*files*/) {
-    static_cast<void>(keep_place(checkpoint_folder(), mission, map_T_base));  // a full disk is told with the map
+  const Status ok = enqueue([this, mission, place, answer](const store::MapFiles& /*files*/) {
+    static_cast<void>(keep_place(checkpoint_folder(), mission, place));  // a full disk is told with the map
     answer();
   });
   if (!ok) {
@@ -80,13 +80,13 @@ void MapService::drop_checkpoints() {
   }));
 }
 
-void MapService::resume_mission(const api::Reply<void>& reply) {
-  const bool posted = mailbox_.post([this, reply] {
+void MapService::resume_mission(const std::string& client, const api::Reply<void>& reply) {
+  const bool posted = mailbox_.post([this, client, reply] {
     const std::optional<api::MissionId> mission = loop_.checkpoint_to_resume();
     if (mission && !storage_.folder.empty()) {
-      resume_from(*mission, reply);
+      resume_from(*mission, client, reply);
     } else {
-      reply(loop_.command_mission(api::MissionCommand::kResume));
+      reply(loop_.command_mission(api::MissionCommand::kResume, client));
     }
   });
   if (!posted) {
@@ -94,8 +94,8 @@ void MapService::resume_mission(const api::Reply<void>& reply) {
   }
 }
 
-void MapService::resume_from(const api::MissionId& mission, const api::Reply<void>& reply) {
-  const Status ok = enqueue([this, mission, reply](const store::MapFiles& /*files*/) {
+void MapService::resume_from(const api::MissionId& mission, const std::string& client, const api::Reply<void>& reply) {
+  const Status ok = enqueue([this, mission, client, reply](const store::MapFiles& /*files*/) {
     Result<store::MapFile> file = checkpoints_.read(mission);
     const MapIdentity identity{"", file ? file->origin.created_unix_s : 0, api::MapUse::kContinue};
     std::string trouble;
@@ -106,8 +106,8 @@ void MapService::resume_from(const api::MissionId& mission, const api::Reply<voi
     }
     const auto map = std::make_shared<const Result<LineMap>>(
         file ? Result<LineMap>(std::move(file->map)) : Result<LineMap>(tl::unexpected<Error>(file.error())));
-    const bool posted =
-        mailbox_.post([this, map, identity, kept, reply] { reply(loop_.resume_in_map(*map, identity, kept)); });
+    const bool posted = mailbox_.post(
+        [this, map, identity, client, kept, reply] { reply(loop_.resume_in_map(*map, identity, client, kept)); });
     if (!posted) {
       reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
     }

@@ -40,11 +40,11 @@ class MapService {
   void upload(const api::MapUpload& upload, const api::Reply<api::MapSummary>& reply);
 
   /// Goes on with a paused mission, or with one that a crash cut off: in the map it had built, where that was kept.
-  void resume_mission(const api::Reply<void>& reply);
+  void resume_mission(const std::string& client, const api::Reply<void>& reply);
   /// Keeps the map of a running mission; the loop gets the answer. From the loop's thread.
   void write_checkpoint(const api::MissionId& mission, Checkpoint checkpoint);
   /// Keeps where the robot is in it; the loop is told when that is done.
-  void write_place(const api::MissionId& mission, const Pose2& map_T_base);
+  void write_place(const api::MissionId& mission, const MissionPlace& place);
   /// Saves the map of a mission that did not go on in it under a name of its own.
   void set_checkpoint_aside(const api::MissionId& mission);
   void drop_checkpoints();
@@ -62,7 +62,7 @@ class MapService {
   [[nodiscard]] std::filesystem::path checkpoint_folder() const {
     return storage_.folder / "checkpoints" / storage_.robot_id;
   }
-  void resume_from(const api::MissionId& mission, const api::Reply<void>& reply);
+  void resume_from(const api::MissionId& mission, const std::string& client, const api::Reply<void>& reply);
 
   MapStorage storage_;
   RobotLoop& loop_;

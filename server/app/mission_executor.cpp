@@ -17,7 +17,7 @@ MissionExecutor::MissionExecutor(const MissionParams& params, BehaviourFactory f
     : params_(params), factory_(std::move(factory)), outputs_(std::move(outputs)) {}
 
 Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request, const std::string& owner,
-                                              const Situation& situation) {
+                                              const Situation& situation, const MissionSoFar& so_far) {
   if (const Status ok = api::validate(request); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
@@ -42,10 +42,15 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.status.id = request.id;
   active.status.kind = api::task_name(request.task);
   active.status.phase = "start";
-  active.status.started = situation.now;
+  active.status.started = situation.now - so_far.running;
   active.status.link_policy = request.link_policy;
   active.detection_base = highest_detection_id_;
   active.pose = situation.pose.map_T_base;
+  active.so_far = so_far;
+  if (so_far.start_map) {
+    active.behaviour->remember_start(*so_far.start_map);
+  }
+  active.ran_at = situation.now;
   active.map_epoch = situation.pose.map_epoch;
   active_ = std::move(active);
   if (detections_.size() > kMaxEarlierDetections) {
@@ -91,6 +96,7 @@ Status MissionExecutor::command(api::MissionCommand command, RobotTime now) {
 void MissionExecutor::pause(RobotTime now, const std::string& why) {
   if (running()) {
     active_->status.state = api::MissionState::kPaused;
+    active_->ran_at.reset();
     active_->status.activity = why;
     log(now, "mission-paused", why);
     report(now);
@@ -121,6 +127,7 @@ void MissionExecutor::finish(const api::MissionEnd& end, RobotTime now) {
 
 Decision MissionExecutor::held(const Situation& situation, const std::string& activity) {
   Decision decision;
+  active_->ran_at.reset();
   decision.phase = active_->status.phase;
   if (active_->status.activity != activity) {
     active_->status.activity = activity;
@@ -196,18 +203,36 @@ Decision MissionExecutor::step(const Situation& situation, const api::Fault* blo
   if (!active_ || !running()) {
     return {};
   }
-  if (active_->request.time_limit && situation.now - active_->status.started > *active_->request.time_limit) {
-    end(api::Outcome::kTimeLimit, "the time limit of the mission has passed", "give it more with --time-limit",
-        situation.now);
-    return {};
-  }
   if (hold_for_trouble(situation, blocking)) {
     return active_ ? held(situation, "waiting: " + (blocking != nullptr ? blocking->message : situation.pose.cause))
                    : Decision{};
   }
-  Decision decision = active_->behaviour->step(situation);
+  count_time(situation.now);
+  active_->so_far.start_map = active_->so_far.start_map.value_or(situation.pose.map_T_base.translation());
+  Situation here = situation;
+  here.time_left = time_left();
+  if (here.time_left && *here.time_left < Duration::zero()) {
+    end(api::Outcome::kTimeLimit, "the time limit of the mission has passed", "give it more with --time-limit",
+        situation.now);
+    return {};
+  }
+  Decision decision = active_->behaviour->step(here);
   take(decision, situation);
   return decision;
+}
+
+void MissionExecutor::count_time(RobotTime now) {
+  active_->so_far.running += active_->ran_at ? now - *active_->ran_at : Duration{0};
+  active_->ran_at = now;
+}
+
+std::optional<Duration> MissionExecutor::time_left() const {
+  const std::optional<Duration>& limit = active_->request.time_limit;
+  return limit ? std::optional(*limit - active_->so_far.running) : std::nullopt;
+}
+
+std::optional<MissionSoFar> MissionExecutor::so_far() const {
+  return active_ ? std::optional(active_->so_far) : std::nullopt;
 }
 
 void MissionExecutor::take(const Decision& decision, const Situation& situation) {

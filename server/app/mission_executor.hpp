@@ -41,13 +41,22 @@ struct MapMove {
   std::uint32_t to_epoch = 0;    ///< of the map now
 };
 
+/// How far a mission has come: what one that was cut off goes on from.
+struct MissionSoFar {
+  std::optional<Point2> start_map;  ///< where it began; nothing: it begins where the robot is
+  Duration running{0};              ///< robot time in which it ran: neither paused nor held
+
+  friend bool operator==(const MissionSoFar&, const MissionSoFar&) = default;
+};
+
 class MissionExecutor {
  public:
   MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs);
 
-  /// kBusy while another mission runs; the id of the running one is accepted again.
+  /// kBusy while another mission runs; the id of the running one is accepted again. `so_far` is of one that was cut
+  /// off.
   [[nodiscard]] Result<api::MissionId> start(const api::MissionRequest& request, const std::string& owner,
-                                             const Situation& situation);
+                                             const Situation& situation, const MissionSoFar& so_far = {});
   /// kNotReady when no mission runs or it is not in the state for the command.
   [[nodiscard]] Status command(api::MissionCommand command, RobotTime now);
   /// Ends a running mission; nothing otherwise.
@@ -73,6 +82,8 @@ class MissionExecutor {
 
   [[nodiscard]] bool running() const { return active_ && active_->status.state == api::MissionState::kRunning; }
   [[nodiscard]] bool present() const { return active_.has_value(); }
+  /// Of the mission that runs or is paused, places in the present map; nothing when there is none.
+  [[nodiscard]] std::optional<MissionSoFar> so_far() const;
   /// What the running mission was asked for; null when none runs.
   [[nodiscard]] const api::MissionRequest* request() const { return active_ ? &active_->request : nullptr; }
   /// The running mission or the last one.
@@ -92,6 +103,8 @@ class MissionExecutor {
     std::string owner;
     std::unique_ptr<Behaviour> behaviour;
     api::MissionStatus status;
+    MissionSoFar so_far;
+    std::optional<RobotTime> ran_at;   ///< the step before this one; none after a pause or while it is held
     std::uint64_t detection_base = 0;  ///< added to the behaviour's own ids, which count from 1
     std::optional<WallTime> lost_since;
     bool finish_step = false;
@@ -107,6 +120,8 @@ class MissionExecutor {
 
   [[nodiscard]] Decision held(const Situation& situation, const std::string& activity);
   [[nodiscard]] bool hold_for_trouble(const Situation& situation, const api::Fault* blocking);
+  void count_time(RobotTime now);
+  [[nodiscard]] std::optional<Duration> time_left() const;
   void apply_link_policy(const Situation& situation, WallTime wall_now);
   void take(const Decision& decision, const Situation& situation);
   void finish(const api::MissionEnd& end, RobotTime now);

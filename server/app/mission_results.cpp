@@ -12,6 +12,9 @@ void MissionExecutor::map_moved(const MapMove& move, RobotTime now) {
     active_->behaviour->map_moved(move.new_T_old);
     active_->last_pose.reset();
     active_->pose = move.new_T_old * active_->pose;
+    if (active_->so_far.start_map) {
+      active_->so_far.start_map = move.new_T_old * *active_->so_far.start_map;
+    }
     active_->map_epoch = move.to_epoch;
     if (move.new_T_old != Pose2{}) {
       log(now, "map-moved", "the map was corrected; what was searched and found moved with it");

@@ -48,10 +48,10 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     if (command == api::MissionCommand::kResume) {
-      robot_.maps_.resume_mission(reply);
+      robot_.maps_.resume_mission(client_, reply);
       return;
     }
-    ask(std::move(reply), [this, command] { return loop().command_mission(command); });
+    ask(std::move(reply), [this, command] { return loop().command_mission(command, client_); });
   }
   void get_mission(api::Reply<api::MissionStatus> reply) override {
     ask(std::move(reply), [this]() -> Result<api::MissionStatus> {
@@ -179,8 +179,8 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
     loop_.on_checkpoint = [this](const api::MissionId& mission, Checkpoint checkpoint) {
       maps_.write_checkpoint(mission, std::move(checkpoint));
     };
-    loop_.on_place = [this](const api::MissionId& mission, const Pose2& map_T_base) {
-      maps_.write_place(mission, map_T_base);
+    loop_.on_place = [this](const api::MissionId& mission, const MissionPlace& place) {
+      maps_.write_place(mission, place);
     };
     loop_.on_checkpoint_unused = [this](const api::MissionId& mission) { maps_.set_checkpoint_aside(mission); };
     loop_.on_checkpoints_void = [this] { maps_.drop_checkpoints(); };

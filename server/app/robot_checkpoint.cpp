@@ -47,7 +47,7 @@ void RobotLoop::keep_checkpoint() {
   checkpoint_map_T_base_ = pose_.map_T_base;
   checkpoint_revision_ = tracker->revision();
   checkpoint_waits_ = checkpoint_kept_ = true;
-  on_checkpoint(mission->id, {{tracker->map(), map_.identity()}, missions_.behaviour()->memory(), pose_.map_T_base});
+  on_checkpoint(mission->id, {{tracker->map(), map_.identity()}, missions_.behaviour()->memory(), mission_place()});
   place_at_ = now();
 }
 
@@ -58,7 +58,11 @@ void RobotLoop::keep_place(const api::MissionId& mission) {
   }
   place_at_ = now();
   place_waits_ = true;
-  on_place(mission, pose_.map_T_base);
+  on_place(mission, mission_place());
+}
+
+MissionPlace RobotLoop::mission_place() const {
+  return {pose_.map_T_base, missions_.so_far().value_or(MissionSoFar{})};
 }
 
 void RobotLoop::checkpoint_written(const Status& written) {
@@ -93,7 +97,8 @@ bool RobotLoop::map_waits_for_resume() const {
   return checkpoint_to_resume().has_value() && map_.identity().name.empty();
 }
 
-Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& identity, KeptState kept) {
+Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& identity, const std::string& client,
+                                KeptState kept) {
   if (authority_.estop()) {
     return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
   }
@@ -105,7 +110,8 @@ Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& i
     if (usable.error().code != Errc::kNotFound) {  // not found: cut off before there was one
       log("resume-without-map", usable.error().message, api::Severity::kWarning);
     }
-    return command_mission(api::MissionCommand::kResume);
+    kept_ = {.map_T_base = std::nullopt, .topology = std::nullopt, .so_far = {std::nullopt, kept.so_far.running}};
+    return command_mission(api::MissionCommand::kResume, client);
   }
   if (missions_.present()) {
     return may_change_map();
@@ -121,7 +127,8 @@ Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& i
       return ok;
     }
   }
-  memory_ = std::move(kept.topology);
+  kept_ = std::move(kept);
+  resuming_client_ = client;
   resuming_ = has_own_map_ = checkpoint_kept_ = true;
   resuming_at_ = now();
   looked_at_rad_.reset();
@@ -133,7 +140,8 @@ Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& i
 /// A robot that is not found at once turns once on the spot: what is in its map may lie behind it.
 Twist2 RobotLoop::look_round() {
   const bool soon = now() - resuming_at_ < params_.map.look_round_after;
-  const bool in_other_hands = !authority_.lease().owner.empty();
+  const std::string& owner = authority_.lease().owner;
+  const bool in_other_hands = !owner.empty() && owner != resuming_client_;
   if (soon || in_other_hands || !odometry_ || !map_.relocalising() || looked_round_rad_ >= kTwoPi) {
     return {};
   }
@@ -153,14 +161,11 @@ void RobotLoop::resume_when_found() {
     begin_map_anew();
   }
   const Result<api::MissionId> started = unfinished_
-                                             ? start_mission(api::MissionRequest(*unfinished_), "resumed")
+                                             ? start_mission(api::MissionRequest(*unfinished_), resuming_client_)
                                              : Result<api::MissionId>(fail(Errc::kNotReady, "no mission was cut off"));
   if (!started) {
     log("resume-failed", started.error().message, api::Severity::kError);
-  } else if (memory_) {
-    missions_.remember(*memory_);
   }
-  memory_.reset();
 }
 
 /// Better than a robot that is lost for good: the fleet, or an operator, may lay the two maps upon each other later.
@@ -174,7 +179,8 @@ void RobotLoop::begin_map_anew() {
     on_checkpoint_unused(unfinished_->id);
   }
   has_own_map_ = false;
-  memory_.reset();
+  kept_.topology.reset();
+  kept_.so_far.start_map.reset();
   map_.begin_anew();
   forget_places();
 }

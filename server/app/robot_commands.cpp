@@ -15,13 +15,17 @@ Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& reque
                                      (pose_.cause.empty() ? std::string() : " (" + pose_.cause + ")") +
                                      "; 'seeker relocalise --wait' looks for it, --at X,Y,DEG helps");
   }
-  Result<api::MissionId> id = missions_.start(request, client, situation());
+  const bool goes_on = unfinished_ && unfinished_->id == request.id;
+  Result<api::MissionId> id = missions_.start(request, client, situation(), goes_on ? kept_.so_far : MissionSoFar{});
   if (id) {
     authority_.arm();
-    if (!has_own_map_ || !unfinished_ || unfinished_->id != *id) {
+    if (!has_own_map_ || !goes_on) {
       drop_checkpoints();
+    } else if (kept_.topology) {
+      missions_.remember(*kept_.topology);
     }
     unfinished_.reset();
+    kept_ = {};
     checkpoint_at_ = now();
     checkpoint_map_T_base_ = pose_.map_T_base;
     if (on_mission_started) {
@@ -31,7 +35,7 @@ Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& reque
   return id;
 }
 
-Status RobotLoop::command_mission(api::MissionCommand command) {
+Status RobotLoop::command_mission(api::MissionCommand command, const std::string& client) {
   const bool resume = command == api::MissionCommand::kResume;
   if (resume && authority_.estop()) {
     return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
@@ -40,7 +44,7 @@ Status RobotLoop::command_mission(api::MissionCommand command) {
     return fail(Errc::kBusy, "the robot is looking for its place in the map it had; the mission goes on from there");
   }
   if (resume && !missions_.present() && unfinished_) {
-    const Result<api::MissionId> again = start_mission(api::MissionRequest(*unfinished_), "resumed");
+    const Result<api::MissionId> again = start_mission(api::MissionRequest(*unfinished_), client);
     return again ? Status() : Status(tl::unexpected<Error>(again.error()));
   }
   const Status done = missions_.command(command, now());

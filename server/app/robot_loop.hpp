@@ -101,7 +101,8 @@ class RobotLoop {
 
   // Commands of clients.
   [[nodiscard]] Result<api::MissionId> start_mission(const api::MissionRequest& request, const std::string& client);
-  [[nodiscard]] Status command_mission(api::MissionCommand command);
+  /// `client` becomes the owner of a mission that it has go on after a crash.
+  [[nodiscard]] Status command_mission(api::MissionCommand command, const std::string& client);
   void stop();
   void set_estop(bool engaged);
   [[nodiscard]] Result<api::LeaseState> command_lease(const std::string& client, api::LeaseAction action);
@@ -122,7 +123,8 @@ class RobotLoop {
   [[nodiscard]] std::optional<api::MissionId> checkpoint_to_resume() const;
   /// Loads the map of the cut-off mission and looks for the robot's place in it, first where it was last; then the
   /// mission goes on. Where there is no map to load, or the robot is not found in it, a new map is begun.
-  [[nodiscard]] Status resume_in_map(const Result<LineMap>& map, const MapIdentity& identity, KeptState kept = {});
+  [[nodiscard]] Status resume_in_map(const Result<LineMap>& map, const MapIdentity& identity, const std::string& client,
+                                     KeptState kept = {});
   /// The present map is not the robot's own yet: the one that its mission was building waits for `resume`.
   [[nodiscard]] bool map_waits_for_resume() const;
   /// The answer to on_checkpoint.
@@ -155,7 +157,7 @@ class RobotLoop {
   /// Keeps the map of a mission that is building it; answer with checkpoint_written().
   std::function<void(const api::MissionId&, Checkpoint)> on_checkpoint;
   /// Keeps where the robot is in that map; answer with place_written().
-  std::function<void(const api::MissionId&, const Pose2&)> on_place;
+  std::function<void(const api::MissionId&, const MissionPlace&)> on_place;
   /// The robot was not found in the map that is kept for a mission, which goes on without it.
   std::function<void(const api::MissionId&)> on_checkpoint_unused;
   /// No mission needs its checkpoint any more.
@@ -198,6 +200,7 @@ class RobotLoop {
   void keep_place(const api::MissionId& mission);
   void drop_checkpoints();
   void resume_when_found();
+  [[nodiscard]] MissionPlace mission_place() const;
   [[nodiscard]] Twist2 look_round();
   void begin_map_anew();
   void forget_places();
@@ -255,6 +258,7 @@ class RobotLoop {
   std::optional<api::MissionRequest> unfinished_;
   bool resuming_ = false;  ///< unfinished_ goes on when the robot has found its place in its map
   RobotTime resuming_at_;
+  std::string resuming_client_;
   std::optional<double> looked_at_rad_;  ///< heading by odometry while it turns to look round,
   double looked_round_rad_ = 0.0;        ///< and how far it has turned
   bool has_own_map_ = false;             ///< of unfinished_: it is loaded
@@ -265,7 +269,7 @@ class RobotLoop {
   std::optional<Pose2> checkpoint_map_T_base_;  ///< where the robot was then
   bool place_waits_ = false;                    ///< one is being written
   RobotTime place_at_;
-  std::optional<TopologyMemory> memory_;  ///< of unfinished_, in its map
+  KeptState kept_;  ///< of unfinished_, in its map; until it goes on
   std::vector<api::StampedPose> trajectory_;
   std::uint64_t event_sequence_ = 0;
   std::uint64_t published_revision_ = 0;

@@ -50,6 +50,8 @@ Status RobotLoop::load_map(const LineMap& map, const MapIdentity& identity) {
     return ok;
   }
   forget_places();
+  has_own_map_ = false;  // a mission that was cut off does not go on in this one,
+  kept_ = {};            // and what is known of it belongs to its own
   log("map-loaded", "map '" + identity.name + "' is loaded to " + std::string(api::to_string(identity.use)) +
                         "; the robot looks for its place in it");
   republish_ = true;

@@ -94,6 +94,8 @@ class Exploration {
   void transform(const Pose2& new_T_old);
   /// Before the first step: what the strategy knew when the program was cut off.
   void remember(const TopologyMemory& memory);
+  /// Before the first step: where it began before the program was cut off, frame `map`.
+  void remember_start(const Point2& start_map);
   /// The strategy, for what it tells of its topology; valid as long as the exploration is not moved.
   [[nodiscard]] const ExploreStrategy& strategy() const;
 

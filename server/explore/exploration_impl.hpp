@@ -29,6 +29,7 @@ class Exploration::Impl {
   void resume(RobotTime now);
   void transform(const Pose2& new_T_old);
   void remember(const TopologyMemory& memory) { strategy_->remember(memory); }
+  void remember_start(const Point2& start_map) { start_ = start_map; }
   [[nodiscard]] const ExploreStrategy& strategy() const { return *strategy_; }
 
  private:

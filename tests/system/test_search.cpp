@@ -103,11 +103,11 @@ TEST(SearchSystem, EstopHoldsTheMissionUntilItIsReleasedAndResumed) {
   robot.loop->set_estop(true);
   robot.ticks(30);
   EXPECT_NEAR(robot.simulation->truth().velocity.v_m_s, 0.0, 1e-3);
-  EXPECT_FALSE(robot.loop->command_mission(api::MissionCommand::kResume));
+  EXPECT_FALSE(robot.loop->command_mission(api::MissionCommand::kResume, "tester"));
   robot.loop->set_estop(false);
   robot.ticks(20);
   EXPECT_NEAR(robot.simulation->truth().velocity.v_m_s, 0.0, 1e-3) << "releasing alone must not move the robot";
-  ASSERT_TRUE(robot.loop->command_mission(api::MissionCommand::kResume));
+  ASSERT_TRUE(robot.loop->command_mission(api::MissionCommand::kResume, "tester"));
   const double before_m = robot.simulation->truth().path_length_m;
   robot.ticks(100);
   EXPECT_GT(robot.simulation->truth().path_length_m, before_m);

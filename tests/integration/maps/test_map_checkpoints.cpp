@@ -14,15 +14,26 @@
 namespace seeker::testing {
 namespace {
 
+/// What a mission was told of its life before a crash.
+struct Remembered {
+  std::optional<TopologyMemory> topology;
+  std::optional<Point2> start_map;
+  std::optional<Duration> time_left;
+};
+
 /// Stands still for ever.
 class Standing final : public app::Behaviour {
  public:
-  explicit Standing(std::optional<TopologyMemory>& remembered) : remembered_(remembered) {}
-  app::Decision step(const app::Situation& /*situation*/) override { return {}; }
-  void remember(const TopologyMemory& memory) override { remembered_ = memory; }
+  explicit Standing(Remembered& remembered) : remembered_(remembered) {}
+  app::Decision step(const app::Situation& situation) override {
+    remembered_.time_left = situation.time_left;
+    return {};
+  }
+  void remember(const TopologyMemory& memory) override { remembered_.topology = memory; }
+  void remember_start(const Point2& start_map) override { remembered_.start_map = start_map; }
 
  private:
-  std::optional<TopologyMemory>& remembered_;
+  Remembered& remembered_;
 };
 
 api::MissionRequest exploration() {
@@ -47,7 +58,10 @@ class MapCheckpoints : public ::testing::Test {
       kept.push_back(mission);
       EXPECT_EQ(checkpoint.map.map.segments.size(), state->map.segments.size());
     };
-    loop->on_place = [this](const api::MissionId& /*mission*/, const Pose2& /*map_T_base*/) { ++places; };
+    loop->on_place = [this](const api::MissionId& /*mission*/, const app::MissionPlace& place) {
+      ++places;
+      place_kept = place;
+    };
     loop->on_checkpoint_unused = [this](const api::MissionId& mission) { set_aside.push_back(mission); };
     loop->on_checkpoints_void = [this] { ++dropped; };
     loop->start();
@@ -71,8 +85,9 @@ class MapCheckpoints : public ::testing::Test {
   std::vector<api::Event> events;
   std::vector<api::MissionId> kept;
   std::vector<api::MissionId> set_aside;
-  std::optional<TopologyMemory> remembered;
+  Remembered remembered;
   int places = 0;
+  app::MissionPlace place_kept;
   int dropped = 0;
   app::WallTime wall;
 };
@@ -124,10 +139,10 @@ TEST_F(MapCheckpoints, MissionCutOffByACrashGoesOnWhereTheRobotIsFoundInItsMap) 
   EXPECT_FALSE(loop->checkpoint_to_resume());
   loop->offer_unfinished(exploration());
   ASSERT_EQ(loop->checkpoint_to_resume(), std::optional<api::MissionId>("look-round"));
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}));
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester"));
   EXPECT_FALSE(loop->idle());
   EXPECT_FALSE(loop->missions().present()) << "the robot does not know yet where it is";
-  EXPECT_EQ(loop->command_mission(api::MissionCommand::kResume).error().code, Errc::kBusy);
+  EXPECT_EQ(loop->command_mission(api::MissionCommand::kResume, "tester").error().code, Errc::kBusy);
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
   EXPECT_EQ(loop->missions().last()->id, "look-round");
@@ -142,7 +157,8 @@ TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSe
   loop->offer_unfinished(exploration());
   EXPECT_TRUE(loop->map_waits_for_resume());
   state->lost_because = "no scan fits";
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.0, 0.0}, TopologyMemory{}}));
+  ASSERT_TRUE(
+      loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, TopologyMemory{}, {Point2(5.0, 5.0), {}}}));
   EXPECT_FALSE(loop->map_waits_for_resume());
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
@@ -150,13 +166,14 @@ TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSe
   EXPECT_EQ(set_aside, (std::vector<api::MissionId>{"look-round"}));
   EXPECT_EQ(dropped, 1) << "the new map is kept under the mission's name from now on";
   EXPECT_TRUE(state->map.segments.empty());
-  EXPECT_FALSE(remembered) << "places of another map";
+  EXPECT_FALSE(remembered.topology) << "places of another map";
+  EXPECT_FALSE(remembered.start_map);
 }
 
 TEST_F(MapCheckpoints, RobotThatIsNotFoundAtOnceTurnsOnceOnTheSpotAndStands) {
   loop->offer_unfinished(exploration());
   state->scans_to_search = 100'000;
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
   ticks(25);
   EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01) << "it may be found without";
   ticks(20);
@@ -171,7 +188,7 @@ TEST_F(MapCheckpoints, RobotThatLooksRoundIsStoppedByStopAndByEstop) {
   for (const bool estop : {false, true}) {
     loop->offer_unfinished(exploration());
     state->scans_to_search = 100'000;
-    ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+    ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
     ticks(45);
     ASSERT_GT(loop->status().velocity.omega_rad_s, 0.1);
     estop ? loop->set_estop(true) : loop->stop();
@@ -183,21 +200,66 @@ TEST_F(MapCheckpoints, RobotThatLooksRoundIsStoppedByStopAndByEstop) {
 TEST_F(MapCheckpoints, RobotWhoseLeaseSomebodyHoldsDoesNotLookRound) {
   loop->offer_unfinished(exploration());
   state->scans_to_search = 100'000;
-  ASSERT_TRUE(loop->command_lease("tester", api::LeaseAction::kAcquire));
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+  ASSERT_TRUE(loop->command_lease("somebody", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
   ticks(45);
   EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01);
+}
+
+TEST_F(MapCheckpoints, WhoHoldsTheLeaseMayResumeAndOwnsTheMission) {
+  ASSERT_TRUE(loop->command_lease("tester", api::LeaseAction::kAcquire));
+  loop->offer_unfinished(exploration());
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester"));
+  ticks(20);
+  ASSERT_TRUE(loop->missions().running());
+  loop->client_lost("tester", "its connection broke", wall);
+  wall += std::chrono::seconds(6);
+  ticks(1);
+  ASSERT_TRUE(loop->missions().last()->end);
+  EXPECT_EQ(loop->missions().last()->end->outcome, api::Outcome::kLinkLost);
+}
+
+TEST_F(MapCheckpoints, ResumptionThatIsRefusedForgetsNothing) {
+  loop->offer_unfinished(exploration());
+  TopologyMemory memory;
+  memory.closed_map = {{2.0, 3.0}};
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
+  ASSERT_TRUE(loop->command_lease("somebody", api::LeaseAction::kAcquire));
+  ticks(20);
+  EXPECT_EQ(count("resume-failed"), 1);
+  EXPECT_FALSE(loop->missions().present());
+  ASSERT_TRUE(loop->command_lease("somebody", api::LeaseAction::kRelease));
+  ASSERT_TRUE(loop->command_mission(api::MissionCommand::kResume, "tester"));
+  EXPECT_EQ(remembered.topology, memory);
+}
+
+TEST_F(MapCheckpoints, MissionGoesOnFromItsStartWithTheTimeThatIsLeft) {
+  api::MissionRequest limited = exploration();
+  limited.time_limit = std::chrono::seconds(100);
+  loop->offer_unfinished(limited);
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester",
+                                  {Pose2{1.0, 0.5, 0.0}, std::nullopt, {Point2(4.0, -2.0), std::chrono::seconds(60)}}));
+  ticks(20);
+  ASSERT_TRUE(loop->missions().running());
+  EXPECT_EQ(remembered.start_map, std::optional(Point2(4.0, -2.0)));
+  ASSERT_TRUE(remembered.time_left);
+  EXPECT_LE(*remembered.time_left, Duration(std::chrono::seconds(40)));
+  ticks(30);
+  loop->place_written();
+  ticks(10);
+  EXPECT_EQ(place_kept.so_far.start_map, std::optional(Point2(4.0, -2.0))) << "for the next crash";
+  EXPECT_GT(place_kept.so_far.running, Duration(std::chrono::seconds(63)));
 }
 
 TEST_F(MapCheckpoints, MissionGoesOnFromWhereItWasWithWhatItRemembered) {
   loop->offer_unfinished(exploration());
   TopologyMemory memory;
   memory.closed_map = {{2.0, 3.0}};
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, {Pose2{1.0, 0.5, 0.0}, memory}));
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
   EXPECT_LT(distance_m(loop->status().pose.map_T_base, {1.0, 0.5, 0.0}), 0.01) << "it was looked for there";
-  EXPECT_EQ(remembered, memory);
+  EXPECT_EQ(remembered.topology, memory);
 }
 
 TEST_F(MapCheckpoints, PlaceIsKeptMoreOftenThanTheMapItIsIn) {
@@ -217,12 +279,12 @@ TEST_F(MapCheckpoints, PlaceIsKeptMoreOftenThanTheMapItIsIn) {
 
 TEST_F(MapCheckpoints, WithoutAMapTheMissionBeginsAnew) {
   loop->offer_unfinished(exploration());
-  ASSERT_TRUE(loop->resume_in_map(fail(Errc::kNotFound, "there is none"), {}));
+  ASSERT_TRUE(loop->resume_in_map(fail(Errc::kNotFound, "there is none"), {}, "tester"));
   EXPECT_TRUE(loop->missions().running());
   EXPECT_EQ(count("resume-without-map"), 0);
   loop->stop();
   loop->offer_unfinished(exploration());
-  const Status again = loop->resume_in_map(fail(Errc::kCorrupt, "the checksum is wrong"), {});
+  const Status again = loop->resume_in_map(fail(Errc::kCorrupt, "the checksum is wrong"), {}, "tester");
   EXPECT_EQ(count("resume-without-map"), 1);
   EXPECT_FALSE(again) << "its id was used in this run";
 }

@@ -24,17 +24,21 @@ struct Script {
   std::optional<SearchedFloor> searched;
   std::vector<api::Detection> detections;
   Point2 asked_about = Point2::Zero();  ///< for what it has searched
+  std::optional<Duration> time_left;
+  std::optional<Point2> start;
 };
 
 class ScriptedBehaviour final : public Behaviour {
  public:
   explicit ScriptedBehaviour(std::shared_ptr<Script> script) : script_(std::move(script)) {}
-  Decision step(const Situation& /*situation*/) override {
+  Decision step(const Situation& situation) override {
     ++script_->steps;
+    script_->time_left = situation.time_left;
     return script_->next;
   }
   void resumed(RobotTime /*now*/) override { ++script_->resumed; }
   void map_moved(const Pose2& new_T_old) override { script_->moved = new_T_old; }
+  void remember_start(const Point2& start_map) override { script_->start = start_map; }
   std::optional<api::GridReport> grid() const override { return script_->grid; }
   std::optional<SearchedFloor> searched(const Point2& middle_map, int /*side_cells*/) const override {
     script_->asked_about = middle_map;

@@ -28,13 +28,15 @@ TopologyMemory memory() {
 
 TEST(KeptFiles, ComeOutAsTheyWentInForTheSameStateOfTheMap) {
   const testing::TemporaryFolder folder;
-  ASSERT_TRUE(keep_place(folder.path(), "round", {1.0, 2.0, 3.0}));
+  const MissionSoFar so_far{Point2(4.0, 5.0), std::chrono::seconds(90)};
+  ASSERT_TRUE(keep_place(folder.path(), "round", {{1.0, 2.0, 3.0}, so_far}));
   ASSERT_TRUE(keep_topology(folder.path(), "round", memory(), 7));
   std::string trouble;
   const KeptState kept = read_kept(folder.path(), "round", 7, trouble);
   ASSERT_TRUE(kept.map_T_base && kept.topology);
   EXPECT_EQ(*kept.map_T_base, (Pose2{1.0, 2.0, 3.0}));
   EXPECT_EQ(*kept.topology, memory());
+  EXPECT_EQ(kept.so_far, so_far);
   const KeptState moved = read_kept(folder.path(), "round", 8, trouble);
   EXPECT_TRUE(moved.map_T_base) << "where to look is a hint";
   EXPECT_FALSE(moved.topology) << "places of a map that has moved";

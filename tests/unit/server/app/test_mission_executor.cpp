@@ -163,5 +163,19 @@ TEST_F(MissionExecutorTest, TimeLimitEndsTheMission) {
   EXPECT_EQ(end().outcome, api::Outcome::kTimeLimit);
 }
 
+TEST_F(MissionExecutorTest, MissionThatWasCutOffGoesOnWithItsStartAndItsTime) {
+  api::MissionRequest limited = request("one");
+  limited.time_limit = seconds(100);
+  situation.now += seconds(500);
+  const MissionSoFar so_far{Point2(3.0, 4.0), seconds(70)};
+  ASSERT_TRUE(executor.start(limited, "anna", situation, so_far));
+  EXPECT_EQ(script->start, so_far.start_map);
+  static_cast<void>(tick(10.0));
+  EXPECT_EQ(script->time_left, Duration(seconds(20)));
+  EXPECT_EQ(executor.last()->updated - executor.last()->started, Duration(seconds(80)));
+  executor.map_moved({.new_T_old = {1.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 1}, situation.now);
+  EXPECT_EQ(executor.so_far(), (MissionSoFar{Point2(4.0, 4.0), seconds(80)}));
+}
+
 }  // namespace
 }  // namespace seeker::app

@@ -173,6 +173,17 @@ TEST(Exploration, ABatteryAtItsReserveSendsTheRobotHome) {
   EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
 }
 
+TEST(Exploration, ResumedExplorationComesBackToWhereItHadBegun) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.return_to_start = true;
+  auto exploration = exploration_of(request);
+  exploration.remember_start({2.5, 1.5});
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 6);
+  const ToyRun run = robot.run(exploration, 600.0);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_THAT(run.pose.translation(), Point2Near(Point2(2.5, 1.5), 0.2));
+}
+
 TEST(Exploration, ALostRobotStandsAndGoesOnWhenItIsFound) {
   auto exploration = exploration_of(request_of(Strategy::kFrontier));
   ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 14);
