@@ -177,8 +177,12 @@ Result<api::MissionRequest> make_request(const ExploreVerb& verb) {
 
 Result<api::MissionRequest> make_request(const GotoVerb& verb) {
   api::MissionRequest request = begin_request(verb, verb.home ? "return" : "goto");
+  Result<std::vector<Polygon>> keep_out = parse_areas(verb.keep_out);
+  if (!keep_out) {
+    return fail_with_context("--keep-out", keep_out.error());
+  }
   if (verb.home) {
-    request.task = api::ReturnMission{};
+    request.task = api::ReturnMission{std::nullopt, std::move(*keep_out)};
     return checked(std::move(request));
   }
   if (verb.points.empty()) {
@@ -192,10 +196,6 @@ Result<api::MissionRequest> make_request(const GotoVerb& verb) {
   go.waypoints = std::move(*points);
   if (verb.heading_deg) {
     go.final_heading_rad = wrap_angle(deg_to_rad(*verb.heading_deg));
-  }
-  Result<std::vector<Polygon>> keep_out = parse_areas(verb.keep_out);
-  if (!keep_out) {
-    return fail_with_context("--keep-out", keep_out.error());
   }
   go.keep_out = std::move(*keep_out);
   request.task = std::move(go);

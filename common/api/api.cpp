@@ -135,7 +135,7 @@ Status validate_task(const GotoMission& go) {
   return validate_keep_outs(go.keep_out);
 }
 
-Status validate_task(const ReturnMission& /*unused*/) { return {}; }
+Status validate_task(const ReturnMission& home) { return validate_areas(home.bound, home.keep_out); }
 
 Status validate_task(const ExploreMission& explore) {
   if (explore.strategy > kExploreStrategies.back()) {

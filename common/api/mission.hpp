@@ -107,8 +107,11 @@ struct GotoMission {
   friend bool operator==(const GotoMission&, const GotoMission&) = default;
 };
 
-/// Back to where the robot was started.
+/// Back to where the robot was started, over floor that it has seen.
 struct ReturnMission {
+  std::optional<Polygon> bound;   ///< stay inside
+  std::vector<Polygon> keep_out;  ///< never enter
+
   friend bool operator==(const ReturnMission&, const ReturnMission&) = default;
 };
 

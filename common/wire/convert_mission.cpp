@@ -115,7 +115,7 @@ struct TaskWriter {
     }
     write_polygons(from.keep_out, go->mutable_keep_out());
   }
-  void operator()(const api::ReturnMission& /*from*/) const { to->mutable_return_home(); }
+  void operator()(const api::ReturnMission& from) const { write_areas(from, to->mutable_return_home()); }
   void operator()(const api::ExploreMission& from) const {
     pb::ExploreMission* explore = to->mutable_explore();
     explore->set_strategy(static_cast<pb::ExploreStrategy>(wire_enum(from.strategy)));
@@ -229,7 +229,11 @@ void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check)
       read_goto(from.go_to(), to.task.emplace<api::GotoMission>(), check);
       break;
     }
-    case pb::MissionRequest::kReturnHome: to.task = api::ReturnMission{}; break;
+    case pb::MissionRequest::kReturnHome: {
+      const auto scope = check.in("return_home");
+      read_areas(from.return_home(), to.task.emplace<api::ReturnMission>(), check);
+      break;
+    }
     case pb::MissionRequest::kExplore: {
       const auto scope = check.in("explore");
       read_explore(from.explore(), to.task.emplace<api::ExploreMission>(), check);

@@ -227,11 +227,8 @@ class Behaviours {
     if (const auto* go = std::get_if<api::GotoMission>(&task)) {
       return std::unique_ptr<Behaviour>(std::make_unique<GotoBehaviour>(go_, *go));
     }
-    if (std::holds_alternative<api::ReturnMission>(task)) {
-      // The map begins where the robot was started.
-      api::GotoMission home;
-      home.waypoints = {Point2::Zero()};
-      return std::unique_ptr<Behaviour>(std::make_unique<GotoBehaviour>(go_, home));
+    if (const auto* home = std::get_if<api::ReturnMission>(&task)) {
+      return way_home(*home);
     }
     if (const auto* explore = std::get_if<api::ExploreMission>(&task)) {
       return ExploreBehaviour::create(explore_, *explore, situation);
@@ -254,6 +251,14 @@ class Behaviours {
  private:
   static Result<std::unique_ptr<Behaviour>> no_stereo() {
     return fail(Errc::kRefused, "this robot has no stereo camera to find landmarks with");
+  }
+  [[nodiscard]] Result<std::unique_ptr<Behaviour>> way_home(const api::ReturnMission& mission) const {
+    api::GotoMission home;
+    home.waypoints = {Point2::Zero()};  // the map begins where the robot was started
+    home.keep_out = mission.keep_out;
+    GotoParams go = go_;
+    go.cost_map.unknown_traversable = false;  // the robot came over floor that it has seen
+    return std::unique_ptr<Behaviour>(std::make_unique<GotoBehaviour>(go, std::move(home), mission.bound));
   }
   [[nodiscard]] Result<std::unique_ptr<Behaviour>> search(const api::SearchMission& mission,
                                                           const Situation& situation) const {

@@ -3,8 +3,8 @@
 #include "common/core/text.hpp"
 
 namespace seeker::app {
-GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission)
-    : params_(params), mission_(std::move(mission)), follower_(params.follower) {}
+GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound)
+    : params_(params), mission_(std::move(mission)), bound_(std::move(bound)), follower_(params.follower) {}
 
 void GotoBehaviour::resumed(RobotTime /*now*/) {
   follower_.clear();
@@ -52,6 +52,7 @@ bool GotoBehaviour::plan(const Situation& situation, Decision& decision) {
     return false;
   }
   nav::CostMapLimits limits;
+  limits.bound = bound_;
   limits.keep_out = mission_.keep_out;
   const Result<nav::CostMap> map = nav::CostMap::build(*occupancy, params_.cost_map, limits);
   const Pose2& pose = situation.pose.map_T_base;

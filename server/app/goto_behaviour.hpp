@@ -22,7 +22,8 @@ struct GotoParams {
 
 class GotoBehaviour final : public Behaviour {
  public:
-  GotoBehaviour(const GotoParams& params, api::GotoMission mission);
+  /// `bound`: the robot stays inside.
+  GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound = std::nullopt);
 
   [[nodiscard]] Decision step(const Situation& situation) override;
   void resumed(RobotTime now) override;
@@ -36,6 +37,7 @@ class GotoBehaviour final : public Behaviour {
 
   GotoParams params_;
   api::GotoMission mission_;
+  std::optional<Polygon> bound_;
   nav::PathFollower follower_;
   std::size_t current_ = 0;
   int failures_ = 0;

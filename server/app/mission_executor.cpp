@@ -11,6 +11,33 @@ namespace {
 /// What earlier missions have found and is still listed: more than anybody reads, and far less than a list may hold.
 constexpr std::size_t kMaxEarlierDetections = 1000;
 
+/// The way home of a mission keeps to the ground that the mission may use.
+api::ReturnMission way_home_of(const api::MissionTask& task) {
+  api::ReturnMission home;
+  const auto take_areas = [&home](const auto& mission) {
+    if constexpr (requires { mission.bound; }) {
+      home.bound = mission.bound;
+    }
+    if constexpr (requires { mission.keep_out; }) {
+      home.keep_out = mission.keep_out;
+    }
+  };
+  std::visit(take_areas, task);
+  return home;
+}
+
+/// Why the robot was sent home, and how that went.
+api::MissionEnd after_way_home(api::MissionEnd why, const api::MissionEnd& way_home) {
+  if (way_home.outcome == api::Outcome::kComplete) {
+    why.cause += "; the robot is back where it was started";
+    return why;
+  }
+  why.cause += "; the robot is not back at its start: " + way_home.cause;
+  why.remedy += way_home.remedy.empty() ? "" : "; " + way_home.remedy;
+  why.unreachable = way_home.unreachable;
+  return why;
+}
+
 }  // namespace
 
 MissionExecutor::MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs)
@@ -181,7 +208,7 @@ void MissionExecutor::apply_link_policy(const Situation& situation, WallTime wal
     case api::LinkPolicy::kFinishStep: active_->finish_step = true; return;
     case api::LinkPolicy::kReturn: break;
   }
-  Result<std::unique_ptr<Behaviour>> way_back = factory_(api::ReturnMission{}, situation);
+  Result<std::unique_ptr<Behaviour>> way_back = factory_(way_home_of(active_->request.task), situation);
   if (!way_back) {
     end(api::Outcome::kLinkLost, cause + "; no way back: " + way_back.error().message, remedy, situation.now);
     return;
@@ -259,7 +286,7 @@ void MissionExecutor::take(const Decision& decision, const Situation& situation)
     collect();
   }
   if (decision.end) {
-    finish(active_->end_after ? *active_->end_after : *decision.end, situation.now);
+    finish(active_->end_after ? after_way_home(*active_->end_after, *decision.end) : *decision.end, situation.now);
   } else if (active_->finish_step && decision.step_done) {
     end(api::Outcome::kLinkLost, "the client that started the mission is gone; the step was finished",
         "check the network", situation.now);

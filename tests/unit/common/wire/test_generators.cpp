@@ -154,7 +154,7 @@ api::MissionRequest ValueMaker::mission() {
     case 3: m.task = api::SurveyMission{text(), points(), count(99), flag(), {points()}}; break;
     case 4: m.task = api::LocaliseMission{text(), count(99)}; break;
     case 5: m.task = api::RecogniseMission{targets(), count(99)}; break;
-    default: m.task = api::ReturnMission{};
+    default: m.task = api::ReturnMission{flag() ? std::optional(points()) : std::nullopt, {points()}};
   }
   return m;
 }

@@ -57,6 +57,7 @@ class MissionFixture : public ::testing::Test {
             {},
             [this](const api::MissionTask& task, const Situation& /*situation*/) -> Result<std::unique_ptr<Behaviour>> {
               made.emplace_back(api::task_name(task));
+              made_last = task;
               return std::unique_ptr<Behaviour>(std::make_unique<ScriptedBehaviour>(script));
             },
             {.event = [this](const api::Event& event) { events.push_back(event); },
@@ -83,6 +84,7 @@ class MissionFixture : public ::testing::Test {
 
   std::shared_ptr<Script> script = std::make_shared<Script>();
   std::vector<std::string> made;
+  api::MissionTask made_last;
   std::vector<api::Event> events;
   std::vector<api::MissionStatus> reports;
   std::vector<api::Detection> told;

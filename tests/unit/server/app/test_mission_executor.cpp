@@ -177,5 +177,31 @@ TEST_F(MissionExecutorTest, MissionThatWasCutOffGoesOnWithItsStartAndItsTime) {
   EXPECT_EQ(executor.so_far(), (MissionSoFar{Point2(4.0, 4.0), seconds(80)}));
 }
 
+TEST_F(MissionExecutorTest, WayHomeOfALostClientsMissionKeepsToItsGroundAndTellsHowItEnded) {
+  const Polygon bound{{-1.0, -1.0}, {5.0, -1.0}, {5.0, 5.0}, {-1.0, 5.0}};
+  const Polygon stairs{{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}};
+  api::MissionRequest exploration = request("one", api::LinkPolicy::kReturn);
+  api::ExploreMission explore;
+  explore.bound = bound;
+  explore.keep_out = {stairs};
+  exploration.task = explore;
+  ASSERT_TRUE(executor.start(exploration, "anna", situation));
+  executor.client_lost("anna", wall);
+  wall += seconds(6);
+  static_cast<void>(tick());
+  ASSERT_TRUE(std::holds_alternative<api::ReturnMission>(made_last));
+  EXPECT_EQ(std::get<api::ReturnMission>(made_last).bound, bound);
+  EXPECT_EQ(std::get<api::ReturnMission>(made_last).keep_out, std::vector<Polygon>{stairs});
+  script->next.end = api::MissionEnd{.outcome = api::Outcome::kUnreachable,
+                                     .cause = "1 of 1 places cannot be reached",
+                                     .remedy = "clear the way",
+                                     .unreachable = {Point2::Zero()}};
+  static_cast<void>(tick());
+  EXPECT_EQ(end().outcome, api::Outcome::kLinkLost);
+  EXPECT_NE(end().cause.find("'anna' that started the mission is gone"), std::string::npos) << end().cause;
+  EXPECT_NE(end().cause.find("1 of 1 places cannot be reached"), std::string::npos) << end().cause;
+  EXPECT_EQ(end().unreachable, std::vector<Point2>{Point2::Zero()});
+}
+
 }  // namespace
 }  // namespace seeker::app
