@@ -151,7 +151,7 @@ struct MissionRequest {
   MissionId id;
   MissionTask task;
   LinkPolicy link_policy = LinkPolicy::kStop;
-  std::optional<Duration> time_limit;  ///< robot time
+  std::optional<Duration> time_limit;  ///< robot time in which it runs: neither paused nor held by a fault
 
   friend bool operator==(const MissionRequest&, const MissionRequest&) = default;
 };

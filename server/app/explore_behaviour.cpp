@@ -15,12 +15,14 @@ api::Outcome to_api(explore::EndKind kind) {
     case explore::EndKind::kUnreachable: return api::Outcome::kUnreachable;
     case explore::EndKind::kUncertain: return api::Outcome::kUncertain;
     case explore::EndKind::kBattery: return api::Outcome::kBattery;
+    case explore::EndKind::kTimeLimit: return api::Outcome::kTimeLimit;
   }
   return api::Outcome::kFault;
 }
 
 api::Severity severity_of(const explore::ExploreEvent& event) {
-  const bool trouble = event.kind == "uncertain" || event.kind == "battery" || event.kind == "unreachable";
+  const bool trouble =
+      event.kind == "uncertain" || event.kind == "battery" || event.kind == "time" || event.kind == "unreachable";
   return trouble ? api::Severity::kWarning : api::Severity::kInfo;
 }
 
@@ -97,6 +99,8 @@ Decision ExploreBehaviour::step(const Situation& situation) {
   SEEKER_ASSERT(situation.tracker != nullptr);
   const slam::MapTracker& tracker = *situation.tracker;
   const std::vector<MapSegment>& segments = segments_.of(tracker, situation.now);
+  const std::optional<double> time_left_s =
+      situation.time_left ? std::optional(to_seconds(*situation.time_left)) : std::nullopt;
   explore::ExploreStep step = exploration_.step({.now = situation.now,
                                                  .pose = situation.pose,
                                                  .velocity = situation.velocity,
@@ -108,7 +112,8 @@ Decision ExploreBehaviour::step(const Situation& situation) {
                                                  .belief = tracker.local_belief(),
                                                  .battery_v = situation.battery_v,
                                                  .fleet = situation.fleet,
-                                                 .movers = situation.movers});
+                                                 .movers = situation.movers,
+                                                 .time_left_s = time_left_s});
   Decision decision;
   decision.command = step.command;
   decision.step_done = step.step_done;

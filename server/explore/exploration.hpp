@@ -20,7 +20,7 @@ namespace seeker::explore {
 struct ExploreRequest {
   StrategyMaker strategy = maker_of(Strategy::kActive);
   nav::ForbiddenAreas areas;     ///< frame `map`
-  bool return_to_start = false;  ///< drive back to where the first step was made
+  bool return_to_start = false;  ///< drive back to where the first step was made, before the time is up
 };
 
 /// What the robot knows at one control step. Pointers and references are valid during the call.
@@ -35,8 +35,9 @@ struct ExploreInput {
   std::uint64_t segments_revision = 0;
   std::optional<slam::LocalBelief> belief;
   std::optional<double> battery_v;
-  const FleetView* fleet = nullptr;     ///< other robots, frame `map`; null: the robot is alone
-  std::vector<nav::Mover> movers = {};  ///< other robots where they are now, frame `map`
+  const FleetView* fleet = nullptr;                  ///< other robots, frame `map`; null: the robot is alone
+  std::vector<nav::Mover> movers = {};               ///< other robots where they are now, frame `map`
+  std::optional<double> time_left_s = std::nullopt;  ///< until it is ended from outside; nothing: it has all the time
 };
 
 enum class EndKind : std::uint8_t {
@@ -45,6 +46,7 @@ enum class EndKind : std::uint8_t {
   kUnreachable,   ///< places are left that no way leads to
   kUncertain,     ///< the robot could not find back to certainty
   kBattery,
+  kTimeLimit,  ///< what time was left was needed for the way back to the start
 };
 
 struct ExploreEnd {
@@ -57,7 +59,7 @@ struct ExploreEnd {
 };
 
 struct ExploreEvent {
-  std::string kind;  ///< "trap", "escape", "uncertain", "certain", "battery", "return", "unreachable"
+  std::string kind;  ///< "trap", "escape", "uncertain", "certain", "battery", "time", "return", "unreachable"
   std::string text;
 
   friend bool operator==(const ExploreEvent&, const ExploreEvent&) = default;

@@ -10,6 +10,10 @@ namespace {
 constexpr double kBatterySag_s = 5.0;
 /// Going back so often without having seen new floor in between does not help.
 constexpr int kFruitlessRegains = 3;
+/// Between two plans of the way home, which cost: in that time it grows by what home_reserve_s covers.
+constexpr double kTimeCheck_s = 5.0;
+/// Where no way home is known at the moment it is taken to be so many times the straight line.
+constexpr double kDetour = 2.0;
 
 }  // namespace
 
@@ -33,6 +37,32 @@ void Exploration::Impl::check_battery(const ExploreInput& input, ExploreStep& ou
   }
   conclude({EndKind::kBattery, cause, "charge the battery, then explore again: the map so far is kept", {}},
            input.now - paused_, out);
+}
+
+/// The robot is to be home when its time is up, wherever it must come back to its start.
+void Exploration::Impl::check_time(const ExploreInput& input, ExploreStep& out) {
+  const bool due = !time_checked_at_ || to_seconds(input.now - *time_checked_at_) >= kTimeCheck_s;
+  if (!input.time_left_s || !request_.return_to_start || mode_ == Mode::kReturn || end_ || !due) {
+    return;
+  }
+  time_checked_at_ = input.now;
+  const double way_m = way_home_m(input.pose.map_T_base.translation());
+  const GuardParams& guard = params_.guard;
+  if (*input.time_left_s > guard.home_margin * way_m / guard.home_m_s + guard.home_reserve_s) {
+    return;
+  }
+  const std::string cause =
+      "the time is up but for what the way back of " + text(way_m) + " m takes (" + text(*input.time_left_s) + " s)";
+  out.events.push_back({"time", cause});
+  conclude({EndKind::kTimeLimit, cause, "give it more with --time-limit: the map so far is kept", {}},
+           input.now - paused_, out);
+}
+
+double Exploration::Impl::way_home_m(const Point2& here_map) {
+  const auto floor = floors_.view();
+  const auto way =
+      floor ? nav::plan((*floor)->cost, here_map, *start_) : Result<nav::Path>(tl::unexpected<Error>(floor.error()));
+  return way ? way->length_m : kDetour * (*start_ - here_map).norm();
 }
 
 void Exploration::Impl::check_certainty(const StrategyInput& input, double sigma_m, ExploreStep& out) {

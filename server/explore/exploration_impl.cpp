@@ -116,6 +116,7 @@ void Exploration::Impl::act(const ExploreInput& input, ExploreStep& out) {
   measure_progress(now);
   const double sigma_m = position_sigma_m(input.pose.covariance);
   check_battery(input, out);
+  check_time(input, out);
   check_certainty(now, sigma_m, out);
   if (end_) {
     return;

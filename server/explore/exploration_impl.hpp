@@ -47,6 +47,8 @@ class Exploration::Impl {
 
   // exploration_guard.cpp
   void check_battery(const ExploreInput& input, ExploreStep& out);
+  void check_time(const ExploreInput& input, ExploreStep& out);
+  [[nodiscard]] double way_home_m(const Point2& here_map);
   void check_certainty(const StrategyInput& input, double sigma_m, ExploreStep& out);
   void begin_regain(const StrategyInput& input, double sigma_m, ExploreStep& out);
   void regain(const StrategyInput& input, double sigma_m, ExploreStep& out);
@@ -99,7 +101,8 @@ class Exploration::Impl {
 
   std::optional<RobotTime> battery_low_since_;
   bool battery_checked_ = true;  ///< false after the battery has sent the robot home
-  bool standing_ = false;        ///< waiting for a pose or a scan
+  std::optional<RobotTime> time_checked_at_;
+  bool standing_ = false;  ///< waiting for a pose or a scan
   RobotTime lost_since_;
   std::string last_phase_;
   std::uint64_t decisions_ = 0;

@@ -115,12 +115,16 @@ Status check_guard(const GuardParams& p) {
   if (!(p.regain_position_sigma_m < p.max_position_sigma_m)) {
     return fail(Errc::kInvalidArgument, "guard.regain_position_sigma_m must be below guard.max_position_sigma_m");
   }
-  if (const Status reserve = none_negative({{"guard.battery_reserve_v", p.battery_reserve_v}}); !reserve) {
+  if (const Status reserve =
+          none_negative({{"guard.battery_reserve_v", p.battery_reserve_v}, {"guard.home_reserve_s", p.home_reserve_s}});
+      !reserve) {
     return reserve;
   }
   return all_positive({{"guard.regain_position_sigma_m", p.regain_position_sigma_m},
                        {"guard.max_position_sigma_m", p.max_position_sigma_m},
-                       {"guard.regain_time_s", p.regain_time_s}});
+                       {"guard.regain_time_s", p.regain_time_s},
+                       {"guard.home_m_s", p.home_m_s},
+                       {"guard.home_margin", p.home_margin}});
 }
 
 }  // namespace

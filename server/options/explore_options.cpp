@@ -85,6 +85,9 @@ void describe(config::Fields& f, GuardParams& params) {
   f.field("regain_position_sigma_m", params.regain_position_sigma_m);
   f.field("regain_time_s", params.regain_time_s);
   f.field("battery_reserve_v", params.battery_reserve_v);
+  f.field("home_m_s", params.home_m_s);
+  f.field("home_margin", params.home_margin);
+  f.field("home_reserve_s", params.home_reserve_s);
 }
 
 void describe(config::Fields& f, ExploreParams& params) {

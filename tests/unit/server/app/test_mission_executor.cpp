@@ -163,6 +163,32 @@ TEST_F(MissionExecutorTest, TimeLimitEndsTheMission) {
   EXPECT_EQ(end().outcome, api::Outcome::kTimeLimit);
 }
 
+TEST_F(MissionExecutorTest, OnlyTimeInWhichAMissionRunsCountsTowardsItsLimit) {
+  const api::Fault fault{.id = "sonar-silent",
+                         .component = "sonar",
+                         .severity = api::Severity::kError,
+                         .onset = {},
+                         .message = "the sonar has been silent",
+                         .remedy = "check its cable"};
+  api::MissionRequest limited = request("one");
+  limited.time_limit = seconds(20);
+  ASSERT_TRUE(executor.start(limited, "anna", situation));
+  static_cast<void>(tick(5.0));
+  EXPECT_EQ(script->time_left, Duration(seconds(15)));
+  ASSERT_TRUE(executor.command(api::MissionCommand::kPause, situation.now));
+  static_cast<void>(tick(600.0));
+  ASSERT_TRUE(executor.command(api::MissionCommand::kResume, situation.now));
+  static_cast<void>(tick(0.1));
+  for (int k = 0; k < 4; ++k) {
+    static_cast<void>(tick(2.0, &fault));
+  }
+  static_cast<void>(tick(0.1));
+  ASSERT_TRUE(executor.running());
+  EXPECT_GT(*script->time_left, Duration(seconds(14)));
+  static_cast<void>(tick(16.0));
+  EXPECT_EQ(end().outcome, api::Outcome::kTimeLimit);
+}
+
 TEST_F(MissionExecutorTest, MissionThatWasCutOffGoesOnWithItsStartAndItsTime) {
   api::MissionRequest limited = request("one");
   limited.time_limit = seconds(100);

@@ -173,6 +173,29 @@ TEST(Exploration, ABatteryAtItsReserveSendsTheRobotHome) {
   EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
 }
 
+TEST(Exploration, RobotThatIsToComeBackIsHomeBeforeItsTimeIsUp) {
+  constexpr double kLimit_s = 90.0;
+  ToyWorld corridor;
+  corridor.walls = box(0, 0, 60, 3);
+  for (const bool comes_back : {true, false}) {
+    ExploreRequest request = request_of(Strategy::kFrontier);
+    request.return_to_start = comes_back;
+    auto exploration = exploration_of(request);
+    ToyExplorer robot(corridor, {1.0, 1.0, 0.3}, 13, 5.0);
+    ToyExplorer::Hooks hooks;
+    hooks.input = [](double t_s, ExploreInput& input) { input.time_left_s = kLimit_s - t_s; };
+    const ToyRun run = robot.run(exploration, kLimit_s, hooks);
+    print("time", run);
+    EXPECT_EQ(has_event(run, "time"), comes_back);
+    EXPECT_EQ(run.end.has_value(), comes_back) << "who need not come back has all the time";
+    if (comes_back && run.end) {
+      EXPECT_EQ(run.end->kind, EndKind::kTimeLimit);
+      EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
+      EXPECT_GT(run.path_m, 10.0) << "it has explored meanwhile";
+    }
+  }
+}
+
 TEST(Exploration, ResumedExplorationComesBackToWhereItHadBegun) {
   ExploreRequest request = request_of(Strategy::kFrontier);
   request.return_to_start = true;
