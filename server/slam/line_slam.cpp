@@ -90,7 +90,6 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   place_.reset();
   hint_map_T_node_.reset();
   kept_map_T_node_.reset();
-  read_only_.reset();
   quality_ = LocalisationQuality::kUnknown;
   cause_ = "no odometry yet";
   failures_ = 0;
@@ -391,9 +390,6 @@ void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
     if (*map_T_node) {
       *map_T_node = **map_T_node * last_T_new;
     }
-  }
-  if (read_only_) {
-    backend_.forget_scans_from(*read_only_);
   }
 }
 

@@ -52,6 +52,8 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] const LineSlamCounts& counts() const { return counts_; }
   [[nodiscard]] const LoopCounts& loops() const { return backend_.loops(); }
   [[nodiscard]] const SpMap& local_map() const { return *lines_; }
+  /// All that are kept: those of the map, and the robot's own that are not part of it.
+  [[nodiscard]] std::size_t local_maps() const { return backend_.maps().size(); }
 
  private:
   struct Scan;  ///< one scan as the steps below see it
@@ -89,7 +91,6 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] PlaceAnswer find_place(const std::vector<SeenPoints>& seen) const;
   [[nodiscard]] bool is_confirmed(const Pose2& map_T_node, bool expected);
   void settle(const PlaceAnswer& answer);
-  [[nodiscard]] std::uint32_t map_end() const;
   void append_newest(std::vector<MapSegment>& all) const;
 
   LineSlamParams params_;
@@ -131,9 +132,8 @@ class LineSlam final : public MapTracker {
   Pose2 last_try_;                        ///< node_T_base
   int scans_since_try_ = 0;
   int tries_ = 0;
-  std::optional<Pose2> claim_;              ///< where the last unique answer puts the newest local map,
-  int witnesses_ = 0;                       ///< and how many answers in a row have said so
-  std::optional<std::uint32_t> read_only_;  ///< local maps from this one on are forgotten: the map is only read
+  std::optional<Pose2> claim_;  ///< where the last unique answer puts the newest local map,
+  int witnesses_ = 0;           ///< and how many answers in a row have said so
   LineSlamCounts counts_;
 };
 

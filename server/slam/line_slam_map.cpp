@@ -41,22 +41,15 @@ void LineSlam::store_local_map() {
   next_id_ += last_id;
 }
 
-std::uint32_t LineSlam::map_end() const {
-  const std::vector<LocalMap>& maps = backend_.maps();
-  const auto apart = std::find_if(maps.begin(), maps.end(), [&](const LocalMap& m) { return backend_.is_apart(m.id); });
-  const auto joined = static_cast<std::uint32_t>(apart - maps.begin());
-  return std::min(joined, read_only_.value_or(joined));
-}
-
 std::vector<MapSegment> LineSlam::segments() const {
-  std::vector<MapSegment> all = backend_.segments(map_end());
+  std::vector<MapSegment> all = backend_.segments(backend_.map_end());
   append_newest(all);
   return fuse(std::move(all), params_.fusion);
 }
 
 void LineSlam::append_newest(std::vector<MapSegment>& all) const {
   const std::uint32_t newest = backend_.maps().back().id;
-  if (newest >= map_end()) {
+  if (newest >= backend_.map_end()) {
     return;
   }
   const Pose2& map_T_node = backend_.pose(newest);
@@ -68,7 +61,7 @@ void LineSlam::append_newest(std::vector<MapSegment>& all) const {
 }
 
 LineMap LineSlam::map() const {
-  LineMap whole = backend_.assemble(map_end());
+  LineMap whole = backend_.assemble(backend_.map_end());
   append_newest(whole.segments);
   whole.next_id = std::max(whole.next_id, next_id_);
   for (const MapSegment& segment : whole.segments) {
@@ -85,11 +78,8 @@ Status LineSlam::load(const LineMap& map, MapUse use) {
     return fail(Errc::kInvalidArgument, "the map holds no scans, so that nothing can be found in it; save it again");
   }
   begin({}, last_scan_.value_or(RobotTime{}));
-  backend_.load(map);
+  backend_.load(map, use);
   next_id_ = map.next_id;
-  if (use == MapUse::kLocalise) {
-    read_only_ = static_cast<std::uint32_t>(backend_.maps().size());
-  }
   // Before relocalise(), which would take the loaded map's last part for the one that lines_ is about.
   backend_.begin_apart(last_scan_.value_or(RobotTime{}));
   return relocalise(std::nullopt);
@@ -228,7 +218,7 @@ void LineSlam::settle(const PlaceAnswer& answer) {
 
 void LineSlam::for_each_scan(const std::function<void(const LaserScan&, const Pose2&)>& visit) const {
   for (const LocalMap& map : backend_.maps()) {
-    if (map.id >= map_end()) {
+    if (map.id >= backend_.map_end()) {
       break;
     }
     for (const MapKeyframe& keyframe : map.keyframes) {

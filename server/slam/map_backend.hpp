@@ -12,6 +12,7 @@
 
 #include "common/core/line_map.hpp"
 #include "server/slam/line_slam_params.hpp"
+#include "server/slam/map_tracker.hpp"
 #include "server/slam/pose_graph.hpp"
 
 namespace seeker::slam {
@@ -33,7 +34,11 @@ struct LoopCounts {
   int surprises = 0;  ///< that had to wait for witnesses
 };
 
-/// Local maps are numbered from 0 and keep their numbers. Poses rise in epochs: each optimisation that moves the map.
+/// Local maps are numbered from 0. Poses rise in epochs: each optimisation that moves the map.
+///
+/// In a map that is only read (MapUse::kLocalise) the loaded local maps stand still, and of the robot's own only the
+/// newest two are kept, whose numbers change with that: what the older ones said of the robot's place becomes one
+/// relation. Memory and cost do not grow however long the robot drives.
 class MapBackend {
  public:
   explicit MapBackend(const LoopPolicy& params = {}) : params_(params), detector_(params.detector) {}
@@ -42,7 +47,7 @@ class MapBackend {
   std::uint32_t begin_first(const Pose2& map_T_node, RobotTime stamp);
   std::uint32_t begin_next(const Pose2& last_T_new, const Matrix3& covariance, RobotTime stamp);
   /// Replaces everything by a map that has passed validate(). The next local map must be begun with begin_apart().
-  void load(const LineMap& map);
+  void load(const LineMap& map, MapUse use);
   /// Begins a local map whose place in the whole is not known: nothing joins it to the others until anchor().
   std::uint32_t begin_apart(RobotTime stamp);
   [[nodiscard]] bool apart() const { return apart_from_.has_value(); }
@@ -52,8 +57,8 @@ class MapBackend {
   void anchor(const Pose2& map_T_newest, const Matrix3& covariance);
   /// Scans of all local maps but those begun apart, in the frame `map`: what a place is searched in.
   [[nodiscard]] std::vector<SeenPoints> seen() const;
-  /// Forgets what the local maps between `first` and the newest two have seen; their places stay.
-  void forget_scans_from(std::uint32_t first);
+  /// Local maps below it are the map: those that are joined, and where it is only read, those that were loaded.
+  [[nodiscard]] std::uint32_t map_end() const;
   [[nodiscard]] LocalMap& newest() { return maps_.back(); }
   [[nodiscard]] const std::vector<LocalMap>& maps() const { return maps_; }
   [[nodiscard]] const Pose2& pose(std::uint32_t id) const { return graph_.pose(id); }
@@ -79,6 +84,8 @@ class MapBackend {
     double distance_m = 0.0;
   };
 
+  /// Local maps below it are compared with the newest.
+  [[nodiscard]] std::uint32_t loop_end() const;
   [[nodiscard]] std::vector<Candidate> candidates(const Pose2& map_T_base) const;
   [[nodiscard]] std::vector<SeenPoints> query() const;
   [[nodiscard]] std::shared_ptr<const PlaceMap> place_of(std::uint32_t id);
@@ -86,6 +93,11 @@ class MapBackend {
   [[nodiscard]] std::optional<UncertainPose> relative(std::size_t from, std::size_t to);
   [[nodiscard]] std::vector<LoopEdge> believed(const LoopEdge& loop, const UncertainPose& expected);
   void add_loop(const LoopEdge& loop);
+  /// Puts all that earlier local maps and its own loops say of the place of a joined local map into one relation to the
+  /// first; what begins at it stays. False where the graph cannot say.
+  [[nodiscard]] bool stand_alone(std::uint32_t id);
+  /// Of the robot's own local maps in a map that is only read.
+  void drop_own_before(std::uint32_t first);
   bool optimise();
 
   LoopPolicy params_;
@@ -98,6 +110,7 @@ class MapBackend {
   std::vector<LoopEdge> pending_;                                                 ///< surprises without witnesses
   std::deque<std::pair<std::uint32_t, std::shared_ptr<const PlaceMap>>> places_;  ///< used last first
   std::optional<std::uint32_t> apart_from_;  ///< this local map and those after it are not joined to the others
+  std::optional<std::uint32_t> own_from_;    ///< the map is only read: local maps from this one on are not part of it
   Matrix3 newest_covariance_ = Matrix3::Zero();
   std::uint32_t epoch_ = 0;
   LoopCounts counts_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -75,7 +74,7 @@ bool is_information(const Matrix3& information) {
 
 PoseGraph::PoseGraph(const PoseGraphParams& params) : params_(params) {}
 PoseGraph::PoseGraph(const PoseGraph& other)
-    : params_(other.params_), nodes_(other.nodes_), edges_(other.edges_), fixed_(other.fixed_) {}
+    : params_(other.params_), nodes_(other.nodes_), held_(other.held_), edges_(other.edges_), fixed_(other.fixed_) {}
 PoseGraph::PoseGraph(PoseGraph&& other) noexcept = default;
 PoseGraph& PoseGraph::operator=(const PoseGraph& other) {
   PoseGraph copy(other);
@@ -86,6 +85,7 @@ PoseGraph::~PoseGraph() = default;
 
 std::size_t PoseGraph::add_node(const Pose2& map_T_node) {
   nodes_.push_back(map_T_node);
+  held_.push_back(false);
   system_.reset();
   connected_ = false;
   return nodes_.size() - 1;
@@ -95,6 +95,12 @@ void PoseGraph::fix(std::size_t node) {
   SEEKER_ASSERT(node < nodes_.size());
   fixed_ = node;
   system_.reset();
+}
+
+void PoseGraph::hold(std::size_t node) {
+  held_.at(node) = true;
+  system_.reset();
+  connected_ = false;
 }
 
 void PoseGraph::set_pose(std::size_t node, const Pose2& map_T_node) {
@@ -133,6 +139,28 @@ void PoseGraph::remove_edge(std::size_t edge) {
   connected_ = false;
 }
 
+void PoseGraph::drop_nodes(std::size_t first, std::size_t end) {
+  SEEKER_ASSERT(first <= end && end <= nodes_.size());
+  const auto dropped = [&](std::size_t node) { return node >= first && node < end; };
+  const auto renumbered = [&](std::size_t node) { return node < first ? node : node - (end - first); };
+  SEEKER_ASSERT(!dropped(fixed_));
+  std::erase_if(edges_, [&](const Entry& entry) {
+    return entry.state == State::kRemoved || dropped(entry.edge.i) || dropped(entry.edge.j);
+  });
+  for (Entry& entry : edges_) {
+    entry.edge.i = renumbered(entry.edge.i);
+    entry.edge.j = renumbered(entry.edge.j);
+  }
+  const auto count = static_cast<std::ptrdiff_t>(end - first);
+  const auto nodes = nodes_.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto held = held_.begin() + static_cast<std::ptrdiff_t>(first);
+  nodes_.erase(nodes, nodes + count);
+  held_.erase(held, held + count);
+  fixed_ = renumbered(fixed_);
+  system_.reset();
+  connected_ = false;
+}
+
 double PoseGraph::edge_chi2(std::size_t edge) const {
   const PoseEdge& e = edges_.at(edge).edge;
   const Eigen::Vector3d r = linearised(nodes_[e.i], nodes_[e.j], e.i_T_j).value;
@@ -146,7 +174,9 @@ double PoseGraph::edge_weight(std::size_t edge) const {
 
 Status PoseGraph::check_connected() const {
   std::vector<std::size_t> parent(nodes_.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    parent[node] = is_fixed(node) ? fixed_ : node;
+  }
   const auto root = [&](std::size_t node) {
     while (parent[node] != node) {
       node = parent[node] = parent[parent[node]];
@@ -160,8 +190,8 @@ Status PoseGraph::check_connected() const {
   }
   for (std::size_t node = 0; node < nodes_.size(); ++node) {
     if (root(node) != root(fixed_)) {
-      return fail(Errc::kNotReady, "node " + std::to_string(node) +
-                                       " has no path to the fixed node; add or enable an edge that joins it");
+      return fail(Errc::kNotReady,
+                  "node " + std::to_string(node) + " has no path to a fixed node; add or enable an edge that joins it");
     }
   }
   return {};
@@ -184,15 +214,21 @@ Status PoseGraph::prepare() {
 }
 
 void PoseGraph::analyse() {
-  std::vector<BlockSystem::Pair> pairs;
-  const auto variable = [&](std::size_t node) { return node < fixed_ ? node : node - 1; };
-  for (Entry& entry : edges_) {
-    if (entry.state != State::kRemoved && entry.edge.i != fixed_ && entry.edge.j != fixed_) {
-      entry.slot = pairs.size();
-      pairs.emplace_back(variable(entry.edge.i), variable(entry.edge.j));
+  variables_.assign(nodes_.size(), 0);
+  variable_count_ = 0;
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    if (!is_fixed(node)) {
+      variables_[node] = variable_count_++;
     }
   }
-  system_ = std::make_unique<BlockSystem>(nodes_.size() - 1, pairs);
+  std::vector<BlockSystem::Pair> pairs;
+  for (Entry& entry : edges_) {
+    if (entry.state != State::kRemoved && !is_fixed(entry.edge.i) && !is_fixed(entry.edge.j)) {
+      entry.slot = pairs.size();
+      pairs.emplace_back(variables_[entry.edge.i], variables_[entry.edge.j]);
+    }
+  }
+  system_ = std::make_unique<BlockSystem>(variable_count_, pairs);
   factored_ = false;
 }
 
@@ -200,7 +236,7 @@ double PoseGraph::cost(double widening) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < edges_.size(); ++k) {
     const PoseEdge& edge = edges_[k].edge;
-    if (edges_[k].state == State::kEnabled) {
+    if (has_say(edges_[k])) {
       sum += robust(edge.kernel, edge_chi2(k), squared_width(edge, widening)).cost;
     }
   }
@@ -208,27 +244,27 @@ double PoseGraph::cost(double widening) const {
 }
 
 void PoseGraph::linearise(double widening) {
-  const auto variable = [&](std::size_t node) { return node < fixed_ ? node : node - 1; };
   system_->set_zero();
-  for (const auto& [edge, state, slot] : edges_) {
-    if (state != State::kEnabled) {
+  for (const Entry& entry : edges_) {
+    if (!has_say(entry)) {
       continue;
     }
+    const PoseEdge& edge = entry.edge;
     const Residual r = linearised(nodes_[edge.i], nodes_[edge.j], edge.i_T_j);
     const double chi2 = r.value.dot(edge.information * r.value);
     const Matrix3 information = robust(edge.kernel, chi2, squared_width(edge, widening)).weight * edge.information;
     const Matrix3 weighted_i = r.by_i.transpose() * information;
     const Matrix3 weighted_j = r.by_j.transpose() * information;
-    if (edge.i != fixed_) {
-      system_->add_diagonal(variable(edge.i), weighted_i * r.by_i);
-      system_->add_right(variable(edge.i), -weighted_i * r.value);
+    if (!is_fixed(edge.i)) {
+      system_->add_diagonal(variables_[edge.i], weighted_i * r.by_i);
+      system_->add_right(variables_[edge.i], -weighted_i * r.value);
     }
-    if (edge.j != fixed_) {
-      system_->add_diagonal(variable(edge.j), weighted_j * r.by_j);
-      system_->add_right(variable(edge.j), -weighted_j * r.value);
+    if (!is_fixed(edge.j)) {
+      system_->add_diagonal(variables_[edge.j], weighted_j * r.by_j);
+      system_->add_right(variables_[edge.j], -weighted_j * r.value);
     }
-    if (edge.i != fixed_ && edge.j != fixed_) {
-      system_->add_pair(slot, weighted_i * r.by_j);
+    if (!is_fixed(edge.i) && !is_fixed(edge.j)) {
+      system_->add_pair(entry.slot, weighted_i * r.by_j);
     }
   }
 }
@@ -237,7 +273,7 @@ double PoseGraph::first_widening() const {
   double widest = 1.0;
   for (std::size_t k = 0; k < edges_.size(); ++k) {
     const PoseEdge& edge = edges_[k].edge;
-    if (edges_[k].state == State::kEnabled && edge.kernel == EdgeKernel::kSwitchable) {
+    if (has_say(edges_[k]) && edge.kernel == EdgeKernel::kSwitchable) {
       widest = std::max(widest, edge_chi2(k) / squared_width(edge, 1.0));
     }
   }
@@ -248,10 +284,10 @@ bool PoseGraph::move_nodes(double& largest_m, double& largest_rad) {
   largest_m = 0.0;
   largest_rad = 0.0;
   for (std::size_t node = 0; node < nodes_.size(); ++node) {
-    if (node == fixed_) {
+    if (is_fixed(node)) {
       continue;
     }
-    const Eigen::Vector3d d = system_->solution(node < fixed_ ? node : node - 1);
+    const Eigen::Vector3d d = system_->solution(variables_[node]);
     if (!d.allFinite()) {
       return false;
     }
@@ -300,7 +336,7 @@ Result<OptimiseReport> PoseGraph::optimise(int max_iterations) {
   double widening = first_widening();
   // Half of the iterations at most are spent on the way to the true width.
   const double rate = std::max(params_.graduation, std::pow(widening, 2.0 / std::max(1, max_iterations)));
-  while (nodes_.size() > 1 && report.iterations < max_iterations && !report.converged) {
+  while (variable_count_ > 0 && report.iterations < max_iterations && !report.converged) {
     const Step done = step(damping, widening);
     if (done == Step::kImpossible) {
       nodes_ = saved;
@@ -311,7 +347,7 @@ Result<OptimiseReport> PoseGraph::optimise(int max_iterations) {
     report.converged = done == Step::kSmall && widening <= 1.0;
     widening = std::max(1.0, widening / rate);
   }
-  report.converged = report.converged || nodes_.size() == 1;
+  report.converged = report.converged || variable_count_ == 0;
   report.final_chi2 = cost(1.0);
   factored_ = false;
   for (std::size_t k = 0; k < edges_.size(); ++k) {
@@ -328,6 +364,9 @@ Result<Matrix3> PoseGraph::relative_covariance(std::size_t base, std::size_t nod
   if (auto status = prepare(); !status) {
     return tl::unexpected<Error>(status.error());
   }
+  if (base == node || (is_fixed(base) && is_fixed(node))) {
+    return Matrix3::Zero().eval();
+  }
   if (!factored_) {
     linearise(1.0);
     if (!system_->factor(0.0)) {
@@ -335,21 +374,18 @@ Result<Matrix3> PoseGraph::relative_covariance(std::size_t base, std::size_t nod
     }
     factored_ = true;
   }
-  if (base == node) {
-    return Matrix3::Zero().eval();
-  }
   const Residual r = linearised(nodes_[base], nodes_[node], {});
   Matrix3 covariance = Matrix3::Zero();
-  const auto variable = [&](std::size_t n) { return n < fixed_ ? n : n - 1; };
-  if (base != fixed_ && node != fixed_) {
-    const auto columns_base = system_->inverse_blocks(variable(base), {variable(base), variable(node)});
+  if (!is_fixed(base) && !is_fixed(node)) {
+    const std::size_t variable = variables_[base];
+    const auto columns_base = system_->inverse_blocks(variable, {variable, variables_[node]});
     const Matrix3 cross = r.by_j * columns_base[1] * r.by_i.transpose();
     covariance += r.by_i * columns_base[0] * r.by_i.transpose() + cross + cross.transpose();
-  } else if (base != fixed_) {
-    covariance += r.by_i * system_->inverse_blocks(variable(base), {variable(base)})[0] * r.by_i.transpose();
+  } else if (!is_fixed(base)) {
+    covariance += r.by_i * system_->inverse_blocks(variables_[base], {variables_[base]})[0] * r.by_i.transpose();
   }
-  if (node != fixed_) {
-    covariance += r.by_j * system_->inverse_blocks(variable(node), {variable(node)})[0] * r.by_j.transpose();
+  if (!is_fixed(node)) {
+    covariance += r.by_j * system_->inverse_blocks(variables_[node], {variables_[node]})[0] * r.by_j.transpose();
   }
   return Matrix3(0.5 * (covariance + covariance.transpose()));
 }

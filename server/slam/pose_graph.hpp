@@ -50,8 +50,9 @@ struct OptimiseReport {
   std::size_t switched_off = 0;  ///< enabled edges that disagree with all others
 };
 
-/// Nodes and edges are numbered in the order they were added and keep their numbers. Residual of an edge: components
-/// of inverse(map_T_i) * map_T_j minus i_T_j, angle wrapped (spec S0.3). A copy is a snapshot to go back to.
+/// Nodes and edges are numbered in the order they were added and keep their numbers until drop_nodes(). Residual of an
+/// edge: components of inverse(map_T_i) * map_T_j minus i_T_j, angle wrapped (spec S0.3). A copy is a snapshot to go
+/// back to.
 class PoseGraph {
  public:
   explicit PoseGraph(const PoseGraphParams& params = {});
@@ -64,6 +65,8 @@ class PoseGraph {
   /// The first node is the fixed one until fix() names another.
   std::size_t add_node(const Pose2& map_T_node);
   void fix(std::size_t node);
+  /// This one is fixed, too, for good. Edges between fixed nodes have no say and cost nothing.
+  void hold(std::size_t node);
   void set_pose(std::size_t node, const Pose2& map_T_node);
   [[nodiscard]] const Pose2& pose(std::size_t node) const { return nodes_.at(node); }
   [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
@@ -75,6 +78,9 @@ class PoseGraph {
   void set_enabled(std::size_t edge, bool enabled);
   /// Disables it for good and lets the matrix forget its place.
   void remove_edge(std::size_t edge);
+  /// Takes out the nodes from `first` to before `end` and the edges at them; not the one that fix() names. The nodes
+  /// after them and all edges are numbered anew without gaps, in the same order; removed edges are gone.
+  void drop_nodes(std::size_t first, std::size_t end);
   [[nodiscard]] bool enabled(std::size_t edge) const { return edges_.at(edge).state == State::kEnabled; }
   [[nodiscard]] const PoseEdge& edge(std::size_t edge) const { return edges_.at(edge).edge; }
   [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
@@ -85,7 +91,7 @@ class PoseGraph {
   [[nodiscard]] double edge_weight(std::size_t edge) const;
 
   /// Levenberg-Marquardt from the present poses; the sparsity pattern is analysed only after it changed. Poses are
-  /// left as they were on failure. kNotReady: no node, or nodes without a path of enabled edges to the fixed one.
+  /// left as they were on failure. kNotReady: no node, or nodes without a path of enabled edges to a fixed one.
   /// kInternal: the matrix has no solution (edges without information).
   [[nodiscard]] Result<OptimiseReport> optimise(int max_iterations = 20);
 
@@ -103,6 +109,11 @@ class PoseGraph {
 
   enum class Step : std::uint8_t { kDone, kSmall, kImpossible };
 
+  [[nodiscard]] bool is_fixed(std::size_t node) const { return node == fixed_ || held_[node]; }
+  /// Whether it can move anything.
+  [[nodiscard]] bool has_say(const Entry& entry) const {
+    return entry.state == State::kEnabled && !(is_fixed(entry.edge.i) && is_fixed(entry.edge.j));
+  }
   [[nodiscard]] Status prepare();
   [[nodiscard]] Status check_connected() const;
   void analyse();
@@ -115,6 +126,9 @@ class PoseGraph {
 
   PoseGraphParams params_;
   std::vector<Pose2> nodes_;
+  std::vector<bool> held_;              ///< by node
+  std::vector<std::size_t> variables_;  ///< by node: its place in the system, of those that move; since analysed
+  std::size_t variable_count_ = 0;
   std::vector<Entry> edges_;
   std::size_t fixed_ = 0;
   std::unique_ptr<BlockSystem> system_;  ///< absent until analysed

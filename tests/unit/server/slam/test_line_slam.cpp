@@ -219,6 +219,47 @@ TEST(LineSlam, FindsTheRobotInALoadedMapWithoutAHint) {
   EXPECT_EQ(slam.map().nodes.size(), map.nodes.size());
 }
 
+TEST(LineSlam, AMapThatIsOnlyReadStandsStillHoweverLongTheRobotPatrols) {
+  Trip first(9);
+  LineSlam mapper({}, first.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(first, mapper, 60.0));
+  const LineMap map = mapper.map();
+  Trip second(10);
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(map, MapUse::kLocalise));
+  ASSERT_TRUE(slam.relocalise(second.truth()));
+  ASSERT_NO_FATAL_FAILURE(drive(second, slam, 6.0));
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  const LineMap joined = slam.map();
+  const std::vector<MapSegment> segments = slam.segments();
+  for (int round = 0; round < 4; ++round) {
+    ASSERT_NO_FATAL_FAILURE(drive(second, slam, 30.0));
+    EXPECT_LT(distance_m(slam.estimate().map_T_base, second.truth()), 0.15);
+    EXPECT_TRUE(is_positive_definite(slam.estimate().covariance));
+    EXPECT_LE(slam.local_maps(), map.nodes.size() + 2U) << "of its own the robot keeps the newest two";
+  }
+  EXPECT_GT(slam.loops().closed, 10) << "what moved the map, were it not held";
+  LineMap now = slam.map();
+  now.next_id = joined.next_id;
+  EXPECT_EQ(now.nodes, map.nodes) << "to the last bit";
+  EXPECT_TRUE(now == joined) << "epoch, relations, walls and scans";
+  EXPECT_EQ(slam.segments(), segments);
+}
+
+TEST(LineSlam, LooksForItsPlaceForEverWithoutGrowing) {
+  Trip first(12);
+  LineSlam mapper({}, first.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(first, mapper, 12.0));
+  LineSlamParams params;
+  params.relocalise.witnesses = 1000;  // it never finds itself
+  LineSlam slam(params);
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kLocalise));
+  Trip second(13);
+  ASSERT_NO_FATAL_FAILURE(drive(second, slam, 45.0));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLost);
+  EXPECT_LE(slam.local_maps(), mapper.map().nodes.size() + 2U);
+}
+
 TEST(LineSlam, KeepsEveryWallOfALoadedMap) {
   Trip trip(9);
   LineSlam mapper({}, trip.truth());

@@ -256,6 +256,58 @@ TEST(PoseGraph, NodesWithoutAPathToTheFixedOneAreAnError) {
   EXPECT_NEAR(graph.pose(1).x_m, 1.1, 1e-9);
 }
 
+TEST(PoseGraph, WhatIsHeldStaysWhereItIsAndWhatIsJoinedToItMoves) {
+  PoseGraph graph;
+  const std::vector<Pose2> held{{}, {3.0, 0.1, 0.2}, {6.0, -0.3, 0.1}};
+  for (const Pose2& pose : held) {
+    graph.hold(graph.add_node(pose));
+  }
+  const std::size_t free = graph.add_node({2.0, 2.0, 0.5});
+  add(graph, {0, 1, {2.5, 0.0, 0.0}, kOdometry, EdgeKernel::kNone, 0.0});  // contradicts where they are held
+  ASSERT_FALSE(graph.optimise()) << "the last node has no path to any that is held";
+  add(graph, {2, free, {1.0, 2.0, 0.3}, kLoop, EdgeKernel::kNone, 0.0});
+  const auto report = graph.optimise();
+  ASSERT_TRUE(report);
+  EXPECT_LT(report->initial_chi2 + report->final_chi2, 1e6);
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    EXPECT_EQ(graph.pose(k), held[k]);
+  }
+  EXPECT_THAT(graph.pose(free), Pose2Near(held[2] * Pose2{1.0, 2.0, 0.3}, 1e-6, 1e-6));
+  EXPECT_EQ(graph.relative_covariance(1, 2)->norm(), 0.0);
+  EXPECT_LT((*graph.relative_covariance(2, free) - kLoop.inverse()).norm(), 1e-9);
+  for (const Pose2& pose : held) {
+    PoseGraph alone;
+    alone.hold(alone.add_node(pose));
+    EXPECT_TRUE(alone.optimise()) << "nothing that could move";
+  }
+}
+
+TEST(PoseGraph, DroppedNodesTakeTheirEdgesAlongAndLeaveNoGaps) {
+  Rng rng(6);
+  Laps made = laps(30, 20, rng);
+  PoseGraph graph;
+  for (std::size_t k = 0; k < made.graph.node_count(); ++k) {
+    graph.add_node(made.graph.pose(k));
+  }
+  for (std::size_t k = 0; k + 1 < graph.node_count(); ++k) {
+    add(graph, {k, k + 1, {0.5, 0.0, 0.1}, kOdometry, EdgeKernel::kNone, 0.0});
+  }
+  add(graph, {0, 12, inverse(graph.pose(0)) * graph.pose(12), kLoop, EdgeKernel::kSwitchable, 3.0});
+  add(graph, {0, 7, {}, kLoop, EdgeKernel::kSwitchable, 3.0});
+  const auto removed = graph.add_edge({2, 15, {}, kLoop, EdgeKernel::kSwitchable, 3.0});
+  graph.remove_edge(*removed);
+  const std::vector<Pose2> after{graph.pose(10), graph.pose(12), graph.pose(29)};
+  graph.drop_nodes(5, 10);
+  ASSERT_EQ(graph.node_count(), 25U);
+  EXPECT_EQ(graph.pose(5), after[0]);
+  EXPECT_EQ(graph.pose(7), after[1]);
+  EXPECT_EQ(graph.pose(24), after[2]);
+  EXPECT_EQ(graph.edge_count(), 29U - 6U + 1U) << "of the chain six lead to a node that is gone";
+  EXPECT_EQ(graph.edge(graph.edge_count() - 1).i, 0U);
+  EXPECT_EQ(graph.edge(graph.edge_count() - 1).j, 7U);
+  EXPECT_TRUE(graph.optimise()) << "the loop joins both halves";
+}
+
 TEST(PoseGraph, RefusesEdgesThatAreNone) {
   PoseGraph graph;
   graph.add_node({});
