@@ -246,6 +246,7 @@ void describe(config::Fields& f, LoopParams& params) {
   f.field("window_sigmas", params.window_sigmas);
   f.field("min_window_m", params.min_window_m);
   f.field("max_window_m", params.max_window_m);
+  f.field("rival_window_m", params.rival_window_m);
   f.angle_deg("min_window_deg", params.min_window_rad);
   f.angle_deg("max_window_deg", params.max_window_rad);
   f.field("match_points", params.match_points);

@@ -83,7 +83,7 @@ struct LoopPolicy {
   std::size_t cached_places = 16;  ///< local maps that are kept ready for comparison
   /// A loop that moves the map by more than its uncertainty says (3 dof, 99 %) waits for others that agree with it.
   double surprise_chi2 = 11.345;
-  std::size_t witnesses = 2;     ///< loops that must agree on a surprise
+  std::size_t witnesses = 2;     ///< loops that must agree on a surprise, seen by scans that they do not share
   std::size_t max_pending = 12;  ///< the oldest is forgotten
   double kernel_width = 3.0;     ///< deviations beyond which a loop loses its say
   double moved_m = 0.01;         ///< the map has a new epoch when the robot moves by more than this

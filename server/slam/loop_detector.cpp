@@ -39,9 +39,23 @@ SearchWindow LoopDetector::window_of(const UncertainPose& target_T_query) const 
           std::clamp(params_.window_sigmas * sigma_rad, params_.min_window_rad, params_.max_window_rad)};
 }
 
-std::optional<VerifiedLoop> LoopDetector::examine(const std::vector<SeenPoints>& seen_query,
-                                                  const std::vector<OrientedPoint>& points, const LoopTarget& target,
+/// Scans as the steps of a comparison need them.
+struct LoopDetector::Query {
+  const std::vector<SeenPoints>& seen;
+  std::vector<OrientedPoint> all;
+  std::vector<OrientedPoint> points;  ///< for the match
+
+  Query(const std::vector<SeenPoints>& seen_query, const LoopParams& params) : seen(seen_query) {
+    for (const SeenPoints& one : seen) {
+      all.insert(all.end(), one.points.begin(), one.points.end());
+    }
+    points = thin_by_cells(all, params.search.thin_cell_m, params.match_points);
+  }
+};
+
+std::optional<VerifiedLoop> LoopDetector::examine(const Query& query, const LoopTarget& target,
                                                   const GlobalCandidate& start) const {
+  const std::vector<OrientedPoint>& points = query.points;
   const MatchResult match = matcher_.match(target.place->cloud(), points, start.map_T_base);
   if (match.pairs < params_.match.min_pairs || match.inliers < static_cast<int>(params_.min_inliers)) {
     return std::nullopt;
@@ -49,7 +63,7 @@ std::optional<VerifiedLoop> LoopDetector::examine(const std::vector<SeenPoints>&
   VerifiedLoop loop;
   loop.id = target.id;
   loop.score = start.score;
-  loop.agreement = agreement_of(target.place->pyramid(), target.place->free_space(), seen_query, match.map_T_base,
+  loop.agreement = agreement_of(target.place->pyramid(), target.place->free_space(), query.seen, match.map_T_base,
                                 params_.agreement);
   const auto near = std::count_if(points.begin(), points.end(), [&](const OrientedPoint& point) {
     return target.place->cloud().nearest(match.map_T_base * point.p, params_.match.first_gate_m) != nullptr;
@@ -66,31 +80,47 @@ std::optional<VerifiedLoop> LoopDetector::examine(const std::vector<SeenPoints>&
   return loop;
 }
 
-std::optional<VerifiedLoop> LoopDetector::verify(const std::vector<SeenPoints>& seen_query,
-                                                 const LoopTarget& target) const {
-  std::vector<OrientedPoint> points;
-  for (const SeenPoints& seen : seen_query) {
-    points.insert(points.end(), seen.points.begin(), seen.points.end());
-  }
-  const GlobalSearchResult found = search_.search(target.place->pyramid(), points, window_of(target.target_T_query));
-  const std::vector<OrientedPoint> sparse = thin_by_cells(points, params_.search.thin_cell_m, params_.match_points);
+std::vector<VerifiedLoop> LoopDetector::fitting(const Query& query, const LoopTarget& target,
+                                                const std::vector<GlobalCandidate>& starts) const {
   std::vector<VerifiedLoop> loops;
-  for (const GlobalCandidate& start : found.candidates) {
-    if (auto loop = examine(seen_query, sparse, target, start)) {
+  for (const GlobalCandidate& start : starts) {
+    if (auto loop = examine(query, target, start)) {
       loops.push_back(*std::move(loop));
     }
   }
+  return loops;
+}
+
+bool LoopDetector::has_rival(const VerifiedLoop& best, const std::vector<VerifiedLoop>& loops) const {
+  return std::any_of(loops.begin(), loops.end(), [&](const VerifiedLoop& other) {
+    return !same_but_along(best, other, params_.search) &&
+           other.consistency * other.overlap > params_.rival_consistency * best.consistency * best.overlap;
+  });
+}
+
+std::optional<VerifiedLoop> LoopDetector::verify(const std::vector<SeenPoints>& seen_query,
+                                                 const LoopTarget& target) const {
+  const Query query(seen_query, params_);
+  SearchWindow window = window_of(target.target_T_query);
+  const LikelihoodPyramid& map = target.place->pyramid();
+  const std::vector<VerifiedLoop> loops = fitting(query, target, search_.search(map, query.all, window).candidates);
   const auto best = std::max_element(loops.begin(), loops.end(), [](const VerifiedLoop& a, const VerifiedLoop& b) {
     return a.consistency * a.overlap < b.consistency * b.overlap;
   });
-  if (best == loops.end()) {
+  if (best == loops.end() || has_rival(*best, loops)) {
     return std::nullopt;
   }
-  const bool rival = std::any_of(loops.begin(), loops.end(), [&](const VerifiedLoop& other) {
-    return !same_but_along(*best, other, params_.search) &&
-           other.consistency * other.overlap > params_.rival_consistency * best->consistency * best->overlap;
-  });
-  return rival ? std::nullopt : std::optional<VerifiedLoop>(*best);
+  if (window.half_m < params_.rival_window_m) {
+    window.half_m = params_.rival_window_m;
+    std::vector<GlobalCandidate> others = search_.search(map, query.all, window).candidates;
+    std::erase_if(others, [&](const GlobalCandidate& other) {
+      return distance_m(other.map_T_base, best->target_T_query.a_T_b) < params_.search.distinct_m;
+    });
+    if (has_rival(*best, fitting(query, target, others))) {
+      return std::nullopt;
+    }
+  }
+  return *best;
 }
 
 std::vector<VerifiedLoop> LoopDetector::detect(const std::vector<SeenPoints>& seen_query,

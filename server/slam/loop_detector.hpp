@@ -26,6 +26,9 @@ struct LoopParams {
   double window_sigmas = 3.0;  ///< half width of the search window
   double min_window_m = 1.0;   ///< but at least this
   double max_window_m = 6.0;   ///< and at most this
+  /// Half width in which no other place may fit as well, however sure the graph is: it may be wrong about that, and
+  /// rooms repeat themselves every few metres.
+  double rival_window_m = 4.0;
   double min_window_rad = 0.15;
   double max_window_rad = 0.8;
   std::size_t match_points = 400;
@@ -65,10 +68,13 @@ class LoopDetector {
   [[nodiscard]] const LoopParams& params() const { return params_; }
 
  private:
+  struct Query;
   [[nodiscard]] SearchWindow window_of(const UncertainPose& target_T_query) const;
-  [[nodiscard]] std::optional<VerifiedLoop> examine(const std::vector<SeenPoints>& seen_query,
-                                                    const std::vector<OrientedPoint>& points, const LoopTarget& target,
+  [[nodiscard]] std::optional<VerifiedLoop> examine(const Query& query, const LoopTarget& target,
                                                     const GlobalCandidate& start) const;
+  [[nodiscard]] std::vector<VerifiedLoop> fitting(const Query& query, const LoopTarget& target,
+                                                  const std::vector<GlobalCandidate>& starts) const;
+  [[nodiscard]] bool has_rival(const VerifiedLoop& best, const std::vector<VerifiedLoop>& loops) const;
 
   LoopParams params_;
   GlobalMatcher search_;

@@ -9,11 +9,24 @@
 #include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
+namespace {
+
+/// A place may be any local map that loops are looked for in: as far as that must it be the only one that fits.
+LoopParams with_rivals_of(const LoopPolicy& policy) {
+  LoopParams params = policy.detector;
+  params.rival_window_m = std::max(params.rival_window_m, policy.max_distance_m);
+  return params;
+}
+
+}  // namespace
+
 SeenPoints view_of(const MapKeyframe& keyframe, double range_m) {
   SeenPoints seen = seen_points(unpack_scan(keyframe));
   std::erase_if(seen.points, [&](const OrientedPoint& point) { return (point.p - seen.origin).norm() > range_m; });
   return seen;
 }
+
+MapBackend::MapBackend(const LoopPolicy& params) : params_(params), detector_(with_rivals_of(params)) {}
 
 std::uint32_t MapBackend::begin_first(const Pose2& map_T_node, RobotTime stamp) {
   SEEKER_ASSERT(maps_.empty());
@@ -84,6 +97,7 @@ std::uint32_t MapBackend::begin_apart(RobotTime stamp) {
   const auto id = static_cast<std::uint32_t>(graph_.add_node({}));
   maps_.push_back({id, stamp, {}, {}});
   apart_from_ = apart_from_.value_or(id);
+  unbroken_from_ = id;
   newest_covariance_ = Matrix3::Zero();
   if (own_from_) {
     // Where those before it lie may be wrong: nothing is searched for in them.
@@ -180,9 +194,10 @@ void MapBackend::drop_own_before(std::uint32_t first) {
   if (apart_from_) {
     apart_from_ = std::max(*apart_from_, first) - count;
   }
-  std::erase_if(pending_, [&](const LoopEdge& loop) { return loop.b < first; });
-  for (LoopEdge& loop : pending_) {
-    loop.b -= count;
+  unbroken_from_ = std::max(unbroken_from_, first) - count;
+  std::erase_if(pending_, [&](const Surprise& surprise) { return surprise.loop.b < first; });
+  for (Surprise& surprise : pending_) {
+    surprise.loop.b -= count;
   }
   loop_of_pair_.clear();
   for (std::size_t k = 0; k < graph_.edge_count(); ++k) {

@@ -41,7 +41,7 @@ struct LoopCounts {
 /// relation. Memory and cost do not grow however long the robot drives.
 class MapBackend {
  public:
-  explicit MapBackend(const LoopPolicy& params = {}) : params_(params), detector_(params.detector) {}
+  explicit MapBackend(const LoopPolicy& params = {});
 
   /// Begins a local map; with a predecessor, by the measured pose of its frame there and the covariance of that.
   std::uint32_t begin_first(const Pose2& map_T_node, RobotTime stamp);
@@ -79,6 +79,18 @@ class MapBackend {
   [[nodiscard]] std::vector<MapSegment> segments(std::uint32_t end) const;
 
  private:
+  /// The scans that the newest local map is compared with others by.
+  struct View {
+    std::vector<SeenPoints> seen_node;  ///< in the frame of the newest local map
+    RobotTime first;                    ///< stamps of the oldest and
+    RobotTime last;                     ///< the newest of them
+  };
+  /// A loop that surprises, with the stamps of the scans that it was seen by.
+  struct Surprise {
+    LoopEdge loop;
+    RobotTime first;
+    RobotTime last;
+  };
   struct Candidate {
     std::uint32_t id = 0;
     double distance_m = 0.0;
@@ -87,11 +99,13 @@ class MapBackend {
   /// Local maps below it are compared with the newest.
   [[nodiscard]] std::uint32_t loop_end() const;
   [[nodiscard]] std::vector<Candidate> candidates(const Pose2& map_T_base) const;
-  [[nodiscard]] std::vector<SeenPoints> query() const;
+  [[nodiscard]] View newest_view() const;
   [[nodiscard]] std::shared_ptr<const PlaceMap> place_of(std::uint32_t id);
   /// Nothing where a loaded map has parts that no relation joins: all or none of its local maps have one.
   [[nodiscard]] std::optional<UncertainPose> relative(std::size_t from, std::size_t to);
-  [[nodiscard]] std::vector<LoopEdge> believed(const LoopEdge& loop, const UncertainPose& expected);
+  [[nodiscard]] std::vector<LoopEdge> believed(const LoopEdge& loop, const View& view, const UncertainPose& expected);
+  /// Of the surprises those that enough others, seen independently, agree with, the last one among them.
+  [[nodiscard]] std::vector<LoopEdge> witnessed();
   void add_loop(const LoopEdge& loop);
   /// Puts all that earlier local maps and its own loops say of the place of a joined local map into one relation to the
   /// first; what begins at it stays. False where the graph cannot say.
@@ -107,8 +121,9 @@ class MapBackend {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> loop_of_pair_;       ///< edge of the graph
   std::deque<std::uint32_t> planned_;                                             ///< local maps to compare with
   bool unsettled_ = false;                                                        ///< loops were added since optimise()
-  std::vector<LoopEdge> pending_;                                                 ///< surprises without witnesses
+  std::vector<Surprise> pending_;                                                 ///< surprises without witnesses
   std::deque<std::pair<std::uint32_t, std::shared_ptr<const PlaceMap>>> places_;  ///< used last first
+  std::uint32_t unbroken_from_ = 0;  ///< the way from this local map to the newest is known by having been driven
   std::optional<std::uint32_t> apart_from_;  ///< this local map and those after it are not joined to the others
   std::optional<std::uint32_t> own_from_;    ///< the map is only read: local maps from this one on are not part of it
   Matrix3 newest_covariance_ = Matrix3::Zero();

@@ -38,18 +38,22 @@ std::vector<MapBackend::Candidate> MapBackend::candidates(const Pose2& map_T_bas
   return near;
 }
 
-std::vector<SeenPoints> MapBackend::query() const {
-  std::vector<SeenPoints> seen;
+MapBackend::View MapBackend::newest_view() const {
+  View view;
   const Pose2& map_T_newest = pose(maps_.back().id);
   // A local map that has just begun shows little: the end of the one before it belongs to the view.
-  for (std::size_t k = maps_.size(); k-- > 0 && k + 2 >= maps_.size();) {
+  for (std::size_t k = maps_.size(); k-- > unbroken_from_ && k + 2 >= maps_.size();) {
     const Pose2 newest_T_node = inverse(map_T_newest) * pose(maps_[k].id);
     const std::vector<MapKeyframe>& keyframes = maps_[k].keyframes;
-    for (std::size_t i = keyframes.size(); i-- > 0 && seen.size() < params_.query_keyframes;) {
-      seen.push_back(transform(newest_T_node * keyframes[i].node_T_base, view_of(keyframes[i], params_.view_range_m)));
+    for (std::size_t i = keyframes.size(); i-- > 0 && view.seen_node.size() < params_.query_keyframes;) {
+      const MapKeyframe& keyframe = keyframes[i];
+      view.last = view.seen_node.empty() ? keyframe.stamp : view.last;
+      view.first = keyframe.stamp;
+      view.seen_node.push_back(
+          transform(newest_T_node * keyframe.node_T_base, view_of(keyframe, params_.view_range_m)));
     }
   }
-  return seen;
+  return view;
 }
 
 std::shared_ptr<const PlaceMap> MapBackend::place_of(std::uint32_t id) {
@@ -103,9 +107,10 @@ bool MapBackend::step_loops() {
   const std::shared_ptr<const PlaceMap> place = place_of(id);
   const std::optional<UncertainPose> expected = relative(id, newest);
   if (id < loop_end() && place && expected) {
-    const auto loop = detector_.verify(query(), {.id = id, .place = place, .target_T_query = *expected});
+    const View view = newest_view();
+    const auto loop = detector_.verify(view.seen_node, {.id = id, .place = place, .target_T_query = *expected});
     for (const LoopEdge& edge :
-         loop ? believed({id, newest, loop->target_T_query}, *expected) : std::vector<LoopEdge>{}) {
+         loop ? believed({id, newest, loop->target_T_query}, view, *expected) : std::vector<LoopEdge>{}) {
       add_loop(edge);
       unsettled_ = true;
     }
@@ -117,7 +122,7 @@ bool MapBackend::step_loops() {
   return optimise();
 }
 
-std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop, const UncertainPose& expected) {
+std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop, const View& view, const UncertainPose& expected) {
   const Pose2 off = inverse(expected.a_T_b) * loop.a_T_b.a_T_b;
   const Matrix3 turn = compose_jacobian_b(expected.a_T_b, {});
   const Eigen::Vector3d residual = turn * Eigen::Vector3d(off.x_m, off.y_m, off.theta_rad);
@@ -126,20 +131,36 @@ std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop, const Uncertain
     return {loop};
   }
   ++counts_.surprises;
-  pending_.push_back(loop);
+  pending_.push_back({loop, view.first, view.last});
   if (pending_.size() > params_.max_pending) {
     pending_.erase(pending_.begin());
   }
-  const ConsistentSet agreed = largest_consistent_set(pending_, [this](std::size_t from, std::size_t to) {
+  return witnessed();
+}
+
+std::vector<LoopEdge> MapBackend::witnessed() {
+  std::vector<LoopEdge> candidates;
+  for (const Surprise& surprise : pending_) {
+    candidates.push_back(surprise.loop);
+  }
+  const auto odometry = [this](std::size_t from, std::size_t to) {
     return from == to ? UncertainPose{} : relative(from, to).value();
-  });
-  const bool includes_newest = !agreed.members.empty() && agreed.members.back() + 1 == pending_.size();
+  };
+  // Where one view is taken for another place, it agrees with itself, whichever local maps it is compared with.
+  const auto share_no_scan = [this](std::size_t i, std::size_t j) {
+    return pending_[i].last < pending_[j].first || pending_[j].last < pending_[i].first;
+  };
+  const ConsistentSet agreed = largest_consistent_set(candidates, odometry, {}, share_no_scan);
+  const auto is_newest = [&](std::size_t member) { return member + 1 == candidates.size(); };
+  const bool includes_newest = std::any_of(agreed.members.begin(), agreed.members.end(), is_newest);
   if (agreed.members.size() < params_.witnesses || agreed.rival_size >= agreed.members.size() || !includes_newest) {
     return {};
   }
   std::vector<LoopEdge> loops;
-  for (const std::size_t member : agreed.members) {
-    loops.push_back(pending_[member]);
+  for (const std::vector<std::size_t>* some : {&agreed.members, &agreed.followers}) {
+    for (const std::size_t member : *some) {
+      loops.push_back(candidates[member]);
+    }
   }
   pending_.clear();
   return loops;

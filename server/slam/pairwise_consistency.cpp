@@ -18,18 +18,24 @@ using Members = std::vector<std::size_t>;
 /// Who agrees with whom.
 class Agreement {
  public:
-  Agreement(const std::vector<LoopEdge>& candidates, const RelativePose& odometry, double gate_chi2)
-      : size_(candidates.size()), chi2_(size_ * size_, 0.0), gate_(gate_chi2) {
+  Agreement(const std::vector<LoopEdge>& candidates, const RelativePose& odometry, double gate_chi2,
+            const Independent& independent)
+      : size_(candidates.size()), chi2_(size_ * size_, 0.0), alike_(size_ * size_, false), gate_(gate_chi2) {
     for (std::size_t i = 0; i < size_; ++i) {
       for (std::size_t j = i + 1; j < size_; ++j) {
         const double chi2 = cycle_chi2(candidates[i], candidates[j], odometry);
         chi2_[i * size_ + j] = chi2;
         chi2_[j * size_ + i] = chi2;
+        const bool alike = independent && !independent(i, j);
+        alike_[i * size_ + j] = alike;
+        alike_[j * size_ + i] = alike;
       }
     }
   }
 
   [[nodiscard]] bool agree(std::size_t i, std::size_t j) const { return chi2(i, j) <= gate_; }
+  /// ... and may be members together.
+  [[nodiscard]] bool support(std::size_t i, std::size_t j) const { return agree(i, j) && !alike_[i * size_ + j]; }
   [[nodiscard]] double chi2(std::size_t i, std::size_t j) const { return chi2_[i * size_ + j]; }
   [[nodiscard]] double sum(const Members& members) const {
     double total = 0.0;
@@ -44,6 +50,7 @@ class Agreement {
  private:
   std::size_t size_;
   std::vector<double> chi2_;
+  std::vector<bool> alike_;
   double gate_;
 };
 
@@ -54,7 +61,7 @@ class CliqueSearch {
 
   Members find(Members open) {
     const auto degree = [&](std::size_t i) {
-      return std::count_if(open.begin(), open.end(), [&](std::size_t j) { return agreement_.agree(i, j); });
+      return std::count_if(open.begin(), open.end(), [&](std::size_t j) { return agreement_.support(i, j); });
     };
     std::vector<std::pair<std::ptrdiff_t, std::size_t>> by_degree;
     for (const std::size_t i : open) {
@@ -74,7 +81,7 @@ class CliqueSearch {
     std::vector<Members> classes;
     for (const std::size_t i : open) {
       const auto free = std::find_if(classes.begin(), classes.end(), [&](const Members& same) {
-        return std::none_of(same.begin(), same.end(), [&](std::size_t j) { return agreement_.agree(i, j); });
+        return std::none_of(same.begin(), same.end(), [&](std::size_t j) { return agreement_.support(i, j); });
       });
       (free == classes.end() ? classes.emplace_back() : *free).push_back(i);
     }
@@ -107,7 +114,7 @@ class CliqueSearch {
       current_.push_back(next);
       Members inner;
       std::copy_if(open.begin(), open.end(), std::back_inserter(inner),
-                   [&](std::size_t j) { return agreement_.agree(next, j); });
+                   [&](std::size_t j) { return agreement_.support(next, j); });
       if (inner.empty()) {
         keep_if_better();
       } else {
@@ -135,6 +142,18 @@ std::size_t rival_size(const Agreement& agreement, const Members& members, std::
     }
   }
   return against.empty() ? 0 : CliqueSearch(agreement, max_steps).find(against).size();
+}
+
+Members followers(const Agreement& agreement, const Members& members, std::size_t candidates) {
+  Members found;
+  for (std::size_t i = 0; i < candidates; ++i) {
+    const bool agrees =
+        std::all_of(members.begin(), members.end(), [&](std::size_t m) { return m != i && agreement.agree(i, m); });
+    if (agrees) {
+      found.push_back(i);
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -175,17 +194,18 @@ double cycle_chi2(const LoopEdge& first, const LoopEdge& second, const RelativeP
 }
 
 ConsistentSet largest_consistent_set(const std::vector<LoopEdge>& candidates, const RelativePose& odometry,
-                                     const ConsistencyParams& params) {
+                                     const ConsistencyParams& params, const Independent& independent) {
   ConsistentSet set;
   if (candidates.empty()) {
     return set;
   }
-  const Agreement agreement(candidates, odometry, params.gate_chi2);
+  const Agreement agreement(candidates, odometry, params.gate_chi2, independent);
   Members all(candidates.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   CliqueSearch search(agreement, params.max_search);
   set.members = search.find(std::move(all));
   set.exact = search.exact();
+  set.followers = followers(agreement, set.members, candidates.size());
   set.rival_size = rival_size(agreement, set.members, candidates.size(), params.max_search);
   return set;
 }

@@ -37,7 +37,9 @@ struct ConsistencyParams {
 
 struct ConsistentSet {
   std::vector<std::size_t> members;  ///< indices of the candidates, ascending
-  bool exact = true;                 ///< false: the search was cut short, a larger set may exist
+  /// Candidates that agree with all members and only are no witnesses of their own besides them.
+  std::vector<std::size_t> followers;
+  bool exact = true;  ///< false: the search was cut short, a larger set may exist
   /// Size of the largest consistent set of candidates outside `members` that contradict at least one of them: two
   /// stories of equal size cannot both be true.
   std::size_t rival_size = 0;
@@ -46,12 +48,18 @@ struct ConsistentSet {
 /// Pose of node `to` in the frame of node `from` by odometry alone.
 using RelativePose = std::function<UncertainPose(std::size_t from, std::size_t to)>;
 
+/// Whether two candidates, by their indices, were seen independently of each other. Those that were not, since one
+/// false view makes both alike, are never members together.
+using Independent = std::function<bool(std::size_t first, std::size_t second)>;
+
 /// chi2 of the cycle a1 -> b1 -> b2 -> a2 -> a1 against zero.
 [[nodiscard]] double cycle_chi2(const LoopEdge& first, const LoopEdge& second, const RelativePose& odometry);
 
 /// The largest set of candidates each of which agrees with each other one: a maximum clique, by branch and bound with
 /// greedy colouring (Tomita 2003). Of sets of equal size the one with the smaller sum of chi2 among those found.
+/// Without `independent` all are.
 [[nodiscard]] ConsistentSet largest_consistent_set(const std::vector<LoopEdge>& candidates,
-                                                   const RelativePose& odometry, const ConsistencyParams& params = {});
+                                                   const RelativePose& odometry, const ConsistencyParams& params = {},
+                                                   const Independent& independent = {});
 
 }  // namespace seeker::slam

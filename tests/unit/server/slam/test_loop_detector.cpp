@@ -73,26 +73,54 @@ TEST(LoopDetector, ALoopInACorridorSaysNothingAlongIt) {
   EXPECT_GT(loop->information(1, 1), 100.0);
 }
 
+/// A hall with pillars along both walls, and what was seen in it on the way there and, less far, on the way back.
+struct PillarHall {
+  std::vector<SeenPoints> out;
+  std::vector<SeenPoints> back;
+  Pose2 out_T_back;
+
+  PillarHall(double pitch_m, Rng& rng) {
+    std::vector<Wall> walls = box(-20.0, 0.0, 20.0, 3.0);
+    for (double x = -19.0; x < 19.0; x += pitch_m) {
+      for (const auto& piece : {box(x, 0.0, x + 0.5, 0.5), box(x, 2.5, x + 0.5, 3.0)}) {
+        walls.insert(walls.end(), piece.begin(), piece.end());
+      }
+    }
+    const std::vector<Pose2> there{{-3.0, 1.5, 0.0}, {-2.0, 1.5, 0.0}, {-1.0, 1.5, 0.0}, {0.0, 1.5, 0.0},
+                                   {1.0, 1.5, 0.0},  {2.0, 1.5, 0.0},  {3.0, 1.5, 0.0},  {4.0, 1.5, 0.0},
+                                   {1.0, 1.5, kPi},  {-1.0, 1.5, kPi}};
+    const std::vector<Pose2> again{{-1.0, 1.6, 0.0}, {0.0, 1.6, 0.0}};
+    back = submap(walls, again, rng, 5.0);
+    out = submap(walls, there, rng, 6.0);
+    out_T_back = inverse(there.front()) * again.front();
+  }
+};
+
 TEST(LoopDetector, TwoPlacesThatFitEquallyAreNoLoop) {
   Rng rng(4);
-  // Pillars every two metres along both walls: the window holds several shifts that fit.
-  std::vector<Wall> walls = box(-20.0, 0.0, 20.0, 3.0);
-  for (double x = -19.0; x < 19.0; x += 2.0) {
-    for (const auto& piece : {box(x, 0.0, x + 0.5, 0.5), box(x, 2.5, x + 0.5, 3.0)}) {
-      walls.insert(walls.end(), piece.begin(), piece.end());
-    }
-  }
-  const std::vector<Pose2> out{{-3.0, 1.5, 0.0}, {-2.0, 1.5, 0.0}, {-1.0, 1.5, 0.0}, {0.0, 1.5, 0.0},
-                               {1.0, 1.5, 0.0},  {2.0, 1.5, 0.0},  {1.0, 1.5, kPi},  {-1.0, 1.5, kPi}};
-  const std::vector<Pose2> back{{-1.0, 1.6, 0.0}, {0.0, 1.6, 0.0}};
-  const auto query = submap(walls, back, rng, 4.0);
-  const auto seen = submap(walls, out, rng, 6.0);
-  const Pose2 truth = inverse(out.front()) * back.front();
-  EXPECT_FALSE(LoopDetector().verify(query, target_of(seen, truth, 1.2, 0.1)));
-  // Where the drift cannot be a period, it is a loop.
-  const auto sure = LoopDetector().verify(query, target_of(seen, truth, 0.2, 0.05));
+  const PillarHall hall(2.0, rng);  // the window holds several shifts that fit
+  EXPECT_FALSE(LoopDetector().verify(hall.back, target_of(hall.out, hall.out_T_back, 1.2, 0.1)));
+}
+
+TEST(LoopDetector, APlaceThatFitsAsWellIsARivalHoweverSureTheGraphIs) {
+  Rng rng(4);
+  const PillarHall hall(3.0, rng);
+  // The graph is off by seven of its deviations: the pillar after the true one is the only one it would look at.
+  const auto target = target_of(hall.out, hall.out_T_back * Pose2{2.2, 0.0, 0.0}, 0.3, 0.05);
+  LoopParams trusting;
+  trusting.rival_window_m = 0.0;
+  const auto wrong = LoopDetector(trusting).verify(hall.back, target);
+  ASSERT_TRUE(wrong);
+  EXPECT_THAT(wrong->target_T_query.a_T_b, Pose2Near(hall.out_T_back * Pose2{3.0, 0.0, 0.0}, 0.05, 0.02));
+  EXPECT_FALSE(LoopDetector().verify(hall.back, target));
+}
+
+TEST(LoopDetector, PlacesTooFarApartToBeMistakenAreNoRivals) {
+  Rng rng(4);
+  const PillarHall hall(5.0, rng);
+  const auto sure = LoopDetector().verify(hall.back, target_of(hall.out, hall.out_T_back, 0.2, 0.05));
   ASSERT_TRUE(sure);
-  EXPECT_THAT(sure->target_T_query.a_T_b, Pose2Near(truth, 0.05, 0.02));
+  EXPECT_THAT(sure->target_T_query.a_T_b, Pose2Near(hall.out_T_back, 0.05, 0.02));
 }
 
 TEST(LoopDetector, WithoutScansOrTargetsThereIsNoLoop) {

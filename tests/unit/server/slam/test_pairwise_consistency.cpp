@@ -106,6 +106,34 @@ TEST(PairwiseConsistency, TwoStoriesOfEqualSizeAreRivals) {
   EXPECT_EQ(set.rival_size, 3U);
 }
 
+TEST(PairwiseConsistency, LoopsOfOneViewCountOnceAndFollowWhenOthersAgree) {
+  Rng rng(3);
+  const Walk walk(90, rng);
+  const OdometryChain chain(walk.steps);
+  const auto odometry = [&](std::size_t i, std::size_t j) { return chain.between(i, j); };
+  // One view of node 60, compared with three others, is wrong by the same way each time.
+  std::vector<LoopEdge> candidates;
+  for (const std::size_t old : {18U, 19U, 20U}) {
+    LoopEdge lie = walk.loop(old, 60, rng);
+    lie.a_T_b.a_T_b = lie.a_T_b.a_T_b * Pose2{2.0, 0.0, 0.0};
+    candidates.push_back(lie);
+  }
+  std::vector<std::size_t> view{0, 0, 0};
+  const auto apart = [&](std::size_t i, std::size_t j) { return view[i] != view[j]; };
+  EXPECT_EQ(largest_consistent_set(candidates, odometry).members.size(), 3U) << "where all count";
+  EXPECT_EQ(largest_consistent_set(candidates, odometry, {}, apart).members.size(), 1U);
+  candidates.push_back(walk.loop(21, 62, rng));
+  candidates.push_back(walk.loop(24, 65, rng));
+  candidates.push_back(walk.loop(25, 65, rng));
+  view.insert(view.end(), {1, 2, 2});
+  const ConsistentSet set = largest_consistent_set(candidates, odometry, {}, apart);
+  ASSERT_EQ(set.members.size(), 2U);
+  EXPECT_EQ(set.members.front(), 3U);
+  EXPECT_EQ(set.rival_size, 1U) << "the lies are one story of one view";
+  ASSERT_EQ(set.followers.size(), 1U);
+  EXPECT_EQ(set.members.back() + set.followers.front(), 4U + 5U) << "one of the last two, the other follows";
+}
+
 TEST(PairwiseConsistency, NothingAndOneAreTheirOwnAnswer) {
   const RelativePose still = [](std::size_t, std::size_t) { return UncertainPose{}; };
   EXPECT_TRUE(largest_consistent_set({}, still).members.empty());

@@ -1,0 +1,126 @@
+#include "server/slam/map_backend.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rooms.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace seeker::slam {
+namespace {
+
+using testing::Pose2Near;
+
+/// A robot that walks about in the furnished room and keeps each scan, as the backend is told by its tracker.
+class Visit {
+ public:
+  explicit Visit(std::uint64_t seed) : rng_(seed) {}
+
+  /// Keeps scans from so many places in the newest local map, whose frame truly lies at `map_T_node`.
+  void look(MapBackend& backend, const Pose2& map_T_node, int scans) {
+    LocalMap& map = backend.newest();
+    for (int k = 0; k < scans; ++k, time_s_ += 0.5) {
+      const Pose2 node_T_base{0.1 * (k % 5), 0.15 * (k % 3), 0.7 * k};
+      const LaserScan scan = scan_at(furnished_room(), map_T_node * node_T_base, time_s_, rng_);
+      map.keyframes.push_back(pack_keyframe(scan, map.id, node_T_base));
+    }
+  }
+  [[nodiscard]] RobotTime now() const { return robot_time_s(time_s_); }
+
+ private:
+  Rng rng_;
+  double time_s_ = 0.0;
+};
+
+/// Way from one local map to the next, of a robot whose odometry is worse than this says.
+const Matrix3 kWay = Eigen::Vector3d(6e-3, 6e-3, 1e-4).asDiagonal();
+const Matrix3 kSure = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+constexpr int kView = 8;  // LoopPolicy::query_keyframes
+
+void compare(MapBackend& backend) {
+  backend.plan_loops({});
+  for (int scan = 0; scan < 4; ++scan) {
+    backend.step_loops();
+  }
+}
+
+TEST(MapBackend, OneViewIsOneWitnessHoweverManyLocalMapsItIsComparedWith) {
+  Visit visit(1);
+  MapBackend backend;
+  const Pose2 first{2.0, 2.5, 0.0};
+  const Pose2 second{2.8, 3.2, 0.4};
+  const Pose2 way{6.0, 3.0, 0.0};
+  const Pose2 back{2.4, 2.8, 0.2};
+  backend.begin_first(first, visit.now());
+  visit.look(backend, first, 10);
+  backend.begin_next(inverse(first) * second, kWay, visit.now());
+  visit.look(backend, second, 10);
+  backend.begin_next(inverse(second) * way, kWay, visit.now());
+  const std::uint32_t newest = backend.begin_next(inverse(way) * back * Pose2{0.7, 0.0, 0.0}, kWay, visit.now());
+  visit.look(backend, back, kView);
+  compare(backend);
+  EXPECT_EQ(backend.loops().surprises, 2) << "both local maps show where the robot is";
+  EXPECT_EQ(backend.loops().closed, 0) << "the same scans twice";
+  visit.look(backend, back, kView / 2);
+  compare(backend);
+  EXPECT_EQ(backend.loops().surprises, 4);
+  EXPECT_EQ(backend.loops().closed, 0) << "half of the scans are those of the first view";
+  visit.look(backend, back, kView / 2);
+  compare(backend);
+  EXPECT_GT(backend.loops().closed, 1) << "what agrees comes along";
+  EXPECT_THAT(backend.pose(newest), Pose2Near(back, 0.05, 0.02));
+}
+
+TEST(MapBackend, WhatALoadedMapShowsIsNoViewOfARobotThatWasJustFound) {
+  Visit visit(2);
+  MapBackend mapper;
+  const Pose2 first{2.0, 2.5, 0.0};
+  mapper.begin_first(first, visit.now());
+  visit.look(mapper, first, 10);
+  for (const Pose2& next : {Pose2{2.8, 3.2, 0.4}, Pose2{7.5, 2.0, 2.0}}) {
+    mapper.begin_next(inverse(mapper.pose(mapper.newest().id)) * next, kSure, visit.now());
+    visit.look(mapper, next, 10);
+  }
+  for (const MapUse use : {MapUse::kContinue, MapUse::kLocalise}) {
+    MapBackend backend;
+    backend.load(mapper.assemble(3), use);
+    backend.begin_apart(visit.now());
+    backend.anchor({6.5, 2.0, 0.3}, kSure);
+    compare(backend);
+    EXPECT_GT(backend.loops().tried, 0);
+    EXPECT_EQ(backend.loops().surprises + backend.loops().closed, 0) << "it has not seen anything yet";
+  }
+}
+
+TEST(MapBackend, ARobotThatOnlyReadsKeepsWhatItKnowsOfItsPlaceWhenItDropsItsLocalMaps) {
+  Visit visit(3);
+  MapBackend mapper;
+  const Pose2 first{2.0, 2.5, 0.0};
+  mapper.begin_first(first, visit.now());
+  visit.look(mapper, first, 10);
+  MapBackend backend;
+  backend.load(mapper.assemble(1), MapUse::kLocalise);
+  backend.begin_apart(visit.now());
+  backend.anchor({2.5, 2.5, 0.1}, kSure);
+  const Matrix3 step = Eigen::Vector3d(4e-4, 4e-4, 1e-4).asDiagonal();
+  UncertainPose expected{{2.5, 2.5, 0.1}, kSure};
+  for (int k = 0; k < 40; ++k) {
+    const Pose2 driven{k % 2 == 0 ? 0.3 : -0.3, 0.0, 0.0};
+    expected = compose(expected, {driven, step});
+    backend.begin_next(driven, step, visit.now());
+    ASSERT_LE(backend.maps().size(), 3U) << "the loaded one and two of its own";
+    ASSERT_EQ(backend.newest().id + 1U, backend.maps().size());
+  }
+  EXPECT_THAT(backend.pose(backend.newest().id), Pose2Near(expected.a_T_b, 1e-9, 1e-9));
+  EXPECT_LT((backend.newest_covariance() - expected.covariance).norm(), 1e-6 * expected.covariance.norm());
+  // A loop is weighed against all that was driven since: it puts the robot right, and the covariance shrinks.
+  const Pose2 truth = expected.a_T_b * Pose2{0.05, -0.06, 0.02};
+  visit.look(backend, truth, kView);
+  const double before = backend.newest_covariance().trace();
+  compare(backend);
+  EXPECT_GT(backend.loops().closed, 0);
+  EXPECT_LT(backend.newest_covariance().trace(), 0.1 * before);
+  EXPECT_THAT(backend.pose(backend.newest().id), Pose2Near(truth, 0.05, 0.02));
+}
+
+}  // namespace
+}  // namespace seeker::slam
