@@ -70,9 +70,9 @@ void describe(config::Fields& f, RelocaliseParams& params) {
   f.field("hint_m", params.hint_m);
   f.angle_deg("hint_deg", params.hint_rad);
   f.field("hint_tries", params.hint_tries);
-  f.field("witnesses", params.witnesses);
-  f.field("agree_m", params.agree_m);
-  f.angle_deg("agree_deg", params.agree_rad);
+  f.field("witnesses", params.claim.witnesses);
+  f.field("agree_m", params.claim.agree_m);
+  f.angle_deg("agree_deg", params.claim.agree_rad);
   f.field("max_tries", params.max_tries);
   f.field("joint_sigma_m", params.joint_sigma_m);
   f.angle_deg("joint_sigma_deg", params.joint_sigma_rad);

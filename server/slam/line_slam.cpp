@@ -68,7 +68,8 @@ LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
       travelled_(params.odometry),
       cloud_(params.points.cloud),
       backend_(params.loops),
-      recogniser_(params.relocalise.place) {
+      recogniser_(params.relocalise.place),
+      claim_(params.relocalise.claim) {
   begin(map_T_base, RobotTime{});
 }
 
@@ -386,7 +387,8 @@ void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
   odometry_bias_.change_frame(inverse(last_T_new));
   jump_.clear();
   last_try_ = inverse(last_T_new) * last_try_;
-  for (std::optional<Pose2>* map_T_node : {&claim_, &kept_map_T_node_, &hint_map_T_node_}) {
+  claim_.change_node(last_T_new);
+  for (std::optional<Pose2>* map_T_node : {&kept_map_T_node_, &hint_map_T_node_}) {
     if (*map_T_node) {
       *map_T_node = **map_T_node * last_T_new;
     }

@@ -89,7 +89,6 @@ class LineSlam final : public MapTracker {
   void look_for_robot();
   [[nodiscard]] std::vector<SeenPoints> seen_lately() const;
   [[nodiscard]] PlaceAnswer find_place(const std::vector<SeenPoints>& seen) const;
-  [[nodiscard]] bool is_confirmed(const Pose2& map_T_node, bool expected);
   void settle(const PlaceAnswer& answer);
   void append_newest(std::vector<MapSegment>& all) const;
 
@@ -132,8 +131,7 @@ class LineSlam final : public MapTracker {
   Pose2 last_try_;                        ///< node_T_base
   int scans_since_try_ = 0;
   int tries_ = 0;
-  std::optional<Pose2> claim_;  ///< where the last unique answer puts the newest local map,
-  int witnesses_ = 0;           ///< and how many answers in a row have said so
+  PlaceClaim claim_;
   LineSlamCounts counts_;
 };
 

@@ -104,8 +104,7 @@ Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
   // What is driven from now on is known.
   hint_map_T_node_ = map_T_base ? std::optional(*map_T_base * inverse(lines_->robot())) : std::nullopt;
   kept_map_T_node_.reset();
-  claim_.reset();
-  witnesses_ = 0;
+  claim_.clear();
   place_.reset();
   tries_ = 0;
   scans_since_try_ = params_.relocalise.every_scans;  // the next scan is a try
@@ -183,19 +182,9 @@ PlaceAnswer LineSlam::find_place(const std::vector<SeenPoints>& seen) const {
   return recogniser_.locate(*place_, seen, window);
 }
 
-bool LineSlam::is_confirmed(const Pose2& map_T_node, bool expected) {
-  // One answer may be a chance; those in a row must name the same place. A robot that stands gives the same answer each
-  // time: it has no other, and must drive by hand where the place is ambiguous.
-  const bool agrees = claim_ && !moved(*claim_, map_T_node, params_.relocalise.agree_m, params_.relocalise.agree_rad);
-  witnesses_ = agrees ? witnesses_ + 1 : 1;
-  claim_ = map_T_node;
-  return expected || witnesses_ >= params_.relocalise.witnesses;
-}
-
 void LineSlam::settle(const PlaceAnswer& answer) {
   const Pose2 base_T_node = inverse(lines_->robot());
-  if (answer.verdict == PlaceVerdict::kUnique &&
-      is_confirmed(answer.candidates.front().match.map_T_base * base_T_node, answer.expected)) {
+  if (claim_.take(answer, lines_->robot())) {
     const MatchResult& match = answer.candidates.front().match;
     const Matrix3 to_a = compose_jacobian_a(match.map_T_base, base_T_node);
     backend_.anchor(match.map_T_base * base_T_node,

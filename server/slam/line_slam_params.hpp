@@ -10,6 +10,7 @@
 #include "server/slam/odometry_bias.hpp"
 #include "server/slam/odometry_scale.hpp"
 #include "server/slam/odometry_tracker.hpp"
+#include "server/slam/place_claim.hpp"
 #include "server/slam/place_recogniser.hpp"
 #include "server/slam/scan_matcher.hpp"
 #include "server/slam/segment_fusion.hpp"
@@ -100,10 +101,8 @@ struct RelocaliseParams {
   std::size_t query_keyframes = 12;  ///< the newest ones together are the view
   double hint_m = 1.0;               ///< half width of the search about a place that somebody has named
   double hint_rad = 0.5;
-  int hint_tries = 15;   ///< after so many the robot is looked for everywhere
-  int witnesses = 3;     ///< answers in a row that must name the same place
-  double agree_m = 0.3;  ///< to within this
-  double agree_rad = 0.1;
+  int hint_tries = 15;  ///< after so many the robot is looked for everywhere
+  ClaimParams claim;
   int max_tries = 30;           ///< then the robot is lost: it is not in this map
   double joint_sigma_m = 0.03;  ///< of the place found, beside the match's covariance
   double joint_sigma_rad = 0.01;

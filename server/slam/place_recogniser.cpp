@@ -75,10 +75,12 @@ PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, con
   answer.verdict = PlaceVerdict::kAmbiguous;
   if (best.match.degenerate_direction) {
     answer.reason = "the points say nothing along one direction, as in a corridor";
+    answer.says_nothing = true;
   } else if (answer.lead < params.min_lead || certainty < params.min_certainty) {
     answer.reason = "another place fits nearly as well";
   } else if (answer.lead * static_cast<double>(cells) < params.min_lead_cells) {
     answer.reason = "too little was seen to tell this place from others";
+    answer.says_nothing = true;
   } else {
     answer.verdict = PlaceVerdict::kUnique;
     answer.reason = "one place fits far better than any other";
@@ -137,6 +139,7 @@ PlaceAnswer PlaceRecogniser::locate(const PlaceMap& map, const std::vector<SeenP
   if (!found.complete && answer.verdict == PlaceVerdict::kUnique) {
     answer.verdict = PlaceVerdict::kAmbiguous;
     answer.reason = "a place fits, but the search was cut short before all others were excluded";
+    answer.says_nothing = true;
   }
   return answer;
 }

@@ -94,7 +94,9 @@ struct PlaceAnswer {
   std::vector<PlaceCandidate> candidates;  ///< best first
   double lead = 0.0;                       ///< of the first over the next one
   std::size_t cells = 0;                   ///< with points: how much was seen
-  bool expected = false;                   ///< where the robot was known to be: no second view is needed
+  /// kAmbiguous since the points tell too little: nothing speaks for another place, nor against any.
+  bool says_nothing = false;
+  bool expected = false;  ///< where the robot was known to be: no second view is needed
 };
 
 /// Verdict and reason from the candidates, whatever order they come in, and the number of cells with points.

@@ -251,7 +251,7 @@ TEST(LineSlam, LooksForItsPlaceForEverWithoutGrowing) {
   LineSlam mapper({}, first.truth());
   ASSERT_NO_FATAL_FAILURE(drive(first, mapper, 12.0));
   LineSlamParams params;
-  params.relocalise.witnesses = 1000;  // it never finds itself
+  params.relocalise.claim.witnesses = 1000;  // it never finds itself
   LineSlam slam(params);
   ASSERT_TRUE(slam.load(mapper.map(), MapUse::kLocalise));
   Trip second(13);

@@ -318,6 +318,16 @@ TEST(Judge, NamesTheReasonOfEachVerdict) {
   EXPECT_EQ(judge({blind}, 200).verdict, PlaceVerdict::kAmbiguous);
 }
 
+TEST(Judge, TellsWhatSpeaksForAnotherPlaceFromWhatSaysNothing) {
+  EXPECT_FALSE(judge({}, 200).says_nothing);
+  EXPECT_FALSE(judge({candidate(0.7, 0.0)}, 200).says_nothing) << "the points contradict the place";
+  EXPECT_FALSE(judge({candidate(0.95, 0.0), candidate(0.9, 0.0)}, 200).says_nothing) << "two places fit";
+  EXPECT_TRUE(judge({candidate(0.95, 0.0), candidate(0.75, 0.0)}, 60).says_nothing) << "too little was seen";
+  auto blind = candidate(0.95, 0.0);
+  blind.match.degenerate_direction = Point2(1.0, 0.0);
+  EXPECT_TRUE(judge({blind}, 200).says_nothing) << "a corridor";
+}
+
 TEST(MapAgreement, BeamsThroughAWallAndPointsInTheOpenAreCounted) {
   Rng rng(9);
   const PlaceMap map = room_map(rng);
