@@ -180,6 +180,7 @@ void describe(config::Fields& f, PlaceMapParams& params) {
   f.section("pyramid", params.pyramid);
   f.section("free_space", params.free_space);
   f.field("cloud_cell_m", params.cloud_cell_m);
+  f.field("max_cell_m", params.max_cell_m);
 }
 
 void describe(config::Fields& f, GlobalSearchParams& params) {

@@ -78,7 +78,7 @@ Result<LikelihoodPyramid> LikelihoodPyramid::build(const std::vector<OrientedPoi
   LikelihoodPyramid pyramid(params, low, high);
   if (pyramid.needed_bytes() > params.max_bytes) {
     return fail(Errc::kTooLarge, "the search grid would need " + std::to_string(pyramid.needed_bytes() / 1'000'000) +
-                                     " MB; use a larger resolution_m or search in a window");
+                                     " MB; use a larger resolution_m, or only the points about a place");
   }
   pyramid.levels_.emplace_back(pyramid.cell(params.directions, 0, 0), std::uint8_t{0});
   for (const OrientedPoint& point : points_map) {

@@ -88,7 +88,7 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   jump_.clear();
   travelled_.correct({}, Matrix3::Zero());
   next_id_ = 1;
-  place_.reset();
+  forget_places();
   hint_map_T_node_.reset();
   kept_map_T_node_.reset();
   quality_ = LocalisationQuality::kUnknown;

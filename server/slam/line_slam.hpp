@@ -88,7 +88,12 @@ class LineSlam final : public MapTracker {
   void start_local_map();
   void look_for_robot();
   [[nodiscard]] std::vector<SeenPoints> seen_lately() const;
-  [[nodiscard]] PlaceAnswer find_place(const std::vector<SeenPoints>& seen) const;
+  /// Of the whole map; one that cannot be searched is not made ready again at every try.
+  [[nodiscard]] const Result<PlaceMap>& whole_place();
+  /// Of what shows the surroundings of a place.
+  [[nodiscard]] const Result<PlaceMap>& place_about(const Pose2& map_T_base);
+  [[nodiscard]] Result<PlaceAnswer> find_place(const std::vector<SeenPoints>& seen);
+  void forget_places();
   void settle(const PlaceAnswer& answer);
   void append_newest(std::vector<MapSegment>& all) const;
 
@@ -122,9 +127,11 @@ class LineSlam final : public MapTracker {
   double turn_since_leftover_rad_ = 0.0;  ///< and turned
   std::uint64_t revision_ = 0;
   std::uint64_t next_id_ = 1;
-  // Looking for the robot in a map; place_ is there only meanwhile.
+  // Looking for the robot in a map; the places are there only meanwhile.
   PlaceRecogniser recogniser_;
-  std::unique_ptr<PlaceMap> place_;
+  std::unique_ptr<Result<PlaceMap>> whole_place_;
+  std::unique_ptr<Result<PlaceMap>> near_place_;
+  Pose2 near_place_at_;  ///< what near_place_ is about
   std::string search_cause_;
   std::optional<Pose2> hint_map_T_node_;  ///< where the newest local map lies by what somebody has named
   std::optional<Pose2> kept_map_T_node_;  ///< where the newest local map lies if the robot began it where it stood

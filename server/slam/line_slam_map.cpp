@@ -1,6 +1,6 @@
 // The map of line SLAM as a whole: handed out, loaded, and searched for the robot.
 #include <algorithm>
-#include <limits>
+#include <numbers>
 #include <utility>
 
 #include "server/slam/covariance.hpp"
@@ -105,7 +105,7 @@ Status LineSlam::relocalise(const std::optional<Pose2>& map_T_base) {
   hint_map_T_node_ = map_T_base ? std::optional(*map_T_base * inverse(lines_->robot())) : std::nullopt;
   kept_map_T_node_.reset();
   claim_.clear();
-  place_.reset();
+  forget_places();
   tries_ = 0;
   scans_since_try_ = params_.relocalise.every_scans;  // the next scan is a try
   quality_ = LocalisationQuality::kUnknown;
@@ -141,15 +141,42 @@ void LineSlam::look_for_robot() {
   scans_since_try_ = 0;
   last_try_ = lines_->robot();
   ++tries_;
-  if (!place_) {
-    Result<PlaceMap> built = PlaceMap::build(backend_.seen(), params_.relocalise.map);
-    if (!built) {
-      search_cause_ = "the map cannot be searched: " + built.error().message;
-      return;
-    }
-    place_ = std::make_unique<PlaceMap>(*std::move(built));
+  const Result<PlaceAnswer> answer = find_place(seen_lately());
+  if (!answer) {
+    search_cause_ = "the map cannot be searched everywhere, so name the robot's place: " + answer.error().message;
+    return;
   }
-  settle(find_place(seen_lately()));
+  settle(*answer);
+}
+
+void LineSlam::forget_places() {
+  whole_place_.reset();
+  near_place_.reset();
+}
+
+const Result<PlaceMap>& LineSlam::whole_place() {
+  if (!whole_place_) {
+    whole_place_ = std::make_unique<Result<PlaceMap>>(PlaceMap::build(backend_.seen(), params_.relocalise.map));
+  }
+  return *whole_place_;
+}
+
+const Result<PlaceMap>& LineSlam::place_about(const Pose2& map_T_base) {
+  if (whole_place_ && *whole_place_ && !(*whole_place_)->coarse()) {
+    near_place_.reset();
+    return *whole_place_;
+  }
+  constexpr double kDriven_m = 4.0;  // farther on, other scans show the surroundings
+  if (!near_place_ || distance_m(near_place_at_, map_T_base) > kDriven_m) {
+    // Whatever the robot sees from wherever it may be by then, and those who saw that from the other side.
+    const double window_m =
+        std::numbers::sqrt2 * std::max(params_.relocalise.hint_m, params_.relocalise.place.kept.about_m);
+    const double range_m = kDriven_m + window_m + 2.0 * params_.loops.view_range_m;
+    near_place_ = std::make_unique<Result<PlaceMap>>(
+        PlaceMap::build(backend_.seen_about(map_T_base.translation(), range_m), params_.relocalise.map));
+    near_place_at_ = map_T_base;
+  }
+  return *near_place_;
 }
 
 std::vector<SeenPoints> LineSlam::seen_lately() const {
@@ -168,18 +195,31 @@ std::vector<SeenPoints> LineSlam::seen_lately() const {
   return seen;
 }
 
-PlaceAnswer LineSlam::find_place(const std::vector<SeenPoints>& seen) const {
+Result<PlaceAnswer> LineSlam::find_place(const std::vector<SeenPoints>& seen) {
   const RelocaliseParams& params = params_.relocalise;
-  std::optional<SearchWindow> window;
   if (kept_map_T_node_ && way_since_kept_m_ <= params.place.kept.about_m) {
-    PlaceAnswer there = recogniser_.confirm(*place_, seen, *kept_map_T_node_ * lines_->robot());
-    if (there.verdict == PlaceVerdict::kUnique) {
-      return there;
+    const Pose2 stood = *kept_map_T_node_ * lines_->robot();
+    if (const Result<PlaceMap>& about = place_about(stood)) {
+      PlaceAnswer there = recogniser_.confirm(*about, seen, stood);
+      if (there.verdict == PlaceVerdict::kUnique) {
+        return there;
+      }
     }
   } else if (hint_map_T_node_ && tries_ <= params.hint_tries) {
-    window = SearchWindow{*hint_map_T_node_ * lines_->robot(), params.hint_m, params.hint_rad};
+    const Pose2 hint = *hint_map_T_node_ * lines_->robot();
+    const Result<PlaceMap>& about = place_about(hint);
+    if (!about) {
+      PlaceAnswer none;
+      none.reason = "the map shows nothing about the place that was named";
+      return none;
+    }
+    return recogniser_.locate(*about, seen, SearchWindow{hint, params.hint_m, params.hint_rad});
   }
-  return recogniser_.locate(*place_, seen, window);
+  const Result<PlaceMap>& whole = whole_place();
+  if (!whole) {
+    return tl::unexpected<Error>(whole.error());
+  }
+  return recogniser_.locate(*whole, seen);
 }
 
 void LineSlam::settle(const PlaceAnswer& answer) {
@@ -190,7 +230,7 @@ void LineSlam::settle(const PlaceAnswer& answer) {
     backend_.anchor(match.map_T_base * base_T_node,
                     with_floor(to_a * match.covariance * to_a.transpose(), params_.relocalise.joint_sigma_m,
                                params_.relocalise.joint_sigma_rad));
-    place_.reset();
+    forget_places();
     kept_map_T_node_.reset();
     quality_ = LocalisationQuality::kLocalised;
     cause_.clear();

@@ -139,10 +139,17 @@ void MapBackend::anchor(const Pose2& map_T_newest, const Matrix3& covariance) {
 }
 
 std::vector<SeenPoints> MapBackend::seen() const {
+  return seen_about(Point2::Zero(), std::numeric_limits<double>::infinity());
+}
+
+std::vector<SeenPoints> MapBackend::seen_about(const Point2& p_map, double range_m) const {
   std::vector<SeenPoints> all;
   for (std::uint32_t id = 0; id < map_end(); ++id) {
     for (const MapKeyframe& keyframe : maps_[id].keyframes) {
-      all.push_back(transform(pose(id) * keyframe.node_T_base, view_of(keyframe, params_.view_range_m)));
+      const Pose2 map_T_base = pose(id) * keyframe.node_T_base;
+      if ((map_T_base.translation() - p_map).norm() <= range_m) {
+        all.push_back(transform(map_T_base, view_of(keyframe, params_.view_range_m)));
+      }
     }
   }
   return all;

@@ -57,6 +57,8 @@ class MapBackend {
   void anchor(const Pose2& map_T_newest, const Matrix3& covariance);
   /// Scans of all local maps but those begun apart, in the frame `map`: what a place is searched in.
   [[nodiscard]] std::vector<SeenPoints> seen() const;
+  /// ... that were made within a range of a place.
+  [[nodiscard]] std::vector<SeenPoints> seen_about(const Point2& p_map, double range_m) const;
   /// Local maps below it are the map: those that are joined, and where it is only read, those that were loaded.
   [[nodiscard]] std::uint32_t map_end() const;
   [[nodiscard]] LocalMap& newest() { return maps_.back(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -24,6 +25,17 @@ bool same_place(const Pose2& a, const Pose2& b, const GlobalSearchParams& params
   return distance_m(a, b) < params.distinct_m && std::abs(wrap_angle(a.theta_rad - b.theta_rad)) < params.distinct_rad;
 }
 
+/// With larger cells, and a field that is still wider than a cell.
+PyramidParams coarser(PyramidParams params, double max_cell_m) {
+  constexpr double kStep = 1.5;
+  constexpr double kSigmaCells = 0.8;
+  constexpr double kReachCells = 2.0;
+  params.resolution_m = std::min(kStep * params.resolution_m, max_cell_m);
+  params.sigma_m = std::max(params.sigma_m, kSigmaCells * params.resolution_m);
+  params.reach_m = std::max(params.reach_m, kReachCells * params.resolution_m);
+  return params;
+}
+
 }  // namespace
 
 PlaceMap::PlaceMap(LikelihoodPyramid pyramid, std::unique_ptr<ReferenceCloud> cloud, FreeSpace free_space)
@@ -32,12 +44,32 @@ PlaceMap::PlaceMap(LikelihoodPyramid pyramid, std::unique_ptr<ReferenceCloud> cl
 Result<PlaceMap> PlaceMap::build(const std::vector<SeenPoints>& seen_map, const PlaceMapParams& params) {
   const std::vector<OrientedPoint> points =
       thin_by_cells(all_points(seen_map), params.cloud_cell_m, std::numeric_limits<std::size_t>::max());
-  auto pyramid = LikelihoodPyramid::build(points, params.pyramid);
+  PyramidParams used = params.pyramid;
+  auto pyramid = LikelihoodPyramid::build(points, used);
+  while (!pyramid && pyramid.error().code == Errc::kTooLarge && used.resolution_m < params.max_cell_m) {
+    used = coarser(used, params.max_cell_m);
+    pyramid = LikelihoodPyramid::build(points, used);
+  }
   if (!pyramid) {
     return tl::unexpected<Error>(pyramid.error());
   }
-  return PlaceMap(*std::move(pyramid), std::make_unique<ReferenceCloud>(points),
-                  FreeSpace(seen_map, params.free_space));
+  PlaceMap map(*std::move(pyramid), std::make_unique<ReferenceCloud>(points), FreeSpace(seen_map, params.free_space));
+  map.detail_ = params.pyramid;
+  if (used.resolution_m > params.pyramid.resolution_m) {
+    map.points_ = points;
+  }
+  return map;
+}
+
+std::optional<LikelihoodPyramid> PlaceMap::detail_about(const Point2& p_map, double range_m) const {
+  std::vector<OrientedPoint> near;
+  std::copy_if(points_.begin(), points_.end(), std::back_inserter(near),
+               [&](const OrientedPoint& point) { return (point.p - p_map).norm() <= range_m; });
+  if (near.empty()) {
+    return std::nullopt;
+  }
+  auto detail = LikelihoodPyramid::build(near, detail_);
+  return detail ? std::optional(*std::move(detail)) : std::nullopt;
 }
 
 std::string_view to_string(PlaceVerdict verdict) {
@@ -97,20 +129,38 @@ struct PlaceRecogniser::Query {
   std::vector<OrientedPoint> points;
   std::vector<OrientedPoint> sparse;  ///< for the final match
   std::vector<OrientedPoint> cells;   ///< for the fit
+  double reach_m = 0.0;               ///< of the farthest point from the base
 
   Query(const std::vector<SeenPoints>& seen_base, const PlaceParams& params)
       : seen(seen_base),
         points(all_points(seen_base)),
         sparse(thin_out(points, params.match_points)),
-        cells(thin_by_cells(points, params.search.thin_cell_m, std::numeric_limits<std::size_t>::max())) {}
+        cells(thin_by_cells(points, params.search.thin_cell_m, std::numeric_limits<std::size_t>::max())) {
+    for (const OrientedPoint& point : points) {
+      reach_m = std::max(reach_m, point.p.norm());
+    }
+  }
 };
 
+/// What a search in larger cells has found, by the cells of the detail.
+Pose2 PlaceRecogniser::start_in(const LikelihoodPyramid& detail, const Query& query, const Pose2& coarse,
+                                double cell_m) const {
+  const double leaf_m = cell_m * (1 << params_.search.leaf_level);
+  const GlobalSearchResult found =
+      search_.search(detail, query.points, SearchWindow{coarse, leaf_m, params_.search.max_step_rad});
+  return found.candidates.empty() ? coarse : found.candidates.front().map_T_base;
+}
+
 PlaceCandidate PlaceRecogniser::refine(const PlaceMap& map, const Query& query, const Pose2& start) const {
+  constexpr double kMargin_m = 2.0;  // the match moves the points by less
+  const auto detail = map.detail_about(start.translation(), query.reach_m + kMargin_m);
+  const LikelihoodPyramid& field = detail ? *detail : map.pyramid();
+  const double cell_m = map.pyramid().frame().resolution_m;
   PlaceCandidate candidate;
-  candidate.match = matcher_.match(map.cloud(), query.sparse, start);
+  candidate.match = matcher_.match(map.cloud(), query.sparse, detail ? start_in(*detail, query, start, cell_m) : start);
   const Pose2& pose = candidate.match.map_T_base;
-  candidate.fit = fit_of(map.pyramid(), map.free_space(), query.cells, pose);
-  candidate.agreement = agreement_of(map.pyramid(), map.free_space(), query.seen, pose, params_.agreement);
+  candidate.fit = fit_of(field, map.free_space(), query.cells, pose);
+  candidate.agreement = agreement_of(field, map.free_space(), query.seen, pose, params_.agreement);
   return candidate;
 }
 

@@ -18,21 +18,32 @@ struct PlaceMapParams {
   PyramidParams pyramid;
   FreeSpaceParams free_space;
   double cloud_cell_m = 0.05;  ///< of points with like normals one is kept a cell for the final match
+  /// The pyramid of a map too large for its cells gets larger ones, up to this.
+  double max_cell_m = 0.4;
 };
 
 /// A map made ready for being searched: built once, used for many queries.
 class PlaceMap {
  public:
-  /// From scans at their poses in the frame `map`. Errors as LikelihoodPyramid::build().
+  /// From scans at their poses in the frame `map`. Errors as LikelihoodPyramid::build(); kTooLarge is left for maps
+  /// that do not fit with the largest cells either.
   [[nodiscard]] static Result<PlaceMap> build(const std::vector<SeenPoints>& seen_map,
                                               const PlaceMapParams& params = {});
+  /// The pyramid's cells are larger than asked for: it says where to look, and detail_about() how well points fit
+  /// there.
+  [[nodiscard]] bool coarse() const { return !points_.empty(); }
   [[nodiscard]] const LikelihoodPyramid& pyramid() const { return pyramid_; }
+  /// With the cells that were asked for, of what lies within a range; nothing where pyramid() has those itself, or
+  /// where nothing lies there.
+  [[nodiscard]] std::optional<LikelihoodPyramid> detail_about(const Point2& p_map, double range_m) const;
   [[nodiscard]] const ReferenceCloud& cloud() const { return *cloud_; }
   [[nodiscard]] const FreeSpace& free_space() const { return free_space_; }
 
  private:
   PlaceMap(LikelihoodPyramid pyramid, std::unique_ptr<ReferenceCloud> cloud, FreeSpace free_space);
 
+  PyramidParams detail_;               ///< what was asked for
+  std::vector<OrientedPoint> points_;  ///< of the map; none where the pyramid is what was asked for
   LikelihoodPyramid pyramid_;
   std::unique_ptr<ReferenceCloud> cloud_;
   FreeSpace free_space_;
@@ -127,6 +138,8 @@ class PlaceRecogniser {
 
  private:
   struct Query;
+  [[nodiscard]] Pose2 start_in(const LikelihoodPyramid& detail, const Query& query, const Pose2& coarse,
+                               double cell_m) const;
   [[nodiscard]] PlaceCandidate refine(const PlaceMap& map, const Query& query, const Pose2& start) const;
   [[nodiscard]] std::vector<PlaceCandidate> refine_all(const PlaceMap& map, const Query& query,
                                                        const GlobalSearchResult& found) const;

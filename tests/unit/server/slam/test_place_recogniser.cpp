@@ -158,6 +158,35 @@ TEST(PlaceRecogniser, OneCupboardTellsTwoRoomsApart) {
   EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02));
 }
 
+TEST(PlaceRecogniser, LargerCellsOfALargeMapCostNoPrecision) {
+  Rng rng(3);
+  const std::vector<SeenPoints> seen = seen_from(office(), kViews, rng);
+  const Pose2 truth{2.0, 3.0, 0.5};
+  const SeenPoints query = seen_points(scan_at(office(), truth, 1.0, rng));
+  const PlaceMap fine = *PlaceMap::build(seen);
+  EXPECT_FALSE(fine.coarse());
+  EXPECT_FALSE(fine.detail_about({0.0, 0.0}, 10.0));
+  const PlaceAnswer expected = PlaceRecogniser().locate(fine, {query});
+  ASSERT_EQ(expected.verdict, PlaceVerdict::kUnique) << expected.reason;
+  for (const double share : {0.5, 0.2, 0.1}) {
+    PlaceMapParams params;
+    params.pyramid.max_bytes = static_cast<std::size_t>(share * static_cast<double>(fine.pyramid().bytes()));
+    const auto map = PlaceMap::build(seen, params);
+    ASSERT_TRUE(map) << share;
+    EXPECT_TRUE(map->coarse());
+    EXPECT_LE(map->pyramid().bytes(), params.pyramid.max_bytes);
+    const PlaceAnswer answer = PlaceRecogniser().locate(*map, {query});
+    EXPECT_EQ(answer.verdict, PlaceVerdict::kUnique) << share << " " << answer.reason;
+    ASSERT_FALSE(answer.candidates.empty());
+    EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.03, 0.02)) << share;
+    // Walls lie otherwise in the cells of the detail.
+    EXPECT_NEAR(answer.candidates.front().fit.all, expected.candidates.front().fit.all, 0.1) << share;
+  }
+  PlaceMapParams tiny;
+  tiny.pyramid.max_bytes = 1000;
+  EXPECT_EQ(PlaceMap::build(seen, tiny).error().code, Errc::kTooLarge);
+}
+
 TEST(PlaceRecogniser, ACorridorIsAmbiguousAlongItself) {
   Rng rng(4);
   const auto walls = corridor();

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "ring_trip.hpp"
+#include "rooms.hpp"
+#include "server/slam/line_slam.hpp"
+
+namespace seeker::slam {
+namespace {
+
+/// The map of the ring, and of a room that lies so far to the north-east of it.
+LineMap ring_and_room(double away_m) {
+  Trip trip(9);
+  LineSlam mapper({}, trip.truth());
+  drive(trip, mapper, 60.0);
+  LineMap map = mapper.map();
+  const MapNode last = map.nodes.back();
+  const Pose2 far{away_m, away_m, 0.0};
+  map.nodes.push_back({last.id + 1, far, last.created});
+  map.edges.push_back({last.id, last.id + 1, inverse(last.map_T_node) * far, Matrix3::Identity(), false, true});
+  Rng rng(1);
+  for (const Pose2& node_T_base : {Pose2{2.0, 2.0, 0.3}, Pose2{6.0, 3.0, 2.0}}) {
+    map.keyframes.push_back(pack_keyframe(scan_at(furnished_room(), node_T_base, 0.0, rng), last.id + 1, node_T_base));
+  }
+  return map;
+}
+
+void drive_until_found(Trip& trip, LineSlam& slam, int metres) {
+  for (int metre = 0; metre < metres && slam.estimate().quality != LocalisationQuality::kLocalised; ++metre) {
+    ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 1.0));
+  }
+}
+
+TEST(LineSlamPlaces, ANamedPlaceIsFoundHoweverLargeTheMap) {
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(ring_and_room(5000.0), MapUse::kLocalise));
+  Trip trip(10, {5.0, 1.0, 0.0});
+  ASSERT_TRUE(slam.relocalise(trip.truth()));
+  ASSERT_NO_FATAL_FAILURE(drive_until_found(trip, slam, 4));
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.2);
+}
+
+TEST(LineSlamPlaces, WhereItStoodIsFoundHoweverLargeTheMap) {
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(ring_and_room(5000.0), MapUse::kLocalise));
+  Trip trip(10, {5.0, 1.0, 0.0});
+  ASSERT_TRUE(slam.look_where_it_stood(trip.truth()));
+  ASSERT_NO_FATAL_FAILURE(drive_until_found(trip, slam, 2));
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.2);
+}
+
+TEST(LineSlamPlaces, ARobotIsFoundAnywhereInAMapThatIsTooLargeForTheFinestSearch) {
+  LineSlamParams params;
+  params.relocalise.map.pyramid.max_bytes = 20'000'000;  // of the 150 MB that the map would need
+  LineSlam slam(params);
+  ASSERT_TRUE(slam.load(ring_and_room(100.0), MapUse::kLocalise));
+  Trip trip(10, {15.0, 3.0, 1.4});
+  ASSERT_NO_FATAL_FAILURE(drive_until_found(trip, slam, 10));
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.2);
+}
+
+TEST(LineSlamPlaces, AMapTooLargeForAnySearchSaysThatAPlaceHasToBeNamed) {
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(ring_and_room(5000.0), MapUse::kLocalise));
+  Trip trip(10, {15.0, 3.0, 1.4});
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 1.0));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown);
+  EXPECT_NE(slam.estimate().cause.find("name the robot's place"), std::string::npos) << slam.estimate().cause;
+}
+
+TEST(LineSlamPlaces, ANamedPlaceThatTheMapDoesNotShowIsSaidToBeNone) {
+  LineSlam slam;
+  ASSERT_TRUE(slam.load(ring_and_room(100.0), MapUse::kLocalise));
+  Trip trip(10, {5.0, 1.0, 0.0});
+  ASSERT_TRUE(slam.relocalise(Pose2{-90.0, 0.0, 0.0}));
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 1.0));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown);
+  EXPECT_NE(slam.estimate().cause.find("shows nothing about the place"), std::string::npos) << slam.estimate().cause;
+}
+
+}  // namespace
+}  // namespace seeker::slam
