@@ -131,7 +131,9 @@ void MapBackend::anchor(const Pose2& map_T_newest, const Matrix3& covariance) {
       graph_.add_edge({.i = nearest,
                        .j = newest,
                        .i_T_j = inverse(pose(nearest)) * map_T_newest,
-                       .information = information_of(rotation * covariance * rotation.transpose())});
+                       .information = information_of(rotation * covariance * rotation.transpose()),
+                       .kernel = EdgeKernel::kSwitchable,
+                       .kernel_width = params_.kernel_width});
   SEEKER_ASSERT(edge.has_value());
   apart_from_.reset();
   newest_covariance_ = covariance;
@@ -174,8 +176,12 @@ bool MapBackend::stand_alone(std::uint32_t id) {
       graph_.remove_edge(k);
     }
   }
-  const Result<std::size_t> edge = graph_.add_edge(
-      {.i = 0, .j = id, .i_T_j = inverse(pose(0)) * pose(id), .information = information_of(*covariance)});
+  const Result<std::size_t> edge = graph_.add_edge({.i = 0,
+                                                    .j = id,
+                                                    .i_T_j = inverse(pose(0)) * pose(id),
+                                                    .information = information_of(*covariance),
+                                                    .kernel = EdgeKernel::kSwitchable,
+                                                    .kernel_width = params_.kernel_width});
   SEEKER_ASSERT(edge.has_value());
   return true;
 }
@@ -206,13 +212,7 @@ void MapBackend::drop_own_before(std::uint32_t first) {
   for (Surprise& surprise : pending_) {
     surprise.loop.b -= count;
   }
-  loop_of_pair_.clear();
-  for (std::size_t k = 0; k < graph_.edge_count(); ++k) {
-    const PoseEdge& edge = graph_.edge(k);
-    if (edge.kernel == EdgeKernel::kSwitchable) {
-      loop_of_pair_[{edge.i, edge.j}] = k;
-    }
-  }
+  loop_of_pair_.clear();  // edges have other numbers now, and the newest local map, which gets loops, has none yet
 }
 
 std::vector<MapSegment> MapBackend::segments(std::uint32_t end) const {

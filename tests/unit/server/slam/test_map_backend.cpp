@@ -34,6 +34,8 @@ class Visit {
 /// Way from one local map to the next, of a robot whose odometry is worse than this says.
 const Matrix3 kWay = Eigen::Vector3d(6e-3, 6e-3, 1e-4).asDiagonal();
 const Matrix3 kSure = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+/// Of a place that was found: RelocaliseParams::joint_sigma_m and joint_sigma_rad.
+const Matrix3 kFound = Eigen::Vector3d(9e-4, 9e-4, 1e-4).asDiagonal();
 constexpr int kView = 8;  // LoopPolicy::query_keyframes
 
 void compare(MapBackend& backend) {
@@ -88,6 +90,33 @@ TEST(MapBackend, WhatALoadedMapShowsIsNoViewOfARobotThatWasJustFound) {
     compare(backend);
     EXPECT_GT(backend.loops().tried, 0);
     EXPECT_EQ(backend.loops().surprises + backend.loops().closed, 0) << "it has not seen anything yet";
+  }
+}
+
+TEST(MapBackend, LoopsThatAgreeOverruleWhereTheRobotWasJoinedAndWhatItHasDropped) {
+  const Pose2 truth{2.4, 2.8, 0.2};
+  for (const int dropped : {0, 6}) {
+    Visit visit(4);
+    MapBackend mapper;
+    const Pose2 first{2.0, 2.5, 0.0};
+    mapper.begin_first(first, visit.now());
+    visit.look(mapper, first, 10);
+    mapper.begin_next(inverse(first) * Pose2{2.8, 3.2, 0.4}, kSure, visit.now());
+    visit.look(mapper, {2.8, 3.2, 0.4}, 10);
+    MapBackend backend;
+    backend.load(mapper.assemble(2), MapUse::kLocalise);
+    backend.begin_apart(visit.now());
+    backend.anchor(truth * Pose2{0.7, -0.3, 0.0}, kFound);
+    for (int k = 0; k < dropped; ++k) {
+      backend.begin_next({}, 0.1 * kSure, visit.now());
+    }
+    visit.look(backend, truth, kView);
+    compare(backend);
+    EXPECT_EQ(backend.loops().closed, 0) << "one view may be wrong";
+    visit.look(backend, truth, kView);
+    compare(backend);
+    EXPECT_GT(backend.loops().closed, 0);
+    EXPECT_THAT(backend.pose(backend.newest().id), Pose2Near(truth, 0.05, 0.02)) << dropped << " dropped";
   }
 }
 
