@@ -56,6 +56,7 @@ void describe(config::Fields& f, LoopPolicy& params) {
   f.field("surprise_chi2", params.surprise_chi2);
   f.field("witnesses", params.witnesses);
   f.field("max_pending", params.max_pending);
+  f.field("contradiction", params.contradiction);
   f.field("kernel_width", params.kernel_width);
   f.field("moved_m", params.moved_m);
   f.angle_deg("moved_deg", params.moved_rad);
@@ -77,6 +78,7 @@ void describe(config::Fields& f, RelocaliseParams& params) {
   f.field("joint_sigma_m", params.joint_sigma_m);
   f.angle_deg("joint_sigma_deg", params.joint_sigma_rad);
   f.field("lost_scans", params.lost_scans);
+  f.field("contradictions", params.contradictions);
 }
 
 void describe(config::Fields& f, FusionParams& params) {

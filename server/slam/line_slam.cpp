@@ -198,7 +198,9 @@ Status LineSlam::update(const LaserScan& scan) {
     counts_.lines += step.observations.size();
     follow(step);
   }
-  if (failures_ >= params_.relocalise.lost_scans && !backend_.apart()) {
+  const bool misplaced = failures_ >= params_.relocalise.lost_scans ||
+                         backend_.loops().contradictions >= params_.relocalise.contradictions;
+  if (misplaced && !backend_.apart()) {
     (void)relocalise(std::nullopt);
   } else if (backend_.apart()) {
     look_for_robot();

@@ -86,8 +86,12 @@ struct LoopPolicy {
   double surprise_chi2 = 11.345;
   std::size_t witnesses = 2;     ///< loops that must agree on a surprise, seen by scans that they do not share
   std::size_t max_pending = 12;  ///< the oldest is forgotten
-  double kernel_width = 3.0;     ///< deviations beyond which a loop loses its say
-  double moved_m = 0.01;         ///< the map has a new epoch when the robot moves by more than this
+  /// Share of beams, where the robot is thought to be, that go through walls of an older local map or end where it is
+  /// free: from this on, and when no loop is found, the map contradicts the scans. On recorded logs hardly any where
+  /// the place is right, half of them where it is wrong.
+  double contradiction = 0.4;
+  double kernel_width = 3.0;  ///< deviations beyond which a loop loses its say
+  double moved_m = 0.01;      ///< the map has a new epoch when the robot moves by more than this
   double moved_rad = 0.002;
 };
 
@@ -107,6 +111,8 @@ struct RelocaliseParams {
   double joint_sigma_m = 0.03;  ///< of the place found, beside the match's covariance
   double joint_sigma_rad = 0.01;
   int lost_scans = 40;  ///< a robot that is lost for so long is looked for everywhere
+  /// So is one that follows its scans well while a map that is only read contradicts them so often in a row.
+  int contradictions = 5;
 };
 
 /// Errors of observed walls that are not noise of the laser: skirting boards, crooked plaster, beams that err together.

@@ -98,6 +98,7 @@ std::uint32_t MapBackend::begin_apart(RobotTime stamp) {
   maps_.push_back({id, stamp, {}, {}});
   apart_from_ = apart_from_.value_or(id);
   unbroken_from_ = id;
+  counts_.contradictions = 0;
   newest_covariance_ = Matrix3::Zero();
   if (own_from_) {
     // Where those before it lie may be wrong: nothing is searched for in them.

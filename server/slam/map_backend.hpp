@@ -32,6 +32,9 @@ struct LoopCounts {
   int tried = 0;
   int closed = 0;     ///< believed and part of the graph
   int surprises = 0;  ///< that had to wait for witnesses
+  /// Comparisons since the last loop, each by scans of its own, by which a map that is only read looks otherwise where
+  /// the robot is thought to be.
+  int contradictions = 0;
 };
 
 /// Local maps are numbered from 0. Poses rise in epochs: each optimisation that moves the map.
@@ -106,6 +109,8 @@ class MapBackend {
   /// Nothing where a loaded map has parts that no relation joins: all or none of its local maps have one.
   [[nodiscard]] std::optional<UncertainPose> relative(std::size_t from, std::size_t to);
   [[nodiscard]] std::vector<LoopEdge> believed(const LoopEdge& loop, const View& view, const UncertainPose& expected);
+  /// What it means that no loop was found.
+  void note_refusal(const View& view, const PlaceMap& place, const UncertainPose& expected);
   /// Of the surprises those that enough others, seen independently, agree with, the last one among them.
   [[nodiscard]] std::vector<LoopEdge> witnessed();
   void add_loop(const LoopEdge& loop);
@@ -120,10 +125,11 @@ class MapBackend {
   std::vector<LocalMap> maps_;
   PoseGraph graph_;
   LoopDetector detector_;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> loop_of_pair_;       ///< edge of the graph
-  std::deque<std::uint32_t> planned_;                                             ///< local maps to compare with
-  bool unsettled_ = false;                                                        ///< loops were added since optimise()
-  std::vector<Surprise> pending_;                                                 ///< surprises without witnesses
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> loop_of_pair_;  ///< edge of the graph
+  std::deque<std::uint32_t> planned_;                                        ///< local maps to compare with
+  bool unsettled_ = false;                                                   ///< loops were added since optimise()
+  std::optional<RobotTime> contradicted_by_;  ///< the newest scan that was counted among the contradictions
+  std::vector<Surprise> pending_;             ///< surprises without witnesses
   std::deque<std::pair<std::uint32_t, std::shared_ptr<const PlaceMap>>> places_;  ///< used last first
   std::uint32_t unbroken_from_ = 0;  ///< the way from this local map to the newest is known by having been driven
   std::optional<std::uint32_t> apart_from_;  ///< this local map and those after it are not joined to the others

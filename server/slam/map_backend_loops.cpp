@@ -109,10 +109,14 @@ bool MapBackend::step_loops() {
   if (id < loop_end() && place && expected) {
     const View view = newest_view();
     const auto loop = detector_.verify(view.seen_node, {.id = id, .place = place, .target_T_query = *expected});
+    if (!loop) {
+      note_refusal(view, *place, *expected);
+    }
     for (const LoopEdge& edge :
          loop ? believed({id, newest, loop->target_T_query}, view, *expected) : std::vector<LoopEdge>{}) {
       add_loop(edge);
       unsettled_ = true;
+      counts_.contradictions = 0;
     }
   }
   if (!planned_.empty() || !unsettled_) {
@@ -120,6 +124,19 @@ bool MapBackend::step_loops() {
   }
   unsettled_ = false;
   return optimise();
+}
+
+void MapBackend::note_refusal(const View& view, const PlaceMap& place, const UncertainPose& expected) {
+  // Most refusals say nothing, for the two hardly overlap. Scans that were counted once are no second contradiction.
+  if (!own_from_ || view.seen_node.empty() || (contradicted_by_ && view.first <= *contradicted_by_)) {
+    return;
+  }
+  const Agreement agreement =
+      agreement_of(place.pyramid(), place.free_space(), view.seen_node, expected.a_T_b, params_.detector.agreement);
+  if (agreement.disagreement() >= params_.contradiction) {
+    ++counts_.contradictions;
+    contradicted_by_ = view.last;
+  }
 }
 
 std::vector<LoopEdge> MapBackend::believed(const LoopEdge& loop, const View& view, const UncertainPose& expected) {

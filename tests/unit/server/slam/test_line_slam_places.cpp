@@ -80,5 +80,54 @@ TEST(LineSlamPlaces, ANamedPlaceThatTheMapDoesNotShowIsSaidToBeNone) {
   EXPECT_NE(slam.estimate().cause.find("shows nothing about the place"), std::string::npos) << slam.estimate().cause;
 }
 
+/// Takes at its word whoever says where the robot stood, whatever the scans say.
+RelocaliseParams gullible() {
+  RelocaliseParams params;
+  params.place.judge.max_through = 2.0;
+  params.place.kept.min_fit = 0.0;
+  params.place.kept.max_disagreement = 2.0;
+  params.place.kept.max_m = 10.0;
+  params.place.kept.min_lead = 9.0;
+  return params;
+}
+
+/// A robot that drives round in the furnished room; its wheels are right.
+class Rounds {
+ public:
+  explicit Rounds(std::uint64_t seed) : rng_(seed) {}
+
+  void drive(LineSlam& slam, int scans) {
+    for (int k = 0; k < scans; ++k, time_s_ += 0.1) {
+      ASSERT_TRUE(slam.predict(truth_, robot_time_s(time_s_)));
+      (void)slam.update(scan_at(furnished_room(), truth_, time_s_, rng_));
+      truth_ = truth_ * integrate({0.4, 0.28}, 0.1);
+    }
+  }
+  [[nodiscard]] const Pose2& truth() const { return truth_; }
+
+ private:
+  Rng rng_;
+  Pose2 truth_{2.5, 2.2, 0.0};
+  double time_s_ = 0.0;
+};
+
+TEST(LineSlamPlaces, ARobotThatWasTakenForSomewhereElseFindsOutAndLooksForItsPlaceAgain) {
+  Rounds first(1);
+  LineSlam mapper({}, first.truth());
+  ASSERT_NO_FATAL_FAILURE(first.drive(mapper, 300));
+  Rounds second(2);
+  LineSlamParams params;
+  params.relocalise = gullible();
+  LineSlam slam(params);
+  ASSERT_TRUE(slam.load(mapper.map(), MapUse::kLocalise));
+  ASSERT_TRUE(slam.look_where_it_stood(second.truth() * Pose2{4.0, 1.0, 2.0}));
+  ASSERT_NO_FATAL_FAILURE(second.drive(slam, 40));
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised);
+  ASSERT_GT(distance_m(slam.estimate().map_T_base, second.truth()), 1.0) << "this is what is to be found out";
+  ASSERT_NO_FATAL_FAILURE(second.drive(slam, 600));
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, second.truth()), 0.1);
+}
+
 }  // namespace
 }  // namespace seeker::slam

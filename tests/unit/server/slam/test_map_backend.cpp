@@ -120,6 +120,32 @@ TEST(MapBackend, LoopsThatAgreeOverruleWhereTheRobotWasJoinedAndWhatItHasDropped
   }
 }
 
+TEST(MapBackend, EachViewThatContradictsAMapThatIsOnlyReadCountsOnce) {
+  const Pose2 truth{2.4, 2.8, 0.2};
+  Visit visit(5);
+  MapBackend mapper;
+  const Pose2 first{2.0, 2.5, 0.0};
+  mapper.begin_first(first, visit.now());
+  visit.look(mapper, first, 10);
+  MapBackend backend;
+  backend.load(mapper.assemble(1), MapUse::kLocalise);
+  backend.begin_apart(visit.now());
+  backend.anchor(first * Pose2{2.0, 1.5, 2.0}, kFound);
+  for (int views = 1; views <= 3; ++views) {
+    visit.look(backend, truth, kView);
+    compare(backend);
+    compare(backend);
+    EXPECT_EQ(backend.loops().contradictions, views);
+  }
+  backend.begin_apart(visit.now());
+  EXPECT_EQ(backend.loops().contradictions, 0);
+  backend.anchor(truth, kFound);
+  visit.look(backend, truth, kView);
+  compare(backend);
+  EXPECT_GT(backend.loops().closed, 0);
+  EXPECT_EQ(backend.loops().contradictions, 0) << "it is where it was found";
+}
+
 TEST(MapBackend, ARobotThatOnlyReadsKeepsWhatItKnowsOfItsPlaceWhenItDropsItsLocalMaps) {
   Visit visit(3);
   MapBackend mapper;
