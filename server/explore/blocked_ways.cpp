@@ -21,7 +21,7 @@ constexpr double kSameFloor_m = 0.3;
 
 /// What is occupied and connected to the cells that lie on known floor, as far as a body reaches, without the walls. Of
 /// somebody in a door most lies beside that floor: too near to the posts for the robot.
-std::set<CellIndex> body_of(const StandingThing& thing, const nav::CostMap& map,
+std::set<CellIndex> body_of(const nav::StandingThing& thing, const nav::CostMap& map,
                             const std::vector<MapSegment>& segments) {
   const double reach_cells = kBody_m / map.frame().resolution_m;
   std::set<CellIndex> body(thing.cells.begin(), thing.cells.end());
@@ -36,7 +36,7 @@ std::set<CellIndex> body_of(const StandingThing& thing, const nav::CostMap& map,
         const CellIndex next{cell.i + di, cell.j + dj};
         const bool his = map.state(next) == nav::CellState::kOccupied &&
                          std::hypot(next.i - from.i, next.j - from.j) <= reach_cells &&
-                         !on_wall(map.frame().centre_of(next), segments);
+                         !nav::on_wall(map.frame().centre_of(next), segments);
         if (his && body.insert(next).second) {
           ends.emplace_back(next, from);
         }
@@ -46,9 +46,9 @@ std::set<CellIndex> body_of(const StandingThing& thing, const nav::CostMap& map,
   return body;
 }
 
-Grid<std::uint8_t> without(const std::vector<StandingThing>& things, const OpeningsInput& input) {
+Grid<std::uint8_t> without(const std::vector<nav::StandingThing>& things, const OpeningsInput& input) {
   Grid<std::uint8_t> occupancy = input.floor.occupancy;
-  for (const StandingThing& thing : things) {
+  for (const nav::StandingThing& thing : things) {
     for (const CellIndex cell : body_of(thing, input.floor.cost, input.segments)) {
       occupancy[cell] = 0;
     }
@@ -83,7 +83,7 @@ bool on_the_way(const Point2& p_map, const nav::Path& path, double near_m) {
   return false;
 }
 
-bool on_a_way(const StandingThing& thing, const std::vector<nav::Path>& paths, const nav::CostMap& map) {
+bool on_a_way(const nav::StandingThing& thing, const std::vector<nav::Path>& paths, const nav::CostMap& map) {
   const double near_m = map.params().robot_radius_m + map.frame().resolution_m;
   return std::any_of(thing.cells.begin(), thing.cells.end(), [&](CellIndex cell) {
     return std::any_of(paths.begin(), paths.end(),
@@ -93,10 +93,10 @@ bool on_a_way(const StandingThing& thing, const std::vector<nav::Path>& paths, c
 
 }  // namespace
 
-BlockedWays blocked_ways(const OpeningsInput& input, const KnownFloor& known, const std::vector<Point2>& obstacles_map,
-                         const ViewpointParams& params) {
+BlockedWays blocked_ways(const OpeningsInput& input, const nav::KnownFloor& known,
+                         const std::vector<Point2>& obstacles_map, const ViewpointParams& params) {
   const nav::CostMap& present = input.floor.cost;
-  std::vector<StandingThing> things = known.occupied_now(input.floor, input.segments);
+  std::vector<nav::StandingThing> things = known.occupied_now(input.floor, input.segments);
   Grid<std::uint8_t> occupancy = without(things, input);
   for (const Point2& p_map : obstacles_map) {
     things.push_back({p_map, {present.frame().cell_of(p_map)}});
@@ -125,7 +125,7 @@ BlockedWays blocked_ways(const OpeningsInput& input, const KnownFloor& known, co
       paths.push_back(std::move(*path));
     }
   }
-  for (const StandingThing& thing : things) {
+  for (const nav::StandingThing& thing : things) {
     if (on_a_way(thing, paths, present)) {
       blocked.at_map.push_back(thing.p_map);
     }

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "server/explore/known_floor.hpp"
 #include "server/explore/openings.hpp"
+#include "server/nav/known_floor.hpp"
 
 namespace seeker::explore {
 
@@ -17,7 +17,7 @@ struct BlockedWays {
 /// Who stands on known floor is in the way only of what no way leads to now, and one would if he went on: people in a
 /// room that is mapped are not waited for. `obstacles_map` are those that the map does not show; they are taken for
 /// people too, since what met the robot on its way and has left is remembered for a while.
-[[nodiscard]] BlockedWays blocked_ways(const OpeningsInput& input, const KnownFloor& known,
+[[nodiscard]] BlockedWays blocked_ways(const OpeningsInput& input, const nav::KnownFloor& known,
                                        const std::vector<Point2>& obstacles_map, const ViewpointParams& params);
 
 }  // namespace seeker::explore

@@ -94,7 +94,7 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
   }
   for (const CutOffFloor& part : cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2)) {
     // What only other robots have seen is theirs to look after.
-    if (seen_by_itself(**floor, part.p_map)) {
+    if (nav::seen_by_itself(**floor, part.p_map)) {
       left.cut_off.push_back({part.p_map, was_reachable(part, (*floor)->cost.frame())});
     }
   }
@@ -113,7 +113,7 @@ ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last
   }
   std::vector<Point2> unreachable;
   add_places(last.unreachable, unreachable);
-  for (const BlockedPlace& place : left.cut_off) {
+  for (const nav::BlockedPlace& place : left.cut_off) {
     add_places({place.p_map}, unreachable);
   }
   add_places(left.people.behind_map, unreachable);

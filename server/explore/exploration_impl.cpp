@@ -21,7 +21,7 @@ Exploration::Impl::Impl(const ExploreRequest& request, const ExploreParams& para
       home_(params.driver, kHomeAttempts, kRetry_s),
       back_(params.driver, kBackAttempts, kRetry_s),
       lookout_(params.driver),
-      turns_(params.viewpoints) {}
+      turns_({.max_waits = params.viewpoints.max_waits, .max_for_nobody = params.viewpoints.max_failures}) {}
 
 StrategyInput Exploration::Impl::strategy_input(const ExploreInput& input) {
   return {{input.now - paused_, input.pose.map_T_base, input.sonar, input.laser, floors_},

@@ -10,11 +10,11 @@
 
 #include "server/explore/blocked_ways.hpp"
 #include "server/explore/exploration.hpp"
-#include "server/explore/known_floor.hpp"
-#include "server/explore/retry_drive.hpp"
-#include "server/explore/sonar_obstacles.hpp"
 #include "server/explore/trail.hpp"
-#include "server/explore/wait_turns.hpp"
+#include "server/nav/known_floor.hpp"
+#include "server/nav/retry_drive.hpp"
+#include "server/nav/sonar_obstacles.hpp"
+#include "server/nav/wait_turns.hpp"
 
 namespace seeker::explore {
 
@@ -55,16 +55,16 @@ class Exploration::Impl {
   void go_home(const StrategyInput& input, ExploreStep& out);
 
   // exploration_wait.cpp
-  void begin_wait(const WaitTurn& turn, const StrategyInput& input, ExploreStep& out);
+  void begin_wait(const nav::WaitTurn& turn, const StrategyInput& input, ExploreStep& out);
   [[nodiscard]] bool waits(const StrategyInput& input, ExploreStep& out);
   void strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out);
 
   // exploration_end.cpp
   /// What keeps it from being complete, as the map shows it now.
   struct Left {
-    std::optional<Error> no_floor;      ///< the robot stands walled in, or there is no map
-    std::vector<BlockedPlace> cut_off;  ///< floor that was seen, but no way leads there
-    BlockedWays people;                 ///< who stands in a way, and what lies behind
+    std::optional<Error> no_floor;           ///< the robot stands walled in, or there is no map
+    std::vector<nav::BlockedPlace> cut_off;  ///< floor that was seen, but no way leads there
+    BlockedWays people;                      ///< who stands in a way, and what lies behind
     bool beyond_limits = false;
   };
   [[nodiscard]] bool was_reachable(const CutOffFloor& part, const GridFrame& frame) const;
@@ -77,26 +77,26 @@ class Exploration::Impl {
   ExploreParams params_;
   std::unique_ptr<ExploreStrategy> strategy_;
   nav::FloorSource floors_;
-  SonarObstacles sonar_obstacles_;
+  nav::SonarObstacles sonar_obstacles_;
   Trail trail_;
   Mode mode_ = Mode::kExplore;
 
-  RetryDrive home_;
+  nav::RetryDrive home_;
   std::optional<Point2> start_;
   std::optional<ExploreEnd> pending_end_;  ///< of kReturn: what will be reported on arrival
   std::optional<ExploreEnd> end_;
 
-  RetryDrive back_;              ///< of kRegain
+  nav::RetryDrive back_;         ///< of kRegain
   std::deque<Point2> back_way_;  ///< of kRegain: places still to go to
   bool back_driving_ = false;    ///< towards the first of them
   RobotTime regain_since_;
   int fruitless_regains_ = 0;  ///< in a row, without new floor in between
   double floor_at_regain_m2_ = 0.0;
 
-  KnownFloor known_floor_;
+  nav::KnownFloor known_floor_;
   nav::PlannedDriver lookout_;              ///< to where one sees whether the way is free again
   std::optional<RobotTime> waiting_since_;  ///< for somebody to move out of the way
-  WaitTurns turns_;                         ///< since new floor was seen
+  nav::WaitTurns turns_;                    ///< since new floor was seen
   double floor_at_wait_m2_ = 0.0;
 
   std::optional<RobotTime> battery_low_since_;

@@ -3,12 +3,12 @@
 
 #include "common/core/text.hpp"
 #include "server/explore/exploration_impl.hpp"
-#include "server/explore/lookout.hpp"
+#include "server/nav/lookout.hpp"
 
 namespace seeker::explore {
 
 /// Goes to where it sees the place, or out of the way of who is there, and stands there.
-void Exploration::Impl::begin_wait(const WaitTurn& turn, const StrategyInput& input, ExploreStep& out) {
+void Exploration::Impl::begin_wait(const nav::WaitTurn& turn, const StrategyInput& input, ExploreStep& out) {
   // The most so far: floor that comes back when somebody has walked by is no new floor.
   floor_at_wait_m2_ = std::max(floor_at_wait_m2_, known_floor_.present_area_m2());
   waiting_since_ = input.now;
@@ -18,7 +18,7 @@ void Exploration::Impl::begin_wait(const WaitTurn& turn, const StrategyInput& in
   if (const auto floor = floors_.view()) {
     if (const auto costs = nav::DistanceField::build((*floor)->cost, place)) {
       const auto found =
-          turn.aside ? place_aside(turn.p_map, **floor, *costs) : lookout_for(turn.p_map, **floor, *costs);
+          turn.aside ? nav::place_aside(turn.p_map, **floor, *costs) : nav::lookout_for(turn.p_map, **floor, *costs);
       place = found.value_or(place);
     }
   }
@@ -54,7 +54,7 @@ void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyIn
   if (known_floor_.present_area_m2() > floor_at_wait_m2_ + kNewFloor_m2) {
     turns_.reset();
   }
-  std::vector<BlockedPlace> places = left.cut_off;
+  std::vector<nav::BlockedPlace> places = left.cut_off;
   for (const Point2& p_map : left.people.at_map) {
     places.push_back({p_map, true});
   }

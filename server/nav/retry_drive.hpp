@@ -6,24 +6,24 @@
 
 #include "server/nav/planned_driver.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 
 class RetryDrive {
  public:
-  RetryDrive(const nav::DriverParams& params, int attempts, double retry_s);
+  RetryDrive(const DriverParams& params, int attempts, double retry_s);
 
   void go(const Point2& goal_map, RobotTime now);
   /// kFailed only when every attempt has failed.
-  [[nodiscard]] nav::DriveStep step(const nav::DriveInput& input);
+  [[nodiscard]] DriveStep step(const DriveInput& input);
   /// Something else moved the robot: plans anew with the next step; the attempts count on.
   void interrupted();
   void transform(const Pose2& new_T_old);
   [[nodiscard]] const std::vector<Point2>& path() const { return driver_.path(); }
 
  private:
-  [[nodiscard]] nav::DriveStep failed(const std::string& why, RobotTime now);
+  [[nodiscard]] DriveStep failed(const std::string& why, RobotTime now);
 
-  nav::PlannedDriver driver_;
+  PlannedDriver driver_;
   int attempts_;
   double retry_s_;
   Point2 goal_ = Point2::Zero();
@@ -32,4 +32,4 @@ class RetryDrive {
   RobotTime next_try_;
 };
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav

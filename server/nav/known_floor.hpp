@@ -9,10 +9,10 @@
 #include "common/core/line_map.hpp"
 #include "server/nav/floor_view.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 
 /// Whether the robot has seen the place itself, not only others of its fleet.
-[[nodiscard]] bool seen_by_itself(const nav::FloorView& view, const Point2& p_map);
+[[nodiscard]] bool seen_by_itself(const FloorView& view, const Point2& p_map);
 
 /// Whether what is occupied at the place is taken for a mapped wall: a segment runs there that is longer than people
 /// are wide.
@@ -30,13 +30,13 @@ class KnownFloor {
   /// Takes what lies within `near_m` of the robot: from afar a wall seen flat is a row of dots, and the floor seems to
   /// go on between them up to the wall itself. What only other robots have seen is not remembered: it lies as well as
   /// the maps lie upon each other.
-  void add(const nav::FloorView& view, const Point2& robot_map, double near_m);
+  void add(const FloorView& view, const Point2& robot_map, double near_m);
   [[nodiscard]] bool contains(const Point2& p_map) const;
   /// Whether a way led there at some time, from however far it was seen: then somebody is in the way where none does.
   [[nodiscard]] bool was_reachable(const Point2& p_map) const;
   /// What stands now on floor that the robot could reach, and is no mapped wall: people. Walls show up there when the
   /// robot was a little off as it saw the floor.
-  [[nodiscard]] std::vector<StandingThing> occupied_now(const nav::FloorView& view,
+  [[nodiscard]] std::vector<StandingThing> occupied_now(const FloorView& view,
                                                         const std::vector<MapSegment>& segments) const;
   /// Of the last grid added.
   [[nodiscard]] double present_area_m2() const { return present_m2_; }
@@ -49,4 +49,4 @@ class KnownFloor {
   double present_m2_ = 0.0;
 };
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav

@@ -1,8 +1,8 @@
-#include "server/explore/wait_turns.hpp"
+#include "server/nav/wait_turns.hpp"
 
 #include <algorithm>
 
-namespace seeker::explore {
+namespace seeker::nav {
 namespace {
 
 /// Who stands so near to where somebody stood before is the same one.
@@ -27,7 +27,7 @@ std::optional<WaitTurn> WaitTurns::next(const std::vector<BlockedPlace>& places)
   for (const BlockedPlace& place : places) {
     const Waited* before = known(place.p_map);
     const int turns = before == nullptr ? 0 : before->turns;
-    const bool deserves = place.somebody || turns == 0 || for_nobody_ < params_.max_failures;
+    const bool deserves = place.somebody || turns == 0 || for_nobody_ < params_.max_for_nobody;
     if (deserves && turns < fewest) {
       chosen = &place;
       fewest = turns;
@@ -55,4 +55,4 @@ void WaitTurns::transform(const Pose2& new_T_old) {
   }
 }
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav

@@ -1,11 +1,11 @@
-#include "server/explore/sonar_obstacles.hpp"
+#include "server/nav/sonar_obstacles.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/core/angle.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 namespace {
 
 /// Farther echoes are too vague to say where the thing is.
@@ -32,7 +32,7 @@ bool explained(const Point2& echo_base, double range_m, const Pose2& base_T_sona
 
 }  // namespace
 
-void SonarObstacles::note(const nav::DriveInput& input) {
+void SonarObstacles::note(const DriveInput& input) {
   if (input.sonar == nullptr || input.laser == nullptr || input.sonar->stamp == stamp_) {
     return;  // without a laser the map itself is made of echoes
   }
@@ -51,7 +51,7 @@ void SonarObstacles::note(const nav::DriveInput& input) {
   }
 }
 
-void SonarObstacles::note_echo(const Point2& p_map, const nav::DriveInput& input) {
+void SonarObstacles::note_echo(const Point2& p_map, const DriveInput& input) {
   const auto known = std::find_if(echoes_.begin(), echoes_.end(),
                                   [&](const Echo& echo) { return (echo.p_map - p_map).norm() < kSameEcho_m; });
   if (known == echoes_.end()) {
@@ -70,4 +70,4 @@ void SonarObstacles::transform(const Pose2& new_T_old) {
   }
 }
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav

@@ -1,8 +1,8 @@
-#include "server/explore/retry_drive.hpp"
+#include "server/nav/retry_drive.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 
-RetryDrive::RetryDrive(const nav::DriverParams& params, int attempts, double retry_s)
+RetryDrive::RetryDrive(const DriverParams& params, int attempts, double retry_s)
     : driver_(params), attempts_(attempts), retry_s_(retry_s) {}
 
 void RetryDrive::go(const Point2& goal_map, RobotTime now) {
@@ -22,30 +22,30 @@ void RetryDrive::transform(const Pose2& new_T_old) {
   interrupted();
 }
 
-nav::DriveStep RetryDrive::step(const nav::DriveInput& input) {
+DriveStep RetryDrive::step(const DriveInput& input) {
   if (!driving_) {
     if (input.now < next_try_) {
-      return {{}, nav::DriveState::kDriving, {}};
+      return {{}, DriveState::kDriving, {}};
     }
     if (!driver_.start(input, goal_)) {
       return failed(driver_.reason(), input.now);
     }
     driving_ = true;
   }
-  const nav::DriveStep driven = driver_.step(input);
-  if (driven.state == nav::DriveState::kFailed || driven.state == nav::DriveState::kIdle) {
+  const DriveStep driven = driver_.step(input);
+  if (driven.state == DriveState::kFailed || driven.state == DriveState::kIdle) {
     return failed(driven.reason, input.now);
   }
   return driven;
 }
 
-nav::DriveStep RetryDrive::failed(const std::string& why, RobotTime now) {
+DriveStep RetryDrive::failed(const std::string& why, RobotTime now) {
   interrupted();
   if (++failures_ >= attempts_) {
-    return {{}, nav::DriveState::kFailed, why};
+    return {{}, DriveState::kFailed, why};
   }
   next_try_ = now + seconds(retry_s_);
-  return {{}, nav::DriveState::kDriving, {}};
+  return {{}, DriveState::kDriving, {}};
 }
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav

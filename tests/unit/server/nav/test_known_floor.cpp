@@ -1,12 +1,12 @@
-#include "server/explore/known_floor.hpp"
+#include "server/nav/known_floor.hpp"
 
 #include <gtest/gtest.h>
 
+#include "ascii_map.hpp"
 #include "server/nav/planner.hpp"
 #include "tests/support/matchers.hpp"
-#include "tests/unit/server/nav/ascii_map.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 namespace {
 
 using seeker::testing::Point2Near;
@@ -21,15 +21,15 @@ std::vector<std::string> hall() {
   return rows;
 }
 
-nav::FloorView view_of(const std::vector<std::string>& rows) {
-  const auto occupancy = nav::ascii_map(rows, kCell_m);
-  auto cost = nav::CostMap::build(occupancy);
-  auto floor = nav::reachable_floor(*cost, kRobot, 0.2);
+FloorView view_of(const std::vector<std::string>& rows) {
+  const auto occupancy = ascii_map(rows, kCell_m);
+  auto cost = CostMap::build(occupancy);
+  auto floor = reachable_floor(*cost, kRobot, 0.2);
   return {occupancy, std::move(*cost), std::move(*floor), 1, {}};
 }
 
 /// The hall with something of one block in it, 0.25 x 0.25 m about (x, 2.1).
-nav::FloorView with_a_thing_at(double x_m) {
+FloorView with_a_thing_at(double x_m) {
   std::vector<std::string> rows = hall();
   rows[7][static_cast<std::size_t>(x_m / kCell_m)] = '#';
   return view_of(rows);
@@ -65,4 +65,4 @@ TEST(KnownFloor, AMappedWallIsNobody) {
 }
 
 }  // namespace
-}  // namespace seeker::explore
+}  // namespace seeker::nav

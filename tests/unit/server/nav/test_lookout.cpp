@@ -1,11 +1,11 @@
-#include "server/explore/lookout.hpp"
+#include "server/nav/lookout.hpp"
 
 #include <gtest/gtest.h>
 
+#include "ascii_map.hpp"
 #include "server/nav/visibility.hpp"
-#include "tests/unit/server/nav/ascii_map.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 namespace {
 
 /// 7 x 5 m in cells of 0.25 m: two rooms with a wall of one cell between them, joined at their left ends.
@@ -17,15 +17,15 @@ std::vector<std::string> two_rooms() {
 }
 
 struct Rooms {
-  nav::FloorView floor;
-  nav::DistanceField costs;
+  FloorView floor;
+  DistanceField costs;
 };
 
 Rooms rooms_of(const std::vector<std::string>& rows, const Point2& robot_map) {
-  const auto occupancy = nav::ascii_map(rows, 0.25);
-  auto cost = nav::CostMap::build(occupancy, {}, {});
-  auto reachable = nav::reachable_floor(*cost, robot_map, 0.2);
-  auto costs = nav::DistanceField::build(*cost, robot_map);
+  const auto occupancy = ascii_map(rows, 0.25);
+  auto cost = CostMap::build(occupancy, {}, {});
+  auto reachable = reachable_floor(*cost, robot_map, 0.2);
+  auto costs = DistanceField::build(*cost, robot_map);
   return {{occupancy, *cost, *reachable, 1, {}}, *costs};
 }
 
@@ -35,12 +35,12 @@ TEST(Lookout, IsOnTheSideOfAWallThatSeesThePlace) {
   const Rooms rooms = rooms_of(two_rooms(), robot_map);
   const auto lookout = lookout_for(place_map, rooms.floor, rooms.costs);
   ASSERT_TRUE(lookout);
-  EXPECT_TRUE(nav::line_of_sight(rooms.floor.occupancy, *lookout, place_map));
+  EXPECT_TRUE(line_of_sight(rooms.floor.occupancy, *lookout, place_map));
   EXPECT_GT(lookout->y(), 2.5);
   // The nearest by the way alone is where the robot is, on the other side.
   const auto nearest = rooms.costs.cheapest_near(place_map, 1.5);
   ASSERT_TRUE(nearest);
-  EXPECT_FALSE(nav::line_of_sight(rooms.floor.occupancy, rooms.floor.cost.frame().centre_of(*nearest), place_map));
+  EXPECT_FALSE(line_of_sight(rooms.floor.occupancy, rooms.floor.cost.frame().centre_of(*nearest), place_map));
 }
 
 TEST(Lookout, SeesPastWhoeverStandsThere) {
@@ -82,4 +82,4 @@ TEST(PlaceAside, LiesInTheRoomBesideTheCorridor) {
 }
 
 }  // namespace
-}  // namespace seeker::explore
+}  // namespace seeker::nav

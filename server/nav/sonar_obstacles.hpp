@@ -6,13 +6,13 @@
 
 #include "server/nav/planned_driver.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 
 /// An echo becomes an obstacle when it came from about the same place several times, and the laser shows nothing there
 /// that explains it.
 class SonarObstacles {
  public:
-  void note(const nav::DriveInput& input);
+  void note(const DriveInput& input);
   void transform(const Pose2& new_T_old);
 
  private:
@@ -21,10 +21,10 @@ class SonarObstacles {
     RobotTime seen;
     int times = 0;
   };
-  void note_echo(const Point2& p_map, const nav::DriveInput& input);
+  void note_echo(const Point2& p_map, const DriveInput& input);
 
   std::vector<Echo> echoes_;
   RobotTime stamp_;  ///< of the last scan used: one that stands still is not seen again and again
 };
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav

@@ -6,9 +6,13 @@
 #include <vector>
 
 #include "common/core/pose2.hpp"
-#include "server/explore/viewpoint_params.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
+
+struct WaitParams {
+  int max_waits = 6;       ///< at one place where somebody stands in the way
+  int max_for_nobody = 3;  ///< at all places where nobody was seen, beyond the first of each
+};
 
 struct BlockedPlace {
   Point2 p_map = Point2::Zero();
@@ -24,11 +28,11 @@ struct WaitTurn {
   friend bool operator==(const WaitTurn&, const WaitTurn&) = default;
 };
 
-/// Each place has its turn before any has the next. So an exploration goes on after a bounded time, however people
+/// Each place has its turn before any has the next. So a mission goes on after a bounded time, however people
 /// walk.
 class WaitTurns {
  public:
-  explicit WaitTurns(const ViewpointParams& params) : params_(params) {}
+  explicit WaitTurns(const WaitParams& params) : params_(params) {}
 
   /// The place whose turn it is, which counts as waited for from now on; nothing when none deserves another wait.
   [[nodiscard]] std::optional<WaitTurn> next(const std::vector<BlockedPlace>& places);
@@ -45,10 +49,10 @@ class WaitTurns {
   /// Null where nobody was waited for.
   [[nodiscard]] Waited* known(const Point2& p_map);
 
-  ViewpointParams params_;
+  WaitParams params_;
   std::vector<Waited> waited_;
   int total_ = 0;
   int for_nobody_ = 0;  ///< of them where nobody was seen
 };
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav

@@ -1,4 +1,4 @@
-#include "server/explore/known_floor.hpp"
+#include "server/nav/known_floor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "common/core/occupancy_tile.hpp"
 #include "common/core/polygon.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 namespace {
 
 /// Occupied cells so near to each other are one thing; fewer cells are noise.
@@ -62,7 +62,7 @@ bool on_wall(const Point2& p_map, const std::vector<MapSegment>& segments) {
   });
 }
 
-bool seen_by_itself(const nav::FloorView& view, const Point2& p_map) {
+bool seen_by_itself(const FloorView& view, const Point2& p_map) {
   if (!view.own) {
     return true;
   }
@@ -71,7 +71,7 @@ bool seen_by_itself(const nav::FloorView& view, const Point2& p_map) {
   return own.contains(cell) && own[cell] != kUnknownCell;
 }
 
-void KnownFloor::add(const nav::FloorView& view, const Point2& robot_map, double near_m) {
+void KnownFloor::add(const FloorView& view, const Point2& robot_map, double near_m) {
   const Grid<std::uint8_t>& reachable = view.own ? view.own->reachable : view.reachable;
   if (reachable.cells().empty()) {
     return;
@@ -90,12 +90,12 @@ bool KnownFloor::contains(const Point2& p_map) const { return holds(floor_, p_ma
 
 bool KnownFloor::was_reachable(const Point2& p_map) const { return holds(from_afar_, p_map); }
 
-std::vector<StandingThing> KnownFloor::occupied_now(const nav::FloorView& view,
+std::vector<StandingThing> KnownFloor::occupied_now(const FloorView& view,
                                                     const std::vector<MapSegment>& segments) const {
   std::vector<StandingThing> things;
-  const Grid<nav::CellState>& states = view.cost.states();
+  const Grid<CellState>& states = view.cost.states();
   for (std::size_t k = 0; k < states.cells().size(); ++k) {
-    if (states.cells()[k] != nav::CellState::kOccupied) {
+    if (states.cells()[k] != CellState::kOccupied) {
       continue;
     }
     const Point2 p = states.frame().centre_of(states.cell(k));
@@ -119,4 +119,4 @@ void KnownFloor::clear() {
   from_afar_ = {};
 }
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav

@@ -1,10 +1,10 @@
-#include "server/explore/lookout.hpp"
+#include "server/nav/lookout.hpp"
 
 #include <algorithm>
 
 #include "server/nav/visibility.hpp"
 
-namespace seeker::explore {
+namespace seeker::nav {
 namespace {
 
 /// From so near one sees best whether somebody still stands in the way,
@@ -20,19 +20,18 @@ constexpr double kWayForRoom = 10.0;
 /// farther away it is not looked for.
 constexpr double kFarthest_m = 15.0;
 
-bool sees(const Point2& from_map, const Point2& place_map, const nav::FloorView& floor) {
+bool sees(const Point2& from_map, const Point2& place_map, const FloorView& floor) {
   const Point2 back = from_map - place_map;
   if (back.norm() <= kBody_m) {
     return true;
   }
   const Point2 before_map = place_map + kBody_m * back.normalized();
-  return nav::line_of_sight(floor.occupancy, from_map, before_map);
+  return line_of_sight(floor.occupancy, from_map, before_map);
 }
 
 }  // namespace
 
-std::optional<Point2> lookout_for(const Point2& place_map, const nav::FloorView& floor,
-                                  const nav::DistanceField& costs) {
+std::optional<Point2> lookout_for(const Point2& place_map, const FloorView& floor, const DistanceField& costs) {
   const auto in_sight = [&](const Point2& p_map) { return sees(p_map, place_map, floor); };
   std::optional<CellIndex> cell;
   for (const double radius_m : {kNear_m, kFar_m}) {
@@ -42,8 +41,7 @@ std::optional<Point2> lookout_for(const Point2& place_map, const nav::FloorView&
   return cell ? std::optional(floor.cost.frame().centre_of(*cell)) : std::nullopt;
 }
 
-std::optional<Point2> place_aside(const Point2& place_map, const nav::FloorView& floor,
-                                  const nav::DistanceField& costs) {
+std::optional<Point2> place_aside(const Point2& place_map, const FloorView& floor, const DistanceField& costs) {
   std::optional<Point2> best;
   double best_m = 0.0;
   for (std::size_t k = 0; k < costs.costs().cells().size(); ++k) {
@@ -63,4 +61,4 @@ std::optional<Point2> place_aside(const Point2& place_map, const nav::FloorView&
   return best;
 }
 
-}  // namespace seeker::explore
+}  // namespace seeker::nav
