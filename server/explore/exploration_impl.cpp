@@ -5,10 +5,8 @@
 namespace seeker::explore {
 namespace {
 
-/// Ways home and back to certainty are tried so often.
-constexpr int kHomeAttempts = 4;
+/// Places on the way back to certainty are tried so often: the next one may do as well.
 constexpr int kBackAttempts = 2;
-constexpr double kRetry_s = 15.0;
 
 }  // namespace
 
@@ -18,8 +16,8 @@ Exploration::Impl::Impl(const ExploreRequest& request, const ExploreParams& para
       params_(params),
       strategy_(std::move(strategy)),
       floors_(params.cost, request.areas, params.floor_cell_m, params.map_period_s),
-      home_(params.driver, kHomeAttempts, kRetry_s),
-      back_(params.driver, kBackAttempts, kRetry_s),
+      home_(params.driver, {}),
+      back_(params.driver, {.attempts = kBackAttempts}),
       lookout_(params.driver),
       turns_({.max_waits = params.viewpoints.max_waits, .max_for_nobody = params.viewpoints.max_failures}) {}
 

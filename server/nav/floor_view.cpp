@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kMaxObstacles = 256;
 constexpr double kSameObstacle_m = 0.1;
 constexpr double kObstacleMemory_s = 60.0;
+/// What the sensors show now was added with one of their last readings.
+constexpr double kJustMet_s = 1.0;
 /// Other robots nearer than this are planned around.
 constexpr double kNearMover_m = 3.0;
 /// So far from the robot ends what it may not enter: a cell's diagonal.
@@ -29,9 +31,7 @@ void FloorSource::attend(const OccupancyMap& map, const Pose2& map_T_base, Robot
   map_T_base_ = map_T_base;
   now_ = now;
   movers_ = std::move(movers);
-  const auto forgotten =
-      std::erase_if(obstacles_, [&](const Obstacle& one) { return to_seconds(now_ - one.noted) > kObstacleMemory_s; });
-  stale_ = stale_ || forgotten > 0;
+  forget_older_than(kObstacleMemory_s);
   if (others_floor_ != others_floor) {
     others_floor_ = std::move(others_floor);
     stale_ = true;
@@ -117,6 +117,14 @@ void FloorSource::add_obstacle(const Point2& p_map) {
   }
   obstacles_.push_back({p_map, now_});
   stale_ = true;
+}
+
+void FloorSource::forget_past_obstacles() { forget_older_than(kJustMet_s); }
+
+void FloorSource::forget_older_than(double age_s) {
+  const auto forgotten =
+      std::erase_if(obstacles_, [&](const Obstacle& one) { return to_seconds(now_ - one.noted) > age_s; });
+  stale_ = stale_ || forgotten > 0;
 }
 
 std::vector<Point2> FloorSource::obstacles_map() const {

@@ -53,6 +53,8 @@ class FloorSource {
   /// Obstacles that the map does not show (sonar echoes below the lidar's plane), frame `map`. Other robots are none.
   /// Forgotten when not added again for a minute: who stood in a door has gone on, what stands there is met again.
   void add_obstacle(const Point2& p_map);
+  /// Sooner than that, before a way is tried once more: all that were not added again just now.
+  void forget_past_obstacles();
   /// Those that are remembered now, frame `map`.
   [[nodiscard]] std::vector<Point2> obstacles_map() const;
   /// Floor connected to the last view's position when nothing is forbidden: what the forbidden areas cost.
@@ -66,6 +68,7 @@ class FloorSource {
     RobotTime noted;  ///< last
   };
 
+  void forget_older_than(double age_s);
   [[nodiscard]] Result<FloorView> build() const;
   [[nodiscard]] Result<FloorView> view_of(Grid<std::uint8_t> occupancy) const;
 

@@ -18,6 +18,8 @@ constexpr double kBrakeShare = 0.8;
 constexpr double kWindowBack_m = 0.5;   ///< the robot's projection is searched this far behind the last one
 constexpr double kWindowAhead_m = 1.5;  ///< and this far ahead
 constexpr double kLookaheadStep_m = 0.05;
+/// A way that is longer by so much than what was left of the one before leads another way round.
+constexpr double kAnotherWay_m = 0.5;
 constexpr double kStanding_m_s = 0.03;
 constexpr double kStanding_rad_s = 0.08;
 
@@ -49,6 +51,23 @@ void PathFollower::set_path(Path path, RobotTime now, std::optional<double> fina
   progress_at_ = now;
   best_remaining_m_ = std::numeric_limits<double>::infinity();
   best_error_rad_ = std::numeric_limits<double>::infinity();
+}
+
+void PathFollower::replace_path(Path path, RobotTime now) {
+  const bool same_way = path.length_m < best_remaining_m_ + kAnotherWay_m;
+  const auto blocked_since = blocked_since_;
+  const RobotTime progress_at = progress_at_;
+  const double best_remaining_m = best_remaining_m_;
+  const double best_error_rad = best_error_rad_;
+  const bool turning = turning_;
+  set_path(std::move(path), now, final_heading_rad_);
+  turning_ = turning;
+  if (same_way) {
+    blocked_since_ = blocked_since;
+    progress_at_ = progress_at;
+    best_remaining_m_ = best_remaining_m;
+    best_error_rad_ = best_error_rad;
+  }
 }
 
 void PathFollower::set_heading(const Pose2& map_T_base, double heading_rad, RobotTime now) {

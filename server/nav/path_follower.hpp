@@ -64,12 +64,17 @@ class PathFollower {
   /// Starts a path; at its end the robot turns to `final_heading_rad` (frame `map`) when given. The velocity carries
   /// over from the path before.
   void set_path(Path path, RobotTime now, std::optional<double> final_heading_rad = std::nullopt);
+  /// The way to the same goal was planned anew while it is driven: what was noted of the robot's progress and of what
+  /// is in its way goes on, unless the new way is a longer one.
+  void replace_path(Path path, RobotTime now);
   /// Turns in place to a heading in the frame `map`.
   void set_heading(const Pose2& map_T_base, double heading_rad, RobotTime now);
   /// The map moved: the rest of the path goes along, as does the heading at its end.
   void transform(const Pose2& new_T_old);
   void clear();
   [[nodiscard]] bool active() const { return !path_.empty(); }
+  /// At the end of the path: what is left is to stop, or to turn to the final heading.
+  [[nodiscard]] bool at_goal() const { return at_goal_; }
   [[nodiscard]] const Path& path() const { return path_; }
 
   /// One control step. `points_base`: obstacles now, in the frame `base` (points_in_base(scan), sonar echoes); empty

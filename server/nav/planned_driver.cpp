@@ -13,8 +13,6 @@ constexpr double kFrontEcho_rad = deg_to_rad(35.0);
 constexpr double kFarEcho_m = 2.0;
 /// A path blocked from so near is blocked by something the map may not show.
 constexpr double kUnmappedObstacle_m = 0.8;
-/// A robot so near to its goal when blocked has as good as arrived.
-constexpr double kCloseEnough_m = 0.4;
 
 bool echo_counts(const SonarReading& reading, bool laser_fitted) {
   if (!std::isfinite(reading.range_m)) {
@@ -48,8 +46,8 @@ PlannedDriver::PlannedDriver(const DriverParams& params) : params_(params), foll
 bool PlannedDriver::start(const DriveInput& input, const Point2& goal_map, std::optional<double> final_heading_rad) {
   goal_ = goal_map;
   final_heading_rad_ = final_heading_rad;
-  started_ = input.now;
   failures_ = 0;
+  drive_.start(input.now);
   driving_ = plan(input);
   return driving_;
 }
@@ -67,58 +65,80 @@ void PlannedDriver::stop() {
   follower_.clear();
 }
 
-bool PlannedDriver::plan(const DriveInput& input) {
+Result<Path> PlannedDriver::way(const DriveInput& input) const {
   const auto floor = input.floors.view(true);
   if (!floor) {
-    reason_ = floor.error().message;
-    return false;
+    return tl::unexpected(floor.error());
   }
-  const std::optional<CostMap> crowded = input.floors.around_movers(**floor);
-  auto path = nav::plan(crowded ? *crowded : (*floor)->cost, input.map_T_base.translation(), goal_);
-  if (!path && crowded) {  // up to the one that is in the way: it may have gone on by then
-    path = nav::plan((*floor)->cost, input.map_T_base.translation(), goal_);
+  const Point2 here = input.map_T_base.translation();
+  if (const std::optional<CostMap> crowded = input.floors.around_movers(**floor)) {
+    if (auto path = nav::plan(*crowded, here, goal_, params_.planner)) {
+      return path;
+    }  // else up to the one that is in the way: it may have gone on by then
   }
+  return nav::plan((*floor)->cost, here, goal_, params_.planner);
+}
+
+bool PlannedDriver::plan(const DriveInput& input) {
+  auto path = way(input);
   if (!path) {
     reason_ = path.error().message;
     return false;
   }
+  planned_ = input.now;
+  way_.start(input.now);
   follower_.set_path(std::move(*path), input.now, final_heading_rad_);
   return true;
 }
 
-DriveStep PlannedDriver::plan_again(const DriveInput& input, const std::string& why) {
+void PlannedDriver::refresh(const DriveInput& input) {
+  const bool due = params_.replan_period_s > 0.0 && to_seconds(input.now - planned_) >= params_.replan_period_s;
+  if (!due || follower_.at_goal()) {
+    return;
+  }
+  planned_ = input.now;
+  if (auto path = way(input)) {
+    follower_.replace_path(std::move(*path), input.now);
+  }
+}
+
+DriveStep PlannedDriver::plan_again(const DriveInput& input, const FollowStep& follow) {
   for (const Point2& p : obstacles_in_base(input)) {
     if (p.norm() < kUnmappedObstacle_m && p.x() > 0.0) {
       input.floors.add_obstacle(input.map_T_base * p);
     }
   }
   if (++failures_ > params_.max_failures || !plan(input)) {
-    driving_ = false;
-    follower_.clear();
-    return {{}, DriveState::kFailed, failures_ > params_.max_failures ? why : reason_};
+    stop();
+    return {{}, DriveState::kFailed, failures_ > params_.max_failures ? follow.reason : reason_};
   }
-  return {{}, DriveState::kDriving, {}};
+  return {{}, DriveState::kDriving, {}, follow.remaining_m};
 }
 
 DriveStep PlannedDriver::step(const DriveInput& input) {
   if (!driving_) {
     return {};
   }
-  if (to_seconds(input.now - started_) > params_.goal_time_s) {
-    stop();
-    return {{}, DriveState::kFailed, "not reached in time"};
-  }
+  refresh(input);
   const FollowStep follow = follower_.step(input.map_T_base, obstacles_in_base(input), input.now);
+  if (drive_.nearer(follow.remaining_m, kNearer_m, input.now)) {
+    failures_ = 0;
+  }
   switch (follow.state) {
-    case FollowState::kFollowing: return {follow.command, DriveState::kDriving, {}};
+    case FollowState::kFollowing:
+      if (way_.idle_s(follow.remaining_m, kNearer_m, input.now) > params_.goal_time_s) {
+        stop();
+        return {{}, DriveState::kFailed, "no progress towards the goal"};
+      }
+      return {follow.command, DriveState::kDriving, {}, follow.remaining_m};
     case FollowState::kArrived: stop(); return {{}, DriveState::kArrived, {}};
     case FollowState::kBlocked:
     case FollowState::kStuck:
-      if (follow.remaining_m < kCloseEnough_m) {
+      if (follow.remaining_m < params_.close_enough_m) {
         stop();
         return {{}, DriveState::kArrived, {}};
       }
-      return plan_again(input, follow.reason);
+      return plan_again(input, follow);
     case FollowState::kIdle: break;
   }
   driving_ = false;

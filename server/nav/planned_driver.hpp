@@ -12,6 +12,7 @@
 #include "server/nav/floor_view.hpp"
 #include "server/nav/path_follower.hpp"
 #include "server/nav/planner.hpp"
+#include "server/nav/progress_watch.hpp"
 
 namespace seeker::nav {
 
@@ -25,10 +26,20 @@ struct DriveInput {
 };
 
 struct DriverParams {
-  int max_failures = 2;        ///< failed plans of a drive before it is given up
-  double goal_time_s = 120.0;  ///< longest drive to one goal
+  int max_failures = 2;        ///< ways that turned out blocked, without getting nearer, before a drive is given up
+  double goal_time_s = 120.0;  ///< nor may a drive go on for so long without getting nearer to its goal
   FollowerParams follower;
+  PlannerParams planner = {};
+  /// Plans anew so often while it drives, for what the map shows by then; 0: only where the way is blocked. Needed
+  /// where ways lead over floor that nobody has seen.
+  double replan_period_s = 0.0;
+  /// A robot so near to its goal when blocked has as good as arrived.
+  double close_enough_m = 0.4;
 };
+
+/// The way that is left must have become shorter by so much than it ever was before for what failed on it to be
+/// forgotten.
+inline constexpr double kNearer_m = 0.5;
 
 enum class DriveState : std::uint8_t { kIdle, kDriving, kArrived, kFailed };
 
@@ -36,7 +47,8 @@ enum class DriveState : std::uint8_t { kIdle, kDriving, kArrived, kFailed };
 struct DriveStep {
   Twist2 command;
   DriveState state = DriveState::kIdle;
-  std::string reason;  ///< of kFailed
+  std::string reason;        ///< of kFailed
+  double remaining_m = 0.0;  ///< of kDriving: along the way
 };
 
 class PlannedDriver {
@@ -54,15 +66,20 @@ class PlannedDriver {
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
+  [[nodiscard]] Result<Path> way(const DriveInput& input) const;
   bool plan(const DriveInput& input);
-  [[nodiscard]] DriveStep plan_again(const DriveInput& input, const std::string& why);
+  /// A way that could not be found leaves the present one: who is in the way may have gone on by then.
+  void refresh(const DriveInput& input);
+  [[nodiscard]] DriveStep plan_again(const DriveInput& input, const FollowStep& follow);
 
   DriverParams params_;
   PathFollower follower_;
   Point2 goal_ = Point2::Zero();
   std::optional<double> final_heading_rad_;
-  RobotTime started_;
-  int failures_ = 0;
+  RobotTime planned_;
+  ProgressWatch drive_;  ///< of the whole drive: forgets its failures
+  ProgressWatch way_;    ///< of the present way: a detour may be longer
+  int failures_ = 0;     ///< in a row, without getting nearer
   bool driving_ = false;
   std::string reason_;
 };

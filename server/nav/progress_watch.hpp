@@ -17,12 +17,18 @@ class ProgressWatch {
     since_ = now;
     best_m_ = std::numeric_limits<double>::infinity();
   }
+  /// Takes note of the present remaining distance; whether it is progress.
+  bool nearer(double remaining_m, double step_m, RobotTime now) {
+    if (remaining_m >= best_m_ - step_m) {
+      return false;
+    }
+    best_m_ = remaining_m;
+    since_ = now;
+    return true;
+  }
   /// Seconds without progress, after taking note of the present remaining distance.
   double idle_s(double remaining_m, double step_m, RobotTime now) {
-    if (remaining_m < best_m_ - step_m) {
-      best_m_ = remaining_m;
-      since_ = now;
-    }
+    nearer(remaining_m, step_m, now);
     return to_seconds(now - since_);
   }
   /// What came before does not count as lack of progress; the total goes on.

@@ -1,14 +1,18 @@
 #include "server/nav/retry_drive.hpp"
 
+#include "common/core/angle.hpp"
+
 namespace seeker::nav {
 
-RetryDrive::RetryDrive(const DriverParams& params, int attempts, double retry_s)
-    : driver_(params), attempts_(attempts), retry_s_(retry_s) {}
+RetryDrive::RetryDrive(const DriverParams& params, const RetryParams& retry) : driver_(params), retry_(retry) {}
 
-void RetryDrive::go(const Point2& goal_map, RobotTime now) {
+void RetryDrive::go(const Point2& goal_map, RobotTime now, std::optional<double> final_heading_rad) {
   goal_ = goal_map;
+  final_heading_rad_ = final_heading_rad;
   failures_ = 0;
+  progress_.start(now);
   next_try_ = now;
+  waiting_for_.clear();
   interrupted();
 }
 
@@ -19,7 +23,20 @@ void RetryDrive::interrupted() {
 
 void RetryDrive::transform(const Pose2& new_T_old) {
   goal_ = new_T_old * goal_;
+  if (final_heading_rad_) {
+    final_heading_rad_ = wrap_angle(*final_heading_rad_ + new_T_old.theta_rad);
+  }
   interrupted();
+}
+
+bool RetryDrive::begin(const DriveInput& input) {
+  if (!waiting_for_.empty()) {
+    // Who stood in the way may have left, and would be remembered for longer than all attempts last.
+    input.floors.forget_past_obstacles();
+    waiting_for_.clear();
+  }
+  driving_ = driver_.start(input, goal_, final_heading_rad_);
+  return driving_;
 }
 
 DriveStep RetryDrive::step(const DriveInput& input) {
@@ -27,24 +44,27 @@ DriveStep RetryDrive::step(const DriveInput& input) {
     if (input.now < next_try_) {
       return {{}, DriveState::kDriving, {}};
     }
-    if (!driver_.start(input, goal_)) {
+    if (!begin(input)) {
       return failed(driver_.reason(), input.now);
     }
-    driving_ = true;
   }
   const DriveStep driven = driver_.step(input);
   if (driven.state == DriveState::kFailed || driven.state == DriveState::kIdle) {
     return failed(driven.reason, input.now);
+  }
+  if (driven.state == DriveState::kDriving && progress_.nearer(driven.remaining_m, kNearer_m, input.now)) {
+    failures_ = 0;
   }
   return driven;
 }
 
 DriveStep RetryDrive::failed(const std::string& why, RobotTime now) {
   interrupted();
-  if (++failures_ >= attempts_) {
+  if (++failures_ >= retry_.attempts) {
     return {{}, DriveState::kFailed, why};
   }
-  next_try_ = now + seconds(retry_s_);
+  next_try_ = now + seconds(retry_.retry_s);
+  waiting_for_ = why;
   return {{}, DriveState::kDriving, {}};
 }
 

@@ -47,7 +47,7 @@ struct PlanParams {
   double min_frontier_m = 0.4;            ///< shorter borders, obstacle to obstacle, are noise
   double frontier_reach_m = 0.5;          ///< a goal so near to a frontier observes it
   int max_failures = 2;                   ///< failed drives to a goal before it is unreachable
-  double goal_time_s = 120.0;             ///< longest drive to one goal
+  double goal_time_s = 120.0;             ///< nor may a drive go on for so long without getting nearer to it
   double failed_radius_m = 0.4;           ///< goals so near to an unreachable place are not tried
   double min_look_spacing_m = 0.3;        ///< a look from nearer than this to an earlier one teaches nothing
   nav::CostMapParams cost;

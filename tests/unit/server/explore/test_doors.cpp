@@ -1,6 +1,8 @@
 // Explorations through doors that are narrow, or that somebody stands in.
 
 #include <iostream>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -94,6 +96,35 @@ TEST(Doors, WhoStaysInTheDoorMakesWhatLiesBehindUnreachable) {
   EXPECT_GT(run.end->unreachable.front().x(), 5.0);
   EXPECT_GT(run.seconds, 120.0) << "it has been waited for";
   EXPECT_LT(run.seconds, 400.0);
+}
+
+TEST(Doors, WhoStepsIntoTheDoorOnTheWayHomeForAMomentDoesNotEndIt) {
+  ExploreRequest request;
+  request.strategy = maker_of(Strategy::kFrontier);
+  request.return_to_start = true;
+  auto exploration = std::move(*Exploration::create(request, {}));
+  ToyWorld world_of_rooms;  // the second one so long that it has to be driven into
+  world_of_rooms.walls = joined(box(0, 0, 18, 5), {{{5.1, 0.0}, {5.1, 1.9}}, {{5.1, 3.1}, {5.1, 5.0}}});
+  ToyExplorer robot(world_of_rooms, {1.0, 2.5, 0.0}, 19);
+  ToyExplorer::Hooks hooks;
+  bool in_second_room = false;
+  std::optional<double> came_s;
+  hooks.world = [&, walls = robot.world().walls.size()](double t_s, ToyWorld& world) {
+    in_second_room = in_second_room || robot.pose().x_m > 6.5;
+    if (in_second_room && robot.pose().x_m < 5.9 && !came_s) {
+      came_s = t_s;
+    }
+    world.walls.resize(walls);
+    if (came_s && t_s < *came_s + 3.0) {
+      world.walls = joined(world.walls, box(4.9, 2.2, 5.3, 2.8));
+    }
+  };
+  const ToyRun run = robot.run(exploration, 600.0, hooks);
+  print("on the way home", run);
+  ASSERT_TRUE(came_s.has_value());
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->cause.find("blocked"), std::string::npos) << run.end->cause;
+  EXPECT_LT((run.pose.translation() - Point2(1.0, 2.5)).norm(), 0.2);
 }
 
 }  // namespace
