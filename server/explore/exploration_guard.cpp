@@ -84,7 +84,7 @@ void Exploration::Impl::begin_regain(const StrategyInput& input, double sigma_m,
     return;
   }
   mode_ = Mode::kRegain;
-  regain_since_ = input.now;
+  got_back_ = input.now;
   back_driving_ = false;
   const std::vector<Point2> way = trail_.way_to_certainty();
   back_way_.assign(way.begin(), way.end());
@@ -104,7 +104,7 @@ void Exploration::Impl::regain(const StrategyInput& input, double sigma_m, Explo
     out.step_done = true;
     return;
   }
-  if (to_seconds(input.now - regain_since_) > params_.guard.regain_time_s) {
+  if (to_seconds(input.now - got_back_) > params_.guard.regain_time_s) {
     end_ = ExploreEnd{EndKind::kUncertain,
                       "the robot's position is uncertain by " + text(sigma_m) + " m, and going back did not help",
                       "localise the robot, then explore again: the map so far is kept",
@@ -121,6 +121,9 @@ void Exploration::Impl::regain(const StrategyInput& input, double sigma_m, Explo
   const nav::DriveStep driven = back_.step(input);
   out.command = driven.command;
   out.planned_path = back_.path();
+  if (driven.state == nav::DriveState::kArrived) {
+    got_back_ = input.now;  // a long way back takes long
+  }
   if (driven.state != nav::DriveState::kDriving) {  // arrived, or no way there: on to the next
     back_way_.pop_front();
     back_driving_ = false;

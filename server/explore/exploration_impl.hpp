@@ -89,8 +89,8 @@ class Exploration::Impl {
   nav::RetryDrive back_;         ///< of kRegain
   std::deque<Point2> back_way_;  ///< of kRegain: places still to go to
   bool back_driving_ = false;    ///< towards the first of them
-  RobotTime regain_since_;
-  int fruitless_regains_ = 0;  ///< in a row, without new floor in between
+  RobotTime got_back_;           ///< of kRegain: when the last of the places was reached, or it began
+  int fruitless_regains_ = 0;    ///< in a row, without new floor in between
   double floor_at_regain_m2_ = 0.0;
 
   nav::KnownFloor known_floor_;

@@ -16,11 +16,12 @@ struct GuardParams {
   /// floors and scanners that are not level: on a floor of 1100 m2 it says 0.35 m on average where it is 0.04 m off.
   double max_position_sigma_m = 1.0;
   double regain_position_sigma_m = 0.5;  ///< and explores on below this
-  double regain_time_s = 180.0;          ///< not regained in so long: the exploration ends as uncertain
-  double battery_reserve_v = 11.5;       ///< below it the robot goes home; Pioneer 3-DX: 12 V lead accumulators
-  double home_m_s = 0.3;                 ///< it drives home so fast, turns and stops counted in,
-  double home_margin = 1.5;              ///< and sets out with so many times the time that this takes,
-  double home_reserve_s = 20.0;          ///< and so much more: to brake, turn round, and for what it drives meanwhile
+  /// On the way back no place reached in so long, or not regained so long after the last: it ends as uncertain.
+  double regain_time_s = 180.0;
+  double battery_reserve_v = 11.5;  ///< below it the robot goes home; Pioneer 3-DX: 12 V lead accumulators
+  double home_m_s = 0.3;            ///< it drives home so fast, turns and stops counted in,
+  double home_margin = 1.5;         ///< and sets out with so many times the time that this takes,
+  double home_reserve_s = 20.0;     ///< and so much more: to brake, turn round, and for what it drives meanwhile
 };
 
 struct ExploreParams {
