@@ -1,26 +1,45 @@
 #include "server/app/goto_behaviour.hpp"
 
+#include <utility>
+
 #include "common/core/text.hpp"
 
 namespace seeker::app {
-GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound)
-    : params_(params), mission_(std::move(mission)), bound_(std::move(bound)), follower_(params.follower) {}
+namespace {
 
-void GotoBehaviour::resumed(RobotTime /*now*/) {
-  follower_.clear();
-  planned_at_.reset();
+/// Of the floor that is known to be connected; ways are planned on the finer map.
+constexpr double kFloorCell_m = 0.2;
+/// Shortest time between two looks at the floor where no way is planned.
+constexpr double kMapPeriod_s = 1.0;
+
+nav::DriverParams driver_of(const GotoParams& params) {
+  nav::DriverParams driver;
+  driver.max_failures = params.max_failures;
+  driver.follower = params.follower;
+  driver.planner = params.planner;
+  driver.replan_period_s = to_seconds(params.replan_period);
+  driver.close_enough_m = 0.0;  // the place itself was asked for
+  return driver;
 }
 
-void GotoBehaviour::map_moved(const Pose2& /*new_T_old*/) {
-  follower_.clear();
-  planned_at_.reset();
+}  // namespace
+
+GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound)
+    : mission_(std::move(mission)),
+      floors_(params.cost_map, {std::move(bound), mission_.keep_out}, kFloorCell_m, kMapPeriod_s),
+      drive_(driver_of(params), params.retry) {}
+
+void GotoBehaviour::resumed(RobotTime /*now*/) { drive_.interrupted(); }
+
+void GotoBehaviour::map_moved(const Pose2& new_T_old) {
+  floors_.transform(new_T_old);
+  sonar_obstacles_.transform(new_T_old);
+  drive_.interrupted();
 }
 
 void GotoBehaviour::next_waypoint(Decision& decision) {
   ++current_;
-  failures_ = 0;
-  planned_at_.reset();
-  follower_.clear();
+  under_way_ = false;
   decision.step_done = true;
   if (current_ < mission_.waypoints.size()) {
     return;
@@ -45,28 +64,27 @@ void GotoBehaviour::give_up(const std::string& why, Decision& decision) {
   next_waypoint(decision);
 }
 
-bool GotoBehaviour::plan(const Situation& situation, Decision& decision) {
-  const auto occupancy = situation.map->snapshot();
-  if (!occupancy) {
-    decision.activity = "waiting for the first sweep";
-    return false;
+void GotoBehaviour::drive(const nav::DriveInput& input, Decision& decision) {
+  const Point2& goal = mission_.waypoints[current_];
+  if (!std::exchange(under_way_, true)) {
+    const bool last = current_ + 1 == mission_.waypoints.size();
+    drive_.go(goal, input.now, last ? mission_.final_heading_rad : std::nullopt);
   }
-  nav::CostMapLimits limits;
-  limits.bound = bound_;
-  limits.keep_out = mission_.keep_out;
-  const Result<nav::CostMap> map = nav::CostMap::build(*occupancy, params_.cost_map, limits);
-  const Pose2& pose = situation.pose.map_T_base;
-  const Result<nav::Path> path =
-      map ? nav::plan(*map, pose.translation(), mission_.waypoints[current_], params_.planner)
-          : Result<nav::Path>(tl::unexpected<Error>(map.error()));
-  planned_at_ = situation.now;
-  if (!path) {
-    give_up(path.error().message, decision);
-    return false;
+  const nav::DriveStep driven = drive_.step(input);
+  decision.command = driven.command;
+  decision.planned_path = drive_.path();
+  decision.activity = "driving to " + text(goal) + " m, " + text(driven.remaining_m) + " m to go";
+  if (driven.state == nav::DriveState::kArrived) {
+    decision.events.push_back({"arrived", "at " + text(goal) + " m", api::Severity::kInfo});
+    next_waypoint(decision);
+  } else if (driven.state == nav::DriveState::kFailed) {
+    give_up(driven.reason, decision);
+  } else if (!drive_.waiting_for().empty()) {
+    decision.activity = "waiting for the way to " + text(goal) + " m to become free: " + drive_.waiting_for();
+    if (!floors_.areas().allows(goal)) {  // nobody moves a place out of a kept-out area
+      give_up(drive_.waiting_for(), decision);
+    }
   }
-  const bool last = current_ + 1 == mission_.waypoints.size();
-  follower_.set_path(*path, situation.now, last ? mission_.final_heading_rad : std::nullopt);
-  return true;
 }
 
 Decision GotoBehaviour::step(const Situation& situation) {
@@ -74,27 +92,19 @@ Decision GotoBehaviour::step(const Situation& situation) {
   decision.phase = "drive";
   const auto count = static_cast<double>(mission_.waypoints.size());
   decision.progress = static_cast<double>(current_) / count;
-  const bool stale = !planned_at_ || situation.now - *planned_at_ >= params_.replan_period;
-  if ((!follower_.active() || stale) && !plan(situation, decision)) {
-    return decision;
-  }
-  const std::vector<Point2> points =
-      situation.scan != nullptr ? points_in_base(*situation.scan) : std::vector<Point2>();
-  const nav::FollowStep step = follower_.step(situation.pose.map_T_base, points, situation.now);
-  decision.command = step.command;
-  decision.planned_path = follower_.path().waypoints;
-  decision.activity = "driving to " + text(mission_.waypoints[current_]) + " m, " +
-                      std::to_string(static_cast<int>(step.remaining_m * 10.0) / 10) + " m to go";
-  if (step.state == nav::FollowState::kArrived) {
-    decision.events.push_back({"arrived", "at " + text(mission_.waypoints[current_]) + " m", api::Severity::kInfo});
-    next_waypoint(decision);
-  } else if (step.state == nav::FollowState::kBlocked || step.state == nav::FollowState::kStuck) {
-    follower_.clear();
-    planned_at_.reset();
-    if (++failures_ >= params_.max_failures) {
-      give_up(step.reason, decision);
+  const Pose2& map_T_base = situation.pose.map_T_base;
+  floors_.attend(*situation.map, map_T_base, situation.now, situation.movers);
+  if (!map_seen_) {
+    const auto floor = floors_.view();
+    if (!floor && floor.error().code == Errc::kNotReady) {
+      decision.activity = "waiting for the first sweep";
+      return decision;
     }
+    map_seen_ = true;
   }
+  const nav::DriveInput input{situation.now, map_T_base, situation.sonar, situation.scan, floors_};
+  sonar_obstacles_.note(input);
+  drive(input, decision);
   return decision;
 }
 

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "server/app/behaviour.hpp"
 #include "server/nav/cost_map.hpp"
+#include "server/nav/floor_view.hpp"
 #include "server/nav/path_follower.hpp"
 #include "server/nav/planner.hpp"
+#include "server/nav/retry_drive.hpp"
+#include "server/nav/sonar_obstacles.hpp"
 
 namespace seeker::app {
 
@@ -17,7 +21,8 @@ struct GotoParams {
   nav::PlannerParams planner;
   nav::FollowerParams follower;
   Duration replan_period = std::chrono::seconds(2);  ///< the map grows while driving
-  int max_failures = 5;                              ///< plans in a row without progress before a place is given up
+  int max_failures = 5;    ///< ways that turned out blocked, without getting nearer, before an attempt has failed
+  nav::RetryParams retry;  ///< attempts before a place is given up: people in the way move on
 };
 
 class GotoBehaviour final : public Behaviour {
@@ -32,16 +37,16 @@ class GotoBehaviour final : public Behaviour {
 
  private:
   void next_waypoint(Decision& decision);
-  [[nodiscard]] bool plan(const Situation& situation, Decision& decision);
+  void drive(const nav::DriveInput& input, Decision& decision);
   void give_up(const std::string& why, Decision& decision);
 
-  GotoParams params_;
   api::GotoMission mission_;
-  std::optional<Polygon> bound_;
-  nav::PathFollower follower_;
+  nav::FloorSource floors_;
+  nav::SonarObstacles sonar_obstacles_;
+  nav::RetryDrive drive_;
   std::size_t current_ = 0;
-  int failures_ = 0;
-  std::optional<RobotTime> planned_at_;
+  bool under_way_ = false;  ///< to the current place
+  bool map_seen_ = false;
   std::vector<Point2> unreachable_;
 };
 

@@ -132,6 +132,7 @@ void describe(config::Fields& f, GotoParams& params) {
   f.section("follower", params.follower);
   f.seconds("replan_period_s", params.replan_period);
   f.field("max_failures", params.max_failures);
+  f.section("retry", params.retry);
 }
 
 void describe(config::Fields& f, SimSettings& settings) {

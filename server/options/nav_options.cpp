@@ -68,4 +68,11 @@ void describe(config::Fields& f, DriverParams& params) {
   f.section("follower", params.follower);
 }
 
+void describe(config::Fields& f, RetryParams& params) {
+  f.field("attempts", params.attempts);
+  f.check("attempts", params.attempts >= 1, "must be 1 or more");
+  f.field("retry_s", params.retry_s);
+  f.check("retry_s", params.retry_s >= 0.0, "must be 0 or more");
+}
+
 }  // namespace seeker::nav

@@ -9,6 +9,7 @@
 #include "server/nav/path_follower.hpp"
 #include "server/nav/planned_driver.hpp"
 #include "server/nav/planner.hpp"
+#include "server/nav/retry_drive.hpp"
 
 namespace seeker::nav {
 
@@ -18,5 +19,6 @@ void describe(config::Fields& f, PlannerParams& params);
 void describe(config::Fields& f, ClearanceParams& params);
 void describe(config::Fields& f, FollowerParams& params);
 void describe(config::Fields& f, DriverParams& params);
+void describe(config::Fields& f, RetryParams& params);
 
 }  // namespace seeker::nav
