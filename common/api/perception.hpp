@@ -64,7 +64,7 @@ struct GridLists {
 
 /// The certificate of a search in numbers.
 struct CoverageSummary {
-  double reachable_area_m2 = 0.0;  ///< free floor eroded by the robot's radius and connected to the start
+  double reachable_area_m2 = 0.0;  ///< free floor eroded by the robot's radius, now or once connected to the robot
   double covered_area_m2 = 0.0;    ///< of it, with probability of detection at or above the threshold
   double threshold = 0.5;
   double mean_probability = 0.0;  ///< over the reachable floor
@@ -77,7 +77,7 @@ struct CoverageSummary {
 struct Gap {
   Point2 centre = Point2::Zero();
   double area_m2 = 0.0;
-  std::string reason;  ///< "unreachable", "not seen", "keep-out", "outside the bound"
+  std::string reason;  ///< "unreachable", "not seen", "cut off", "keep-out", "outside the bound"
 
   friend bool operator==(const Gap&, const Gap&) = default;
 };

@@ -34,6 +34,30 @@ bool holds(const Grid<std::uint8_t>& floor, const Point2& p_map) {
   return floor.contains(cell) && floor[cell] != 0;
 }
 
+/// The same floor in the map after it moved, its cells again on multiples of their size.
+Grid<std::uint8_t> moved(const Grid<std::uint8_t>& floor, const Pose2& new_T_old) {
+  if (floor.empty()) {
+    return {};
+  }
+  const double cell_m = floor.frame().resolution_m;
+  const Point2 size = cell_m * Point2(floor.width(), floor.height());
+  Point2 low = new_T_old * floor.frame().origin;
+  Point2 high = low;
+  for (const Point2& corner : {Point2(size.x(), 0.0), Point2(0.0, size.y()), size}) {
+    const Point2 p = new_T_old * Point2(floor.frame().origin + corner);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const GridFrame frame{cell_m * (low / cell_m).array().floor().matrix(), cell_m};
+  const Point2 cells = ((high - frame.origin) / cell_m).array().ceil().matrix();
+  Grid<std::uint8_t> out(frame, static_cast<int>(cells.x()), static_cast<int>(cells.y()), 0);
+  const Pose2 old_T_new = inverse(new_T_old);
+  for (std::size_t k = 0; k < out.cells().size(); ++k) {
+    out.cells()[k] = holds(floor, old_T_new * frame.centre_of(out.cell(k))) ? 1 : 0;
+  }
+  return out;
+}
+
 template <class Wanted>
 void copy_into(Grid<std::uint8_t>& to, const Grid<std::uint8_t>& from, Wanted&& wanted) {
   for (std::size_t k = 0; k < from.cells().size(); ++k) {
@@ -112,6 +136,11 @@ std::vector<StandingThing> KnownFloor::occupied_now(const FloorView& view,
   }
   std::erase_if(things, [](const StandingThing& thing) { return thing.cells.size() < kThingCells; });
   return things;
+}
+
+void KnownFloor::transform(const Pose2& new_T_old) {
+  floor_ = moved(floor_, new_T_old);
+  from_afar_ = moved(from_afar_, new_T_old);
 }
 
 void KnownFloor::clear() {

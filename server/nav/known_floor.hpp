@@ -7,6 +7,7 @@
 
 #include "common/core/grid.hpp"
 #include "common/core/line_map.hpp"
+#include "common/core/pose2.hpp"
 #include "server/nav/floor_view.hpp"
 
 namespace seeker::nav {
@@ -40,7 +41,8 @@ class KnownFloor {
                                                         const std::vector<MapSegment>& segments) const;
   /// Of the last grid added.
   [[nodiscard]] double present_area_m2() const { return present_m2_; }
-  /// The map moved: what was known no longer lies on cells.
+  /// The map moved: takes every cell to the one its place lies in now.
+  void transform(const Pose2& new_T_old);
   void clear();
 
  private:

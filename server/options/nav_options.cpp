@@ -75,4 +75,9 @@ void describe(config::Fields& f, RetryParams& params) {
   f.check("retry_s", params.retry_s >= 0.0, "must be 0 or more");
 }
 
+void describe(config::Fields& f, WaitParams& params) {
+  f.field("max_waits", params.max_waits);
+  f.field("max_for_nobody", params.max_for_nobody);
+}
+
 }  // namespace seeker::nav

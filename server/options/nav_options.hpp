@@ -10,6 +10,7 @@
 #include "server/nav/planned_driver.hpp"
 #include "server/nav/planner.hpp"
 #include "server/nav/retry_drive.hpp"
+#include "server/nav/wait_turns.hpp"
 
 namespace seeker::nav {
 
@@ -20,5 +21,6 @@ void describe(config::Fields& f, ClearanceParams& params);
 void describe(config::Fields& f, FollowerParams& params);
 void describe(config::Fields& f, DriverParams& params);
 void describe(config::Fields& f, RetryParams& params);
+void describe(config::Fields& f, WaitParams& params);
 
 }  // namespace seeker::nav

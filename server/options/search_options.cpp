@@ -45,6 +45,9 @@ void describe(config::Fields& f, PlanParams& params) {
   f.field("max_failures", params.max_failures);
   f.field("goal_time_s", params.goal_time_s);
   f.field("failed_radius_m", params.failed_radius_m);
+  f.field("retry_s", params.retry_s);
+  f.field("min_cut_off_m2", params.min_cut_off_m2);
+  f.section("waits", params.waits);
   f.field("min_look_spacing_m", params.min_look_spacing_m);
   f.section("cost", params.cost);
   f.section("follower", params.follower);

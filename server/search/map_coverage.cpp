@@ -1,5 +1,6 @@
 #include "server/search/map_coverage.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/core/text.hpp"
@@ -17,7 +18,7 @@ constexpr double kSearchedShare = 0.8;
 }  // namespace
 
 MapCoverage::MapCoverage(const PlanParams& params, std::unique_ptr<GoalChooser> chooser)
-    : params_(params), chooser_(std::move(chooser)), driver_(params.driver()) {
+    : params_(params), chooser_(std::move(chooser)), driver_(params.driver()), waits_(params.waits) {
   lists_.cell_size_m = params.cell_m;
 }
 
@@ -35,6 +36,7 @@ StrategyStep MapCoverage::step(const StrategyInput& input) {
       out.wants_image = true;
       break;
     case State::kTurn: turn(input, out); break;
+    case State::kWait: wait(input, out); break;
     case State::kDone: break;
   }
   if (state_ == State::kDone) {
@@ -56,22 +58,25 @@ void MapCoverage::choose(const StrategyInput& input, StrategyStep& out) {
     begin_turn(input, costs.error().message, out);
     return;
   }
-  goal_ = chooser_->choose(
-      {**floor, *costs, input.evidence, input.map_T_base, input.target_size_m, lists_.unreachable, input.map_views});
+  turns_ = 0;
+  const std::vector<Point2> avoid = avoided(input.now);
+  goal_ = chooser_->choose(choice(input, **floor, *costs, avoid));
   if (!goal_) {
-    state_ = State::kDone;
-    cause_ = "no reachable gap and no frontier is left";
-    update_lists(input);
+    nothing_left(input, **floor, *costs, out);
     return;
   }
-  turns_ = 0;
   if (!driver_.start(input, goal_->p_map, goal_->heading_rad)) {
-    fail_goal(driver_.reason(), out);
+    fail_goal(driver_.reason(), input.now, out);
     return;
   }
   out.events.push_back({"goal", goal_->why + " " + text(goal_->p_map)});
   out.activity = "going to " + goal_->why + " " + text(goal_->p_map);
   state_ = State::kDrive;
+}
+
+ChooseInput MapCoverage::choice(const StrategyInput& input, const nav::FloorView& floor,
+                                const nav::DistanceField& costs, const std::vector<Point2>& avoid) {
+  return {floor, costs, input.evidence, input.map_T_base, input.target_size_m, avoid, input.map_views};
 }
 
 void MapCoverage::begin_turn(const StrategyInput& input, const std::string& why, StrategyStep& out) {
@@ -115,20 +120,46 @@ void MapCoverage::drive(const StrategyInput& input, StrategyStep& out) {
       break;
     case nav::DriveState::kArrived:
       chooser_->visited(*goal_, input.map_T_base);
+      waits_.reset();
       state_ = State::kLook;
       break;
     case nav::DriveState::kFailed:
-    case nav::DriveState::kIdle: fail_goal(drive.reason, out); break;
+    case nav::DriveState::kIdle: fail_goal(drive.reason, input.now, out); break;
   }
 }
 
-void MapCoverage::fail_goal(const std::string& why, StrategyStep& out) {
-  lists_.unreachable.push_back(goal_->p_map);
-  out.events.push_back({"unreachable", goal_->why + " " + text(goal_->p_map) + ": " + why});
-  out.activity = "giving up an unreachable goal";
+void MapCoverage::fail_goal(const std::string& why, RobotTime now, StrategyStep& out) {
+  auto place = std::find_if(failed_.begin(), failed_.end(), [&](const Failed& one) {
+    return (one.p_map - goal_->p_map).norm() < params_.failed_radius_m;
+  });
+  place = place == failed_.end() ? failed_.insert(place, Failed{goal_->p_map, 0, now}) : place;
+  place->last = now;
+  const bool given_up = ++place->times >= params_.max_failures;
+  list_unreachable();
+  out.events.push_back({given_up ? "unreachable" : "goal_failed", goal_->why + " " + text(goal_->p_map) + ": " + why});
+  out.activity = given_up ? "giving up an unreachable goal" : "leaving a goal for later";
   goal_.reset();
   driver_.stop();
   state_ = State::kChoose;
+}
+
+std::vector<Point2> MapCoverage::avoided(RobotTime now) const {
+  std::vector<Point2> places;
+  for (const Failed& one : failed_) {
+    if (one.times >= params_.max_failures || to_seconds(now - one.last) < params_.retry_s) {
+      places.push_back(one.p_map);
+    }
+  }
+  return places;
+}
+
+void MapCoverage::list_unreachable() {
+  lists_.unreachable.clear();
+  for (const Failed& one : failed_) {
+    if (one.times >= params_.max_failures) {
+      lists_.unreachable.push_back(one.p_map);
+    }
+  }
 }
 
 void MapCoverage::image_taken(const StrategyInput& input) {
@@ -196,6 +227,10 @@ void MapCoverage::transform(const Pose2& new_T_old) {
   for (const Point2& p : lists_.searched) {
     searched_cells_.insert(frame.cell_of(p));
   }
+  for (Failed& one : failed_) {
+    one.p_map = new_T_old * one.p_map;
+  }
+  waits_.transform(new_T_old);
   if (last_look_) {
     last_look_ = new_T_old * *last_look_;
   }

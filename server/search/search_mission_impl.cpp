@@ -17,6 +17,8 @@ constexpr double kStandingStep_m = 0.004;
 constexpr double kStandingStep_rad = 0.01;
 /// The driven way is measured in steps of this length, so that noise of a standing robot adds nothing.
 constexpr double kPathStep_m = 0.05;
+/// What can be reached is noted so often, whether or not a way is planned.
+constexpr double kNoteFloor_s = 3.0;
 
 LocalPlanner make_planner(const SearchRequest& request, const SearchParams& params,
                           const std::shared_ptr<const ControlTable>& table) {
@@ -52,11 +54,24 @@ SearchMission::Impl::Impl(SearchRequest request, const SearchParams& params,
       strategy_(make_strategy(request_, params, planner_)),
       visit_(params, planner_, request_.strategy != Strategy::kPaper) {}
 
+void SearchMission::Impl::note_floor(const Point2& robot_map, RobotTime now) {
+  if (!floor_noted_at_ || to_seconds(now - *floor_noted_at_) >= kNoteFloor_s) {
+    floor_noted_at_ = now;
+    static_cast<void>(floors_.view());  // where the robot stands walled in, nothing new can be reached
+  }
+  const auto& last = floors_.last();
+  if (last != noted_floor_) {
+    known_floor_.add(*last, robot_map, params_.hit_rate.max_range_m);
+    noted_floor_ = last;
+  }
+}
+
 StrategyInput SearchMission::Impl::strategy_input(const SearchInput& input) {
   return {{input.now - paused_, input.map_T_base, input.sonar, input.laser, floors_},
           evidence_,
           smallest_target_m(),
-          input.map_views};
+          input.map_views,
+          known_floor_};
 }
 
 double SearchMission::Impl::smallest_target_m() const {
@@ -87,6 +102,7 @@ SearchStep SearchMission::Impl::step(const SearchInput& input) {
   }
   account(input, out);
   floors_.attend(input.map, input.map_T_base, input.now - paused_);
+  note_floor(input.map_T_base.translation(), input.now - paused_);
   const StrategyInput now = strategy_input(input);
   if (!end_) {
     process_looks(now, out);
@@ -209,6 +225,8 @@ void SearchMission::Impl::transform(const Pose2& new_T_old) {
   evidence_.transform(new_T_old);
   tracker_.transform(new_T_old);
   floors_.transform(new_T_old);
+  known_floor_.transform(new_T_old);
+  noted_floor_ = floors_.last();  // made from the map before
   visit_.interrupted();
   path_anchor_ = new_T_old * path_anchor_;
   last_pose_ = new_T_old * last_pose_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "server/nav/known_floor.hpp"
 #include "server/search/detection_tracker.hpp"
 #include "server/search/search_mission.hpp"
 #include "server/search/strategy.hpp"
@@ -30,6 +31,7 @@ class SearchMission::Impl {
   SearchRequest request_;
   SearchParams params_;
   nav::FloorSource floors_;
+  nav::KnownFloor known_floor_;
   EvidenceGrid evidence_;
   DetectionTracker tracker_;
   LocalPlanner planner_;
@@ -47,6 +49,7 @@ class SearchMission::Impl {
   };
   [[nodiscard]] StrategyInput strategy_input(const SearchInput& input);
   void account(const SearchInput& input, SearchStep& out);
+  void note_floor(const Point2& robot_map, RobotTime now);
   void process_looks(const StrategyInput& input, SearchStep& out);
   void process_look(const PendingLook& look, const StrategyInput& input, SearchStep& out);
   void note_sighting(std::uint64_t id, const StrategyInput& input, SearchStep& out);
@@ -63,6 +66,8 @@ class SearchMission::Impl {
   [[nodiscard]] std::string name_of(int target) const;
   [[nodiscard]] double smallest_target_m() const;
 
+  std::shared_ptr<const nav::FloorView> noted_floor_;  ///< the last view that known_floor_ was told
+  std::optional<RobotTime> floor_noted_at_;
   std::deque<PendingLook> looks_;
   std::deque<std::uint64_t> to_confirm_;
   std::set<std::uint64_t> sighted_;    ///< reported as sighting

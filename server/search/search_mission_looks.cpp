@@ -5,6 +5,7 @@
 #include "common/core/angle.hpp"
 #include "common/core/text.hpp"
 #include "server/nav/visibility.hpp"
+#include "server/search/cut_off.hpp"
 #include "server/search/goal_chooser.hpp"
 #include "server/search/search_mission_impl.hpp"
 
@@ -67,7 +68,7 @@ void SearchMission::Impl::process_look(const PendingLook& look, const StrategyIn
   const auto floor = view ? *view : input.floors.last();
   if (floor) {
     evidence_.add_look(floor->occupancy, look.camera_map, smallest_target_m());
-    summary_ = evidence_.summary(floor->reachable);
+    summary_ = evidence_.summary(floor_to_search(*floor, known_floor_));
     const auto refuted = tracker_.note_misses(look.seen, [&](const Point2& p, int target) {
       const Point2 d = p - look.camera_map;
       const double r = d.norm();
@@ -182,7 +183,7 @@ void SearchMission::Impl::finish_found(std::uint64_t id, SearchStep& out) {
 
 void SearchMission::Impl::finish_covered(const StrategyStep& step, const StrategyInput& input, SearchStep& out) {
   if (const auto floor = input.floors.view(true)) {
-    summary_ = evidence_.summary((*floor)->reachable);
+    summary_ = evidence_.summary(floor_to_search(**floor, known_floor_));
   }
   if (request_.on_found == OnFound::kContinue && !confirmed_.empty()) {
     finish_found(*confirmed_.begin(), out);
@@ -192,7 +193,7 @@ void SearchMission::Impl::finish_covered(const StrategyStep& step, const Strateg
   const std::string covered = text(kPercent * share) + " % of " + text(summary_.reachable_area_m2) +
                               " m2 reachable floor seen with probability " + text(summary_.threshold) + " or more";
   const bool walled_in = summary_.reachable_area_m2 <= 0.0;
-  if ((step.trapped || walled_in) && strategy_->lists().searched.size() <= 1) {
+  if (step.trapped || walled_in) {
     const std::string cause = walled_in ? "the robot is walled in: there is no floor around it to drive on" : covered;
     finish(EndKind::kUnreachable, step.activity + "; " + cause, "free the robot or move it, then start again", out);
     return;
@@ -210,8 +211,12 @@ EvidenceReport SearchMission::Impl::evidence_report() const {
   }
   const auto everything = floors_.unrestricted_floor();
   const std::vector<Point2>& unreachable = strategy_->lists().unreachable;
-  return evidence_.report(floor->reachable, [&](const Point2& p) -> std::optional<std::string> {
-    if (floor_at(floor->reachable, p)) {
+  const Grid<std::uint8_t> to_search = floor_to_search(*floor, known_floor_);
+  return evidence_.report(to_search, [&](const Point2& p) -> std::optional<std::string> {
+    if (floor_at(to_search, p) && !floor_at(floor->reachable, p)) {
+      return "cut off";
+    }
+    if (floor_at(to_search, p)) {
       return nav::near_any(p, unreachable, kUnreachableRadius_m) ? std::optional<std::string>("unreachable")
                                                                  : std::nullopt;
     }

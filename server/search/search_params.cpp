@@ -39,6 +39,8 @@ Status validate_lengths(const SearchParams& p) {
                        {"plan.look_spacing_m", p.plan.look_spacing_m},
                        {"plan.travel_offset_m", p.plan.travel_offset_m},
                        {"plan.goal_time_s", p.plan.goal_time_s},
+                       {"plan.retry_s", p.plan.retry_s},
+                       {"plan.min_cut_off_m2", p.plan.min_cut_off_m2},
                        {"mission.image_timeout_s", p.mission.image_timeout_s},
                        {"mission.standoff_m", p.mission.standoff_m},
                        {"mission.confirm_time_s", p.mission.confirm_time_s},
@@ -66,6 +68,9 @@ Status validate(const SearchParams& params) {
   if (params.evidence.cell_m > kMaxSearchedCell_m) {
     return fail(Errc::kInvalidArgument,
                 "evidence.cell_m must be at most 1 m");  // others would refuse what was searched
+  }
+  if (params.plan.max_failures < 1 || params.plan.waits.max_waits < 0 || params.plan.waits.max_for_nobody < 0) {
+    return fail(Errc::kInvalidArgument, "plan.max_failures must be 1 or more, the numbers of plan.waits 0 or more");
   }
   if (params.paper.passes_limit < 0 || params.detection.confirm_places < 1) {
     return fail(Errc::kInvalidArgument,

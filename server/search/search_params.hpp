@@ -5,6 +5,7 @@
 #include "common/core/result.hpp"
 #include "server/nav/cost_map.hpp"
 #include "server/nav/planned_driver.hpp"
+#include "server/nav/wait_turns.hpp"
 #include "server/search/detection_params.hpp"
 #include "server/search/drive_law.hpp"
 #include "server/search/evidence.hpp"
@@ -49,11 +50,14 @@ struct PlanParams {
   int max_failures = 2;                   ///< failed drives to a goal before it is unreachable
   double goal_time_s = 120.0;             ///< nor may a drive go on for so long without getting nearer to it
   double failed_radius_m = 0.4;           ///< goals so near to an unreachable place are not tried
+  double retry_s = 20.0;                  ///< so long others go before a goal that was not reached, or a wait lasts
+  double min_cut_off_m2 = 1.0;            ///< unsearched floor that a way led to before, if larger, is waited for
   double min_look_spacing_m = 0.3;        ///< a look from nearer than this to an earlier one teaches nothing
+  nav::WaitParams waits;
   nav::CostMapParams cost;
   nav::FollowerParams follower;
 
-  [[nodiscard]] nav::DriverParams driver() const { return {max_failures, goal_time_s, follower}; }
+  [[nodiscard]] nav::DriverParams driver() const { return {.goal_time_s = goal_time_s, .follower = follower}; }
 };
 
 /// Looking, confirming, approaching.

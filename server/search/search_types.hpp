@@ -126,15 +126,16 @@ struct Detection {
 struct Gap {
   Point2 centre_map = Point2::Zero();
   double area_m2 = 0.0;
-  std::string reason;  ///< "unreachable", "not seen", "keep-out", "outside the bound"
+  std::string reason;  ///< "unreachable", "not seen", "cut off", "keep-out", "outside the bound"
 
   friend bool operator==(const Gap&, const Gap&) = default;
 };
 
 /// The certificate of a search in numbers.
 struct CoverageSummary {
-  double reachable_area_m2 = 0.0;  ///< free floor eroded by the robot's radius, connected to the start, allowed
-  double covered_area_m2 = 0.0;    ///< of it, with a probability of detection at or above the threshold
+  /// Free floor eroded by the robot's radius, allowed, connected to the robot now or at some time of the search.
+  double reachable_area_m2 = 0.0;
+  double covered_area_m2 = 0.0;  ///< of it, with a probability of detection at or above the threshold
   double threshold = 0.5;
   double mean_probability = 0.0;
   int gaps = 0;

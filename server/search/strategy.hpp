@@ -9,6 +9,7 @@
 #include "common/core/pose2.hpp"
 #include "common/core/scan.hpp"
 #include "common/core/time.hpp"
+#include "server/nav/known_floor.hpp"
 #include "server/nav/planned_driver.hpp"
 #include "server/search/evidence.hpp"
 #include "server/search/search_types.hpp"
@@ -20,6 +21,7 @@ struct StrategyInput : nav::DriveInput {
   const EvidenceGrid& evidence;
   double target_size_m = 0.4;  ///< the smallest target looked for
   const MapViews& map_views;
+  const nav::KnownFloor& known;  ///< that could be reached at some time
 };
 
 struct StrategyStep {

@@ -64,5 +64,17 @@ TEST(KnownFloor, AMappedWallIsNobody) {
   EXPECT_EQ(known.occupied_now(with_a_thing_at(3.0), {wall}).size(), 1U);
 }
 
+TEST(KnownFloor, MovesWithTheMap) {
+  KnownFloor known;
+  known.add(view_of(hall()), kRobot, 3.0);
+  const Pose2 new_T_old{3.0, -2.0, 0.4};
+  known.transform(new_T_old);
+  EXPECT_TRUE(known.was_reachable(new_T_old * Point2(8.0, 2.1)));
+  EXPECT_TRUE(known.contains(new_T_old * kRobot));
+  EXPECT_FALSE(known.was_reachable(new_T_old * Point2(8.0, 4.5))) << "beyond the wall";
+  known.add(view_of(hall()), kRobot, 3.0);
+  EXPECT_TRUE(known.was_reachable({8.0, 2.1})) << "cells of both line up";
+}
+
 }  // namespace
 }  // namespace seeker::nav

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -64,14 +65,18 @@ class ToyRobot : public seeker::testing::ToyBase {
     return {sighting};
   }
 
-  MapViews map_views;                ///< handed to the mission
-  std::size_t pictures_at_once = 1;  ///< that answer for one
+  MapViews map_views;                       ///< handed to the mission
+  std::function<void(double t_s)> between;  ///< called before each step: people, who are walls of world()
+  std::size_t pictures_at_once = 1;         ///< that answer for one
 
   ToyRun run(SearchMission& mission, double limit_s, const std::optional<Polygon>& bound = {}) {
     ToyRun out;
     nav::OccupancyMap map;
     for (int tick = 0; tick * 0.1 < limit_s; ++tick) {
       const RobotTime now = robot_time_s(tick * 0.1);
+      if (between) {
+        between(tick * 0.1);
+      }
       const SonarScan sonar_scan = sonar(now);
       const LaserScan laser_scan = laser(now);
       if (laser_fitted_) {
