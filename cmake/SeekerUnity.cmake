@@ -1,14 +1,13 @@
 # With SEEKER_UNITY the sources of a target are compiled ten at a time, as one source. Unnamed namespaces are shared then: the
 # second of two sources that use a name for two things, or each for itself, is compiled alone.
 set(SEEKER_ALONE
-    common/image/map_server.cpp common/image/map_view.cpp common/image/svg.cpp
+    common/image/svg.cpp
     common/rpc/client_impl.cpp
     common/wire/convert_stream.cpp
-    server/app/fleet_follower.cpp server/app/fleet_judge.cpp server/app/fleet_keep.cpp server/app/fleet_leader.cpp
-    server/app/fleet_memory.cpp server/app/fleet_server.cpp
+    server/app/fleet_leader.cpp server/app/fleet_memory.cpp
     server/app/journal.cpp server/app/map_service.cpp
     server/emulator/emulator_server.cpp
-    server/explore/exploration_wait.cpp server/explore/wall_faces.cpp server/explore/wall_follower.cpp
+    server/explore/wall_faces.cpp server/explore/wall_follower.cpp
     server/lab/merge_report.cpp server/lab/s5_figures.cpp server/lab/s5_reproduce.cpp server/lab/slam_report.cpp
     server/lines/scan_returns.cpp
     server/nav/path_follower.cpp
@@ -23,9 +22,9 @@ set(SEEKER_ALONE
     tests/unit/common/image/test_map_picture.cpp
     tests/unit/server/app/test_robot_map.cpp tests/unit/server/app/test_turn_and_look.cpp
     tests/unit/server/explore/test_doors.cpp tests/unit/server/explore/test_exploration.cpp
-    tests/unit/server/explore/test_known_floor.cpp tests/unit/server/explore/test_lookout.cpp
     tests/unit/server/explore/test_viewpoint_strategies.cpp
     tests/unit/server/lab/test_explore_result.cpp tests/unit/server/lab/test_run_result.cpp
+    tests/unit/server/nav/test_known_floor.cpp tests/unit/server/nav/test_lookout.cpp
     tests/unit/server/nav/test_seen_movers.cpp
     tests/unit/server/search/test_tight_space.cpp
     tests/unit/server/sim/test_simulation.cpp tests/unit/server/sim/test_stereo.cpp tests/unit/server/sim/test_tank.cpp
