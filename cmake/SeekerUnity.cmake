@@ -1,34 +1,41 @@
 # With SEEKER_UNITY the sources of a target are compiled ten at a time, as one source. Unnamed namespaces are shared then: the
 # second of two sources that use a name for two things, or each for itself, is compiled alone.
 set(SEEKER_ALONE
+    client/cli/verbs_motion.cpp
     common/image/svg.cpp
     common/rpc/client_impl.cpp
     common/wire/convert_stream.cpp
-    server/app/fleet_leader.cpp server/app/fleet_memory.cpp
-    server/app/journal.cpp server/app/map_service.cpp
+    server/app/fleet_leader.cpp server/app/fleet_memory.cpp server/app/journal.cpp server/app/map_service.cpp
     server/emulator/emulator_server.cpp
-    server/explore/wall_faces.cpp server/explore/wall_follower.cpp
-    server/lab/merge_report.cpp server/lab/s5_figures.cpp server/lab/s5_reproduce.cpp server/lab/slam_report.cpp
+    server/explore/horizon_views.cpp server/explore/segment_sight.cpp server/explore/wall_faces.cpp
+    server/explore/wall_follower.cpp
+    server/lab/child_process.cpp server/lab/explore_picture.cpp server/lab/figures.cpp server/lab/merge_report.cpp
+    server/lab/s2_figures.cpp server/lab/s5_figures.cpp server/lab/s5_reproduce.cpp server/lab/search_run.cpp
+    server/lab/slam_report.cpp server/lab/solids_study.cpp
     server/lines/scan_returns.cpp
-    server/nav/path_follower.cpp
-    server/search/target_visit.cpp
+    server/localize/tracking_matcher.cpp
+    server/nav/lookout.cpp server/nav/path_follower.cpp server/nav/seen_movers.cpp
+    server/search/fuzzy_planner.cpp server/search/target_visit.cpp
     server/sim/image_chain.cpp server/sim/omni_columns.cpp server/sim/omni_renderer.cpp server/sim/rearrange.cpp
     server/sim/stereo_renderer.cpp server/sim/tank_renderer.cpp
-    server/slam/likelihood_pyramid.cpp server/slam/pairwise_consistency.cpp server/slam/reference_cloud.cpp
+    server/slam/global_matcher.cpp server/slam/likelihood_pyramid.cpp server/slam/pairwise_consistency.cpp
+    server/slam/reference_cloud.cpp
     server/store/map_file.cpp server/store/schema.cpp server/store/sealed_file.cpp
-    server/vision/bbf_tree.cpp
+    server/vision/bbf_tree.cpp server/vision/place_index.cpp server/vision/stereo_check.cpp
     tests/arch/test_rules.cpp
     tests/support/net/chaos_proxy.cpp
     tests/unit/common/image/test_map_picture.cpp
     tests/unit/server/app/test_robot_map.cpp tests/unit/server/app/test_turn_and_look.cpp
     tests/unit/server/explore/test_doors.cpp tests/unit/server/explore/test_exploration.cpp
     tests/unit/server/explore/test_viewpoint_strategies.cpp
+    tests/unit/server/fleet/test_goal_choice.cpp
     tests/unit/server/lab/test_explore_result.cpp tests/unit/server/lab/test_run_result.cpp
     tests/unit/server/nav/test_known_floor.cpp tests/unit/server/nav/test_lookout.cpp
-    tests/unit/server/nav/test_seen_movers.cpp
-    tests/unit/server/search/test_tight_space.cpp
+    tests/unit/server/nav/test_retry_drive.cpp tests/unit/server/nav/test_seen_movers.cpp
+    tests/unit/server/options/test_slam_options.cpp
+    tests/unit/server/search/test_mission.cpp tests/unit/server/search/test_tight_space.cpp
     tests/unit/server/sim/test_simulation.cpp tests/unit/server/sim/test_stereo.cpp tests/unit/server/sim/test_tank.cpp
-    tests/unit/server/slam/test_odometry_scale.cpp
+    tests/unit/server/slam/test_odometry_scale.cpp tests/unit/server/slam/test_pairwise_consistency.cpp
     tests/unit/server/store/test_store_kill.cpp
     tests/unit/server/vision/test_nearest.cpp)
 
