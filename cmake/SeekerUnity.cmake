@@ -27,7 +27,7 @@ set(SEEKER_ALONE
     tests/unit/common/image/test_map_picture.cpp
     tests/unit/server/app/test_robot_map.cpp tests/unit/server/app/test_turn_and_look.cpp
     tests/unit/server/explore/test_doors.cpp tests/unit/server/explore/test_exploration.cpp
-    tests/unit/server/explore/test_viewpoint_strategies.cpp
+    tests/unit/server/explore/test_exploration_guards.cpp tests/unit/server/explore/test_viewpoint_strategies.cpp
     tests/unit/server/fleet/test_goal_choice.cpp
     tests/unit/server/lab/test_explore_result.cpp tests/unit/server/lab/test_run_result.cpp
     tests/unit/server/nav/test_known_floor.cpp tests/unit/server/nav/test_lookout.cpp
