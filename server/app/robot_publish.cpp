@@ -5,7 +5,8 @@
 namespace seeker::app {
 
 void RobotLoop::remember_pose() {
-  const bool known = pose_.quality != LocalisationQuality::kUnknown || !map_.relocalising();
+  // A robot that is looked for in its map has a pose in a frame of its own.
+  const bool known = pose_.quality != LocalisationQuality::kUnknown || !map_.has_segments();
   if (known && (trajectory_.empty() ||
                 distance_m(trajectory_.back().map_T_base, pose_.map_T_base) >= params_.trajectory_spacing_m)) {
     trajectory_.push_back({now(), pose_.map_T_base});

@@ -33,13 +33,6 @@ bool are_neighbours(const SpState& state, std::size_t first, std::size_t second)
   return gap_m <= params.merge_gap_m && !doorway;
 }
 
-/// P H^T of the constraint f = (y, phi) = 0, and S.
-struct Constraint {
-  Eigen::VectorXd f;
-  Eigen::MatrixXd pht;
-  Eigen::MatrixXd s;
-};
-
 Matrix2 cross_block(const SpCovariance& p, Index a, Index b) {
   Matrix2 block;
   block << p(a, b), p(a, b + 1), p(a + 1, b), p(a + 1, b + 1);
