@@ -14,7 +14,7 @@ constexpr double kStep_s = 0.1;
 /// Whatever takes longer to brake is not looked at to its end.
 constexpr double kLongest_s = 5.0;
 /// Coming nearer by less is no coming nearer.
-constexpr double kNearer_m = 0.005;
+constexpr double kCloser_m = 0.005;
 constexpr std::array<double, 5> kShares{1.0, 0.75, 0.5, 0.25, 0.0};
 
 /// One that drives on for some time, then brakes until it stands.
@@ -89,11 +89,11 @@ LaserScan without_movers(LaserScan scan, const Pose2& map_T_base, const std::vec
 Twist2 limit_for_movers(const Twist2& wanted, const Twist2& present, const std::vector<Mover>& movers_base,
                         const ClearanceParams& params) {
   const auto room_m = [&](const Twist2& twist) {
-    double room = kNearer_m;
+    double room = kCloser_m;
     for (const Mover& mover : movers_base) {
       if (std::abs(mover.velocity.v_m_s) >= kStanding_m_s) {
         const double apart_m = std::min(params.radius_m + mover.radius_m + mover.slack_m,
-                                        mover.frame_T_base.translation().norm() - kNearer_m);
+                                        mover.frame_T_base.translation().norm() - kCloser_m);
         const Braking other{mover.frame_T_base, mover.velocity, params.reaction_s, params.decel_m_s2};
         room = std::min(room, nearest_m(told(twist, present, params), other) - apart_m);
       }
