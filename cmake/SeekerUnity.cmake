@@ -33,7 +33,7 @@ set(SEEKER_ALONE
     tests/unit/server/nav/test_known_floor.cpp tests/unit/server/nav/test_lookout.cpp
     tests/unit/server/nav/test_retry_drive.cpp tests/unit/server/nav/test_seen_movers.cpp
     tests/unit/server/options/test_slam_options.cpp
-    tests/unit/server/search/test_mission.cpp tests/unit/server/search/test_tight_space.cpp
+    tests/unit/server/search/test_mission.cpp
     tests/unit/server/sim/test_simulation.cpp tests/unit/server/sim/test_stereo.cpp tests/unit/server/sim/test_tank.cpp
     tests/unit/server/slam/test_odometry_scale.cpp tests/unit/server/slam/test_pairwise_consistency.cpp
     tests/unit/server/store/test_store_kill.cpp

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/core/angle.hpp"
+#include "server/app/estimator.hpp"
 
 namespace seeker::app {
 namespace {
@@ -33,9 +34,9 @@ PoseEstimate RobotMap::follow(const PoseEstimate& estimate, RobotTime now, const
       moved_again_ = true;
     }
   }
-  const bool found = out.quality == LocalisationQuality::kLocalised || out.quality == LocalisationQuality::kDegraded;
   const bool given_up = out.quality == LocalisationQuality::kLost;
-  if (relocalising_since_ && (found || given_up || now - *relocalising_since_ > params_.relocalise_limit)) {
+  if (relocalising_since_ &&
+      (is_placed(out.quality) || given_up || now - *relocalising_since_ > params_.relocalise_limit)) {
     relocalising_since_.reset();
   }
   return out;

@@ -102,9 +102,7 @@ void RobotLoop::estimate() {
     odom_T_base_at_pose_ = odometry_ ? std::optional<Pose2>(odometry_->odom_T_base) : std::nullopt;
     components_.count_output("pose", now());
   }
-  const bool trusted =
-      pose_.quality == LocalisationQuality::kLocalised || pose_.quality == LocalisationQuality::kDegraded;
-  if (!trusted) {
+  if (!is_placed(pose_.quality)) {
     return;
   }
   if (building != nullptr) {

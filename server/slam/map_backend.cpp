@@ -128,17 +128,21 @@ void MapBackend::anchor(const Pose2& map_T_newest, const Matrix3& covariance) {
   }
   const Pose2 turn{0.0, 0.0, -pose(nearest).theta_rad};
   const Matrix3 rotation = compose_jacobian_b(turn, {});
-  const Result<std::size_t> edge =
-      graph_.add_edge({.i = nearest,
-                       .j = newest,
-                       .i_T_j = inverse(pose(nearest)) * map_T_newest,
-                       .information = information_of(rotation * covariance * rotation.transpose()),
-                       .kernel = EdgeKernel::kSwitchable,
-                       .kernel_width = params_.kernel_width});
-  SEEKER_ASSERT(edge.has_value());
+  relate(nearest, newest, {inverse(pose(nearest)) * map_T_newest, rotation * covariance * rotation.transpose()});
   apart_from_.reset();
   newest_covariance_ = covariance;
   ++epoch_;
+}
+
+std::size_t MapBackend::relate(std::size_t i, std::size_t j, const UncertainPose& i_T_j) {
+  const Result<std::size_t> edge = graph_.add_edge({.i = i,
+                                                    .j = j,
+                                                    .i_T_j = i_T_j.a_T_b,
+                                                    .information = information_of(i_T_j.covariance),
+                                                    .kernel = EdgeKernel::kSwitchable,
+                                                    .kernel_width = params_.kernel_width});
+  SEEKER_ASSERT(edge.has_value());
+  return *edge;
 }
 
 std::vector<SeenPoints> MapBackend::seen() const {
@@ -177,13 +181,7 @@ bool MapBackend::stand_alone(std::uint32_t id) {
       graph_.remove_edge(k);
     }
   }
-  const Result<std::size_t> edge = graph_.add_edge({.i = 0,
-                                                    .j = id,
-                                                    .i_T_j = inverse(pose(0)) * pose(id),
-                                                    .information = information_of(*covariance),
-                                                    .kernel = EdgeKernel::kSwitchable,
-                                                    .kernel_width = params_.kernel_width});
-  SEEKER_ASSERT(edge.has_value());
+  relate(0, id, {inverse(pose(0)) * pose(id), *covariance});
   return true;
 }
 

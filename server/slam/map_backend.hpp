@@ -114,6 +114,8 @@ class MapBackend {
   /// Of the surprises those that enough others, seen independently, agree with, the last one among them.
   [[nodiscard]] std::vector<LoopEdge> witnessed();
   void add_loop(const LoopEdge& loop);
+  /// An edge of the graph that loses its say where all others disagree with it.
+  std::size_t relate(std::size_t i, std::size_t j, const UncertainPose& i_T_j);
   /// Puts all that earlier local maps and its own loops say of the place of a joined local map into one relation to the
   /// first; what begins at it stays. False where the graph cannot say.
   [[nodiscard]] bool stand_alone(std::uint32_t id);

@@ -188,14 +188,7 @@ void MapBackend::add_loop(const LoopEdge& loop) {
   if (old != loop_of_pair_.end()) {
     graph_.remove_edge(old->second);
   }
-  const Result<std::size_t> edge = graph_.add_edge({.i = loop.a,
-                                                    .j = loop.b,
-                                                    .i_T_j = loop.a_T_b.a_T_b,
-                                                    .information = information_of(loop.a_T_b.covariance),
-                                                    .kernel = EdgeKernel::kSwitchable,
-                                                    .kernel_width = params_.kernel_width});
-  SEEKER_ASSERT(edge.has_value());
-  loop_of_pair_[{loop.a, loop.b}] = *edge;
+  loop_of_pair_[{loop.a, loop.b}] = relate(loop.a, loop.b, loop.a_T_b);
   ++counts_.closed;
 }
 

@@ -9,7 +9,15 @@ namespace {
 
 using std::chrono::seconds;
 
-class MissionExecutorTest : public MissionFixture {};
+class MissionExecutorTest : public MissionFixture {
+ protected:
+  const api::Fault fault{.id = "sonar-silent",
+                         .component = "sonar",
+                         .severity = api::Severity::kError,
+                         .onset = {},
+                         .message = "the sonar has been silent",
+                         .remedy = "check its cable"};
+};
 
 TEST_F(MissionExecutorTest, SecondMissionIsBusyTheSameIdIsAccepted) {
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
@@ -92,12 +100,6 @@ TEST_F(MissionExecutorTest, PoliciesContinueFinishStepAndReturn) {
 }
 
 TEST_F(MissionExecutorTest, BlockingFaultHoldsThenEndsTheMissionWithTheRemedy) {
-  const api::Fault fault{.id = "sonar-silent",
-                         .component = "sonar",
-                         .severity = api::Severity::kError,
-                         .onset = {},
-                         .message = "the sonar has been silent",
-                         .remedy = "check its cable"};
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
   static_cast<void>(tick(0.1, &fault));
   EXPECT_EQ(script->steps, 0);
@@ -164,12 +166,6 @@ TEST_F(MissionExecutorTest, TimeLimitEndsTheMission) {
 }
 
 TEST_F(MissionExecutorTest, OnlyTimeInWhichAMissionRunsCountsTowardsItsLimit) {
-  const api::Fault fault{.id = "sonar-silent",
-                         .component = "sonar",
-                         .severity = api::Severity::kError,
-                         .onset = {},
-                         .message = "the sonar has been silent",
-                         .remedy = "check its cable"};
   api::MissionRequest limited = request("one");
   limited.time_limit = seconds(20);
   ASSERT_TRUE(executor.start(limited, "anna", situation));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <optional>
 #include <utility>
 
@@ -13,15 +12,6 @@
 
 namespace seeker::search {
 namespace {
-
-SearchMission planned_search() {
-  SearchRequest request;
-  request.targets = {{"box", 0.4, 0.4, 0.3}};
-  request.strategy = Strategy::kPlan;
-  auto mission = SearchMission::create(request, {}, shared_table());
-  EXPECT_TRUE(mission.has_value());
-  return std::move(*mission);
-}
 
 /// Two rooms, of 5 x 5 m and of 8 x 5 m, joined by a door of 1.2 m.
 ToyWorld two_rooms() {
@@ -59,11 +49,6 @@ ToyRun run_with_somebody_in_the_door(SearchMission& mission, double stays_s) {
   ToyRun run = robot.run(mission, 1800.0);
   EXPECT_TRUE(passer.came_s.has_value());
   return run;
-}
-
-void print(const char* name, const ToyRun& run) {
-  std::cout << name << ": " << (run.end ? run.end->cause : "no end") << "; " << run.seconds << " s, " << run.path_m
-            << " m, clearance " << run.least_clearance_m << " m\n";
 }
 
 bool waited(const ToyRun& run) {

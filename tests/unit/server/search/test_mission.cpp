@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -43,11 +42,6 @@ SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::kApproac
   auto mission = SearchMission::create(request, {}, shared_table());
   EXPECT_TRUE(mission.has_value());
   return std::move(*mission);
-}
-
-void print(const char* name, const ToyRun& run) {
-  std::cout << name << ": " << (run.end ? run.end->cause : "no end") << "; " << run.seconds << " s, " << run.path_m
-            << " m, clearance " << run.least_clearance_m << " m, images " << run.images << '\n';
 }
 
 TEST(SearchMission, PlanCoversTwoRoomsWithoutTarget) {

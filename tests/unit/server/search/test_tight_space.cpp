@@ -1,6 +1,5 @@
 // Searches from places that leave the robot little room.
 
-#include <iostream>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -10,20 +9,6 @@
 
 namespace seeker::search {
 namespace {
-
-SearchMission planned_search() {
-  SearchRequest request;
-  request.targets = {{"box", 0.4, 0.4, 0.3}};
-  request.strategy = Strategy::kPlan;
-  auto mission = SearchMission::create(request, {}, shared_table());
-  EXPECT_TRUE(mission.has_value());
-  return std::move(*mission);
-}
-
-void print(const char* name, const ToyRun& run) {
-  std::cout << name << ": " << (run.end ? run.end->cause : "no end") << "; " << run.seconds << " s, " << run.path_m
-            << " m, clearance " << run.least_clearance_m << " m\n";
-}
 
 TEST(TightSpace, AmongChairLegsTheRoomAroundIsSearched) {
   ToyWorld world;

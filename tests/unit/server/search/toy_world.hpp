@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "common/core/angle.hpp"
 #include "common/core/polygon.hpp"
@@ -122,6 +125,20 @@ class ToyRobot : public seeker::testing::ToyBase {
 inline std::shared_ptr<const ControlTable> shared_table() {
   static const auto table = std::make_shared<const ControlTable>(*ControlTable::create());
   return table;
+}
+
+inline SearchMission planned_search() {
+  SearchRequest request;
+  request.targets = {{"box", 0.4, 0.4, 0.3}};
+  request.strategy = Strategy::kPlan;
+  auto mission = SearchMission::create(request, {}, shared_table());
+  EXPECT_TRUE(mission.has_value());
+  return std::move(*mission);
+}
+
+inline void print(const char* name, const ToyRun& run) {
+  std::cout << name << ": " << (run.end ? run.end->cause : "no end") << "; " << run.seconds << " s, " << run.path_m
+            << " m, clearance " << run.least_clearance_m << " m, images " << run.images << '\n';
 }
 
 }  // namespace seeker::search

@@ -38,6 +38,19 @@ const Matrix3 kSure = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
 const Matrix3 kFound = Eigen::Vector3d(9e-4, 9e-4, 1e-4).asDiagonal();
 constexpr int kView = 8;  // LoopPolicy::query_keyframes
 
+const Pose2 kFirst{2.0, 2.5, 0.0};
+
+/// Localises only, in a map of one view of the room from kFirst; where it is there is not known yet.
+MapBackend in_a_loaded_map(Visit& visit) {
+  MapBackend mapper;
+  mapper.begin_first(kFirst, visit.now());
+  visit.look(mapper, kFirst, 10);
+  MapBackend backend;
+  backend.load(mapper.assemble(1), MapUse::kLocalise);
+  backend.begin_apart(visit.now());
+  return backend;
+}
+
 void compare(MapBackend& backend) {
   backend.plan_loops({});
   for (int scan = 0; scan < 4; ++scan) {
@@ -48,13 +61,12 @@ void compare(MapBackend& backend) {
 TEST(MapBackend, OneViewIsOneWitnessHoweverManyLocalMapsItIsComparedWith) {
   Visit visit(1);
   MapBackend backend;
-  const Pose2 first{2.0, 2.5, 0.0};
   const Pose2 second{2.8, 3.2, 0.4};
   const Pose2 way{6.0, 3.0, 0.0};
   const Pose2 back{2.4, 2.8, 0.2};
-  backend.begin_first(first, visit.now());
-  visit.look(backend, first, 10);
-  backend.begin_next(inverse(first) * second, kWay, visit.now());
+  backend.begin_first(kFirst, visit.now());
+  visit.look(backend, kFirst, 10);
+  backend.begin_next(inverse(kFirst) * second, kWay, visit.now());
   visit.look(backend, second, 10);
   backend.begin_next(inverse(second) * way, kWay, visit.now());
   const std::uint32_t newest = backend.begin_next(inverse(way) * back * Pose2{0.7, 0.0, 0.0}, kWay, visit.now());
@@ -75,9 +87,8 @@ TEST(MapBackend, OneViewIsOneWitnessHoweverManyLocalMapsItIsComparedWith) {
 TEST(MapBackend, WhatALoadedMapShowsIsNoViewOfARobotThatWasJustFound) {
   Visit visit(2);
   MapBackend mapper;
-  const Pose2 first{2.0, 2.5, 0.0};
-  mapper.begin_first(first, visit.now());
-  visit.look(mapper, first, 10);
+  mapper.begin_first(kFirst, visit.now());
+  visit.look(mapper, kFirst, 10);
   for (const Pose2& next : {Pose2{2.8, 3.2, 0.4}, Pose2{7.5, 2.0, 2.0}}) {
     mapper.begin_next(inverse(mapper.pose(mapper.newest().id)) * next, kSure, visit.now());
     visit.look(mapper, next, 10);
@@ -98,10 +109,9 @@ TEST(MapBackend, LoopsThatAgreeOverruleWhereTheRobotWasJoinedAndWhatItHasDropped
   for (const int dropped : {0, 6}) {
     Visit visit(4);
     MapBackend mapper;
-    const Pose2 first{2.0, 2.5, 0.0};
-    mapper.begin_first(first, visit.now());
-    visit.look(mapper, first, 10);
-    mapper.begin_next(inverse(first) * Pose2{2.8, 3.2, 0.4}, kSure, visit.now());
+    mapper.begin_first(kFirst, visit.now());
+    visit.look(mapper, kFirst, 10);
+    mapper.begin_next(inverse(kFirst) * Pose2{2.8, 3.2, 0.4}, kSure, visit.now());
     visit.look(mapper, {2.8, 3.2, 0.4}, 10);
     MapBackend backend;
     backend.load(mapper.assemble(2), MapUse::kLocalise);
@@ -123,14 +133,8 @@ TEST(MapBackend, LoopsThatAgreeOverruleWhereTheRobotWasJoinedAndWhatItHasDropped
 TEST(MapBackend, EachViewThatContradictsAMapThatIsOnlyReadCountsOnce) {
   const Pose2 truth{2.4, 2.8, 0.2};
   Visit visit(5);
-  MapBackend mapper;
-  const Pose2 first{2.0, 2.5, 0.0};
-  mapper.begin_first(first, visit.now());
-  visit.look(mapper, first, 10);
-  MapBackend backend;
-  backend.load(mapper.assemble(1), MapUse::kLocalise);
-  backend.begin_apart(visit.now());
-  backend.anchor(first * Pose2{2.0, 1.5, 2.0}, kFound);
+  MapBackend backend = in_a_loaded_map(visit);
+  backend.anchor(kFirst * Pose2{2.0, 1.5, 2.0}, kFound);
   for (int views = 1; views <= 3; ++views) {
     visit.look(backend, truth, kView);
     compare(backend);
@@ -148,13 +152,7 @@ TEST(MapBackend, EachViewThatContradictsAMapThatIsOnlyReadCountsOnce) {
 
 TEST(MapBackend, ARobotThatOnlyReadsKeepsWhatItKnowsOfItsPlaceWhenItDropsItsLocalMaps) {
   Visit visit(3);
-  MapBackend mapper;
-  const Pose2 first{2.0, 2.5, 0.0};
-  mapper.begin_first(first, visit.now());
-  visit.look(mapper, first, 10);
-  MapBackend backend;
-  backend.load(mapper.assemble(1), MapUse::kLocalise);
-  backend.begin_apart(visit.now());
+  MapBackend backend = in_a_loaded_map(visit);
   backend.anchor({2.5, 2.5, 0.1}, kSure);
   const Matrix3 step = Eigen::Vector3d(4e-4, 4e-4, 1e-4).asDiagonal();
   UncertainPose expected{{2.5, 2.5, 0.1}, kSure};
