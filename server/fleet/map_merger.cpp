@@ -161,6 +161,7 @@ MergeHypothesis Question::hypothesis_of(std::vector<NodeRelation> pairs) {
   made.contradiction = std::max(there.contradiction, here.contradiction);
   made.denied_piece_m = std::max(there.denied_piece_m, here.denied_piece_m);
   made.residual_m = std::max(there.residual_m, here.residual_m);
+  made.witnesses = std::min(there.witnesses, here.witnesses);
   made.confidence = confidence_of(made, params_);
   made.pairs = std::move(pairs);
   return made;
@@ -201,8 +202,9 @@ bool rivals(const MergeHypothesis& best, const MergeHypothesis& other, const Mer
          other.support() > params.rival_ratio * best.support();
 }
 
+/// A local map that has gone on to where the other robot has not been makes no pair, and shows shared walls all the same.
 bool speaks_enough(const MergeHypothesis& best, const MergeParams& params) {
-  return best.pairs.size() >= params.min_pairs && best.shared_wall_m >= params.sure_shared_wall_m &&
+  return std::max(best.pairs.size(), best.witnesses) >= params.min_pairs && best.shared_wall_m >= params.sure_shared_wall_m &&
          best.weak_wall_m >= params.sure_weak_wall_m &&
          best.weak_wall_m >= params.sure_weak_share * best.shared_wall_m &&
          best.contradiction <= params.sure_contradiction;

@@ -41,6 +41,7 @@ struct MergeHypothesis {
   double contradiction = 0.0;   ///< share of what both have looked at that one of them denies, 0 to 1; worse direction
   double denied_piece_m = 0.0;  ///< the longest piece of wall of one that the other has looked through
   double residual_m = 0.0;      ///< root mean square distance of the shared walls
+  std::size_t witnesses = 0;    ///< local maps that show the walls of the other's map, of the robot that has fewer
   double confidence = 0.0;      ///< 0 to 1: grows with the shared wall, falls with the contradiction
 
   /// What hypotheses are ranked by.
@@ -69,7 +70,7 @@ struct MergeParams {
   OverlapParams overlap;
   BendParams bend;
   std::size_t max_hypotheses = 4;
-  std::size_t min_pairs = 2;         ///< node pairs that must speak for a merge
+  std::size_t min_pairs = 2;         ///< node pairs that must speak for a merge, or as many witnesses
   double min_shared_wall_m = 12.0;   ///< less is insufficient overlap
   double sure_shared_wall_m = 30.0;  ///< less is not certain
   double min_weak_wall_m = 4.0;      ///< of it, what tells the place along the direction told worst,

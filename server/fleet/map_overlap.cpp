@@ -26,7 +26,7 @@ struct Tally {
   double through = 0.0;                             ///< cells' worth of beams through walls
   double squares_m2 = 0.0;
   std::size_t pairs = 0;
-  std::size_t nodes = 0;
+  std::size_t witnesses = 0;
 };
 
 CellKey key_of(const slam::OrientedPoint& point, double cell_m) {
@@ -113,7 +113,7 @@ void count(const Around& in_a, const Around& in_b, const PreparedNode& node, con
         slam::agreement_of(place.pyramid(), place.free_space(), shown.seen, pose, params.agreement);
     tally.through += agreement.through * static_cast<double>(shown.points.size());
   }
-  tally.nodes += shared > 0 ? 1 : 0;
+  tally.witnesses += params.cell_m * static_cast<double>(shared) >= params.witness_wall_m ? 1 : 0;
 }
 
 using Square = std::pair<long, long>;
@@ -171,7 +171,7 @@ MapOverlap summary_of(const Tally& tally, const OverlapParams& params) {
   overlap.contradiction = known > 0.0 ? (known - shared) / known : 0.0;
   overlap.denied_piece_m = longest_denied_m(tally, params);
   overlap.residual_m = tally.pairs > 0 ? std::sqrt(tally.squares_m2 / static_cast<double>(tally.pairs)) : 0.0;
-  overlap.nodes = tally.nodes;
+  overlap.witnesses = tally.witnesses;
   return overlap;
 }
 

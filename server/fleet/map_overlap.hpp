@@ -14,6 +14,7 @@ struct OverlapParams {
   double partner_m = 0.15;         ///< a wall of one map has its partner in the other within this
   double min_normal_cosine = 0.7;  ///< and looks the same way
   double piece_gap_m = 0.3;        ///< cells of denied wall no farther apart are one piece
+  double witness_wall_m = 6.0;     ///< shared by a local map alone: it speaks for itself then
   /// Maps bend: a node may settle by so much before it is counted.
   double settle_m = 0.3;
   double settle_rad = 0.05;
@@ -31,7 +32,7 @@ struct MapOverlap {
   /// The longest piece of wall of b that a has looked through, counted by cells of OverlapParams::cell_m.
   double denied_piece_m = 0.0;
   double residual_m = 0.0;  ///< root mean square distance of the shared walls
-  std::size_t nodes = 0;    ///< of b that share something with a
+  std::size_t witnesses = 0;  ///< local maps of b that share OverlapParams::witness_wall_m with a, each fitted alone
 };
 
 /// What the nodes of b find in a. `map_a_T_node`: pose of a node of b, by index, in the frame `map` of a. The other

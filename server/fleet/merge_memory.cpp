@@ -33,6 +33,7 @@ void judge_again(MergeAnswer& answer, const MergeAnswer& before, const MergePara
     return;
   }
   MergeParams enough = params;
+  enough.min_pairs = 1;
   enough.sure_shared_wall_m = params.min_shared_wall_m;
   enough.sure_weak_wall_m = params.min_weak_wall_m;
   enough.sure_weak_share = 0.0;

@@ -82,6 +82,7 @@ void describe(config::Fields& f, OverlapParams& params) {
   f.field("partner_m", params.partner_m);
   f.field("min_normal_cosine", params.min_normal_cosine);
   f.field("piece_gap_m", params.piece_gap_m);
+  f.field("witness_wall_m", params.witness_wall_m);
   f.field("settle_m", params.settle_m);
   f.angle_deg("settle_deg", params.settle_rad);
   f.section("match", params.match);

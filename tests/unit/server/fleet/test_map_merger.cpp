@@ -144,6 +144,14 @@ TEST(MergeJudge, WeighsSharedWallsContradictionAndRivals) {
   EXPECT_EQ(verdict_of({hypothesis(8.0, 5.0, 0.0)}), MergeVerdict::kInsufficientOverlap);
 }
 
+TEST(MergeJudge, LocalMapsThatShowTheSameWallsSpeakWhereOnlyOnePairWasFound) {
+  MergeHypothesis one_pair = hypothesis(60.0, 20.0, 0.05, 1);
+  one_pair.witnesses = 1;
+  EXPECT_EQ(verdict_of({one_pair}), MergeVerdict::kAmbiguous);
+  one_pair.witnesses = 2;
+  EXPECT_EQ(verdict_of({one_pair}), MergeVerdict::kMerged);
+}
+
 TEST(MergeJudge, AWallThatTheOtherLookedThroughDeniesWhatManyOthersAffirm) {
   MergeHypothesis looked_through = hypothesis(60.0, 20.0, 0.05);
   looked_through.denied_piece_m = 2.0;

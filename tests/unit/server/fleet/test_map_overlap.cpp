@@ -42,5 +42,18 @@ TEST(MapOverlap, WhatARobotHasLookedThroughItselfIsNoWallOfIts) {
   EXPECT_NEAR(overlap.contradiction, overlap_with_empty(nobody).contradiction, 0.005);
 }
 
+TEST(MapOverlap, CountsTheLocalMapsThatShowEnoughOfTheOthersWalls) {
+  PreparedMap b = visited_map(0, 12);
+  const std::size_t all = b.nodes().size();
+  ASSERT_GE(all, 2U);
+  EXPECT_EQ(overlap_with_empty(b).witnesses, all);
+  PreparedMap a = visited_map(0, 11);
+  constexpr double kFar_m = 100.0;
+  const auto one_elsewhere = [&](std::size_t k) {
+    return k == 0 ? Pose2{kFar_m, kFar_m, 0.0} : b.nodes()[k].map_T_node;
+  };
+  EXPECT_EQ(overlap_of(a, b, one_elsewhere).witnesses, all - 1);
+}
+
 }  // namespace
 }  // namespace seeker::fleet

@@ -34,6 +34,13 @@ TEST(MergeMemory, WhatIsLessSureThanAtFirstStaysMerged) {
   EXPECT_EQ(after_merge({at(5.1, 20.0, 0.05)}), MergeVerdict::kMerged);
 }
 
+TEST(MergeMemory, OnePairIsEnoughForWhatWasMergedByMore) {
+  MergeHypothesis one_pair = at(5.1, 80.0, 0.05);
+  one_pair.pairs.resize(1);
+  ASSERT_EQ(judged({one_pair}).verdict, MergeVerdict::kAmbiguous);
+  EXPECT_EQ(after_merge({one_pair}), MergeVerdict::kMerged);
+}
+
 TEST(MergeMemory, ADoorThatWasShutMeanwhileEndsNothingButALongWallDoes) {
   MergeHypothesis door = at(5.1, 80.0, 0.1);
   door.denied_piece_m = 2.0;
