@@ -127,6 +127,9 @@ class Team {
     robots_[k]->process->send(SIGKILL);
     EXPECT_EQ(robots_[k]->process->wait(seconds(10)), 128 + SIGKILL);
   }
+  /// The world stands still between these: what a robot has kept does not grow old while it is looked at.
+  void stop_world() const { emulator_.process->send(SIGSTOP); }
+  void let_world_go_on() const { emulator_.process->send(SIGCONT); }
   [[nodiscard]] const Daemon& robot(std::size_t k) const { return *robots_[k]; }
   [[nodiscard]] std::uint16_t fleet_port() const { return fleet_port_; }
   /// Where a restart of the robot takes its map from.

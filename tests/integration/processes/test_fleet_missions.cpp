@@ -32,16 +32,16 @@ class Expedition {
   }
 
   void kill_and_restart(std::size_t k) {
-    watchers_[k].reset();
-    team_.kill(k);
-    team_.start(k);
-    watchers_[k] = std::make_unique<Watcher>(team_.robot(k));
+    kill(k);
+    restart(k);
   }
   /// As soon as there is something to lose, and hardly anything to find the robot by but where it stood.
   void kill_at_first_checkpoint(std::size_t k) {
     EXPECT_TRUE(wait_for_file(team_.checkpoint(k), kStart));
-    wait_for_place(k);
-    kill_and_restart(k);
+    stop_world_at_kept_place(k);
+    kill(k);
+    team_.let_world_go_on();
+    restart(k);
     std::string output;
     EXPECT_EQ(seeker(team_.robot(k), {"resume"}, &output), 0) << output;
   }
@@ -80,22 +80,32 @@ class Expedition {
   }
 
  private:
+  void kill(std::size_t k) {
+    watchers_[k].reset();
+    team_.kill(k);
+  }
+  void restart(std::size_t k) {
+    team_.start(k);
+    watchers_[k] = std::make_unique<Watcher>(team_.robot(k));
+  }
   /// The world runs faster than life, the writing of files does not: on a busy machine the robot would have left the
   /// place that is kept by as much as it never does in life.
-  void wait_for_place(std::size_t k) {
+  void stop_world_at_kept_place(std::size_t k) {
     constexpr double kNear_m = 0.3;
     const auto end = std::chrono::steady_clock::now() + kStart;
-    std::optional<Pose2> kept;
+    std::optional<Pose2> seen;
     while (std::chrono::steady_clock::now() < end) {
-      const std::optional<Pose2> now_kept = team_.kept_place(k);
-      if (now_kept == kept) {
+      const std::optional<Pose2> kept = team_.kept_place(k);
+      if (!kept || kept == seen) {
         std::this_thread::yield();
         continue;
       }
-      kept = now_kept;
-      if (kept && distance_m(*kept, watchers_[k]->status().pose.map_T_base) < kNear_m) {
+      seen = kept;
+      team_.stop_world();
+      if (distance_m(*kept, watchers_[k]->status().pose.map_T_base) < kNear_m) {
         return;
       }
+      team_.let_world_go_on();
     }
     ADD_FAILURE() << "no place was kept that the robot was near to";
   }
