@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <limits>
 #include <map>
 #include <set>
 #include <thread>
@@ -130,6 +131,12 @@ class Team {
   /// The world stands still between these: what a robot has kept does not grow old while it is looked at.
   void stop_world() const { emulator_.process->send(SIGSTOP); }
   void let_world_go_on() const { emulator_.process->send(SIGCONT); }
+  /// How far robot k is from a place in its map, which begins where the robot did.
+  [[nodiscard]] double away_m(std::size_t k, const Pose2& map_T_place) const {
+    const std::vector<Point2> path = emulator_.paths()[static_cast<int>(k)];
+    return path.empty() ? std::numeric_limits<double>::infinity()
+                        : ((world_.starts[k] * map_T_place).translation() - path.back()).norm();
+  }
   [[nodiscard]] const Daemon& robot(std::size_t k) const { return *robots_[k]; }
   [[nodiscard]] std::uint16_t fleet_port() const { return fleet_port_; }
   /// Where a restart of the robot takes its map from.

@@ -102,7 +102,7 @@ class Expedition {
       }
       seen = kept;
       team_.stop_world();
-      if (distance_m(*kept, watchers_[k]->status().pose.map_T_base) < kNear_m) {
+      if (team_.away_m(k, *kept) < kNear_m) {
         return;
       }
       team_.let_world_go_on();
