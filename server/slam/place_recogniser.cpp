@@ -100,7 +100,9 @@ PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, con
   }
   if (best.fit.all < params.min_fit || best.fit.standing < params.min_standing ||
       best.agreement.through > params.max_through) {
-    answer.reason = "the points contradict even the best place";
+    const bool unseen = best.fit.all >= params.min_fit && best.agreement.disagreement() <= params.max_through;
+    answer.reason = unseen ? "much of what is seen lies where the map shows nothing; drive to where it has been made"
+                           : "the points contradict even the best place";
     return answer;
   }
   const double certainty = 0.5 * (best.fit.all + best.fit.standing) + answer.lead;

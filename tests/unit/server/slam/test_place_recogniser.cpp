@@ -330,7 +330,10 @@ TEST(Judge, NamesTheReasonOfEachVerdict) {
   EXPECT_EQ(judge({}, 200).verdict, PlaceVerdict::kNone);
   EXPECT_EQ(judge({candidate(0.95, 0.0)}, 200).verdict, PlaceVerdict::kUnique);
   EXPECT_EQ(judge({candidate(0.7, 0.0)}, 200).verdict, PlaceVerdict::kNone);
+  EXPECT_EQ(judge({candidate(0.7, 0.0)}, 200).reason,
+            "much of what is seen lies where the map shows nothing; drive to where it has been made");
   EXPECT_EQ(judge({candidate(0.95, 0.2)}, 200).verdict, PlaceVerdict::kNone);
+  EXPECT_EQ(judge({candidate(0.95, 0.2)}, 200).reason, "the points contradict even the best place");
   EXPECT_EQ(judge({candidate(0.9, 0.0), candidate(0.95, 0.0)}, 200).verdict, PlaceVerdict::kAmbiguous);
   EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.9, 0.0)}, 200).reason, "another place fits nearly as well");
   EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.75, 0.0)}, 60).reason,
@@ -349,7 +352,7 @@ TEST(Judge, NamesTheReasonOfEachVerdict) {
 
 TEST(Judge, TellsWhatSpeaksForAnotherPlaceFromWhatSaysNothing) {
   EXPECT_FALSE(judge({}, 200).says_nothing);
-  EXPECT_FALSE(judge({candidate(0.7, 0.0)}, 200).says_nothing) << "the points contradict the place";
+  EXPECT_FALSE(judge({candidate(0.7, 0.0)}, 200).says_nothing) << "the map does not show this place";
   EXPECT_FALSE(judge({candidate(0.95, 0.0), candidate(0.9, 0.0)}, 200).says_nothing) << "two places fit";
   EXPECT_TRUE(judge({candidate(0.95, 0.0), candidate(0.75, 0.0)}, 60).says_nothing) << "too little was seen";
   auto blind = candidate(0.95, 0.0);
