@@ -113,14 +113,17 @@ void Journal::mission_started(const api::MissionRequest& request, RobotTime now)
     enqueue([record = *cut_off](store::Store& store) { return close_cut_off(store, record); });
   }
   // A mission that is resumed takes the place of its own record.
-  enqueue([request, now](store::Store& store) {
+  enqueue([this, request, now](store::Store& store) {
     wire::pb::MissionRequest message;
     wire::write(request, &message);
-    return store.begin_mission({.id = request.id,
-                                .kind = std::string(api::task_name(request.task)),
-                                .request = to_blob(message),
-                                .started_ns = ns(now),
-                                .end = std::nullopt});
+    const Status begun = store.begin_mission({.id = request.id,
+                                              .kind = std::string(api::task_name(request.task)),
+                                              .request = to_blob(message),
+                                              .started_ns = ns(now),
+                                              .end = std::nullopt});
+    const Result<std::uint64_t> highest = store.highest_event(request.id);
+    events_before_ = highest ? *highest : 0;
+    return begun && !highest ? tl::unexpected(highest.error()) : begun;
   });
 }
 
@@ -137,10 +140,10 @@ void Journal::mission(const api::MissionStatus& status) {
 }
 
 void Journal::event(const api::Event& event) {
-  enqueue([event](store::Store& store) {
+  enqueue([this, event](store::Store& store) {
     store::EventRecord record;
     record.mission = event.mission;
-    record.sequence = event.sequence;
+    record.sequence = events_before_ + event.sequence;
     record.robot_time_ns = ns(event.stamp);
     if (event.mission_time) {
       record.mission_time_ns = event.mission_time->count();

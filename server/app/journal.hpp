@@ -54,6 +54,7 @@ class Journal {
   std::optional<api::MissionRequest> unfinished_;
   std::optional<store::MissionRecord> open_;  ///< of unfinished_, until a mission begins
   std::uint64_t highest_detection_id_ = 0;
+  std::uint64_t events_before_ = 0;  ///< of the newest mission, from before it was resumed; the journal's thread alone
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Write> queue_;

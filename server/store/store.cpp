@@ -66,6 +66,17 @@ Status remove_checkpoint(Database& database, const std::string& mission) {
   return remove->bind(mission).run();
 }
 
+/// Of a mission that has ended, or of none: those of one without an end are its own.
+Status remove_events_of_ended(Database& database, const std::string& mission) {
+  Result<Statement> remove = database.prepare(
+      "DELETE FROM mission_events WHERE mission = ?1 "
+      "AND NOT EXISTS (SELECT 1 FROM missions WHERE id = ?1 AND ended_ns IS NULL)");
+  if (!remove) {
+    return tl::unexpected(remove.error());
+  }
+  return remove->bind(mission).run();
+}
+
 Result<std::optional<Checkpoint>> read_checkpoint(Database& database, const std::string& mission) {
   Result<Statement> select = database.prepare("SELECT robot_time_ns, journal FROM checkpoints WHERE mission = ?");
   if (!select) {
@@ -127,6 +138,9 @@ Status Store::begin_mission(const MissionRecord& mission) {
     return tl::unexpected(transaction.error());
   }
   if (Status ok = remove_checkpoint(body_->database, mission.id); !ok) {
+    return ok;
+  }
+  if (Status ok = remove_events_of_ended(body_->database, mission.id); !ok) {
     return ok;
   }
   Result<Statement> insert = body_->database.prepare(

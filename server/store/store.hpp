@@ -99,7 +99,8 @@ class Store {
   Store& operator=(Store&&) noexcept;
   ~Store();
 
-  /// Notes a mission as running. The same id again replaces its request, start and end, and drops its checkpoint.
+  /// Notes a mission as running. The same id again replaces its request, start and end, and drops its checkpoint. Where
+  /// it had no end it goes on: its events stay. Where it had one this is another mission: those of the old one go.
   [[nodiscard]] Status begin_mission(const MissionRecord& mission);
   /// kNotFound: no such mission. Drops the checkpoint, which nobody needs any more.
   [[nodiscard]] Status end_mission(const std::string& id, const MissionEndRecord& end);
@@ -116,6 +117,8 @@ class Store {
   [[nodiscard]] Status record_events(std::span<const EventRecord> events);
   /// Events of a mission by rising sequence.
   [[nodiscard]] Result<std::vector<EventRecord>> events(const std::string& mission) const;
+  /// Highest sequence among them, 0 when there are none: a mission that goes on counts from there.
+  [[nodiscard]] Result<std::uint64_t> highest_event(const std::string& mission) const;
 
   [[nodiscard]] Status save_detection(const DetectionRecord& detection);
   /// Detections of a mission by rising id.

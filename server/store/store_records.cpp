@@ -75,6 +75,17 @@ Result<std::vector<EventRecord>> Store::events(const std::string& mission) const
   });
 }
 
+Result<std::uint64_t> Store::highest_event(const std::string& mission) const {
+  Result<Statement> select =
+      body_->database.prepare("SELECT coalesce(max(sequence), 0) FROM mission_events WHERE mission = ?");
+  if (!select) {
+    return tl::unexpected(select.error());
+  }
+  select->bind(mission);
+  const auto highest = collect(select, [](const Statement& row) { return static_cast<std::uint64_t>(row.integer(0)); });
+  return highest ? Result<std::uint64_t>(highest->front()) : tl::unexpected(highest.error());
+}
+
 Status Store::save_detection(const DetectionRecord& detection) {
   if (Status ok = check_blob("a detection", detection.data); !ok) {
     return ok;

@@ -54,5 +54,26 @@ TEST(Journal, AnotherMissionClosesTheRecordOfTheOneThatWasCutOff) {
   EXPECT_EQ(unfinished_in(folder.path()), "another");
 }
 
+/// Opens the journal, as a program that starts does, has one mission begin or go on, and one event happen.
+void begin_and_tell(const std::filesystem::path& folder, const std::string& mission, const std::string& text) {
+  const auto journal = Journal::open(folder).value();
+  journal->mission_started(exploration(mission), RobotTime{});
+  api::Event event;
+  event.sequence = 1;  // a mission counts from one again
+  event.mission = mission;
+  event.text = text;
+  journal->event(event);
+}
+
+TEST(Journal, WhatHappenedBeforeAKillStaysWhenTheMissionGoesOn) {
+  const testing::TemporaryFolder folder;
+  begin_and_tell(folder.path(), "round", "before the kill");
+  begin_and_tell(folder.path(), "round", "after it");
+  const auto events = store::Store::open(folder.path())->events("round").value();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].text, "before the kill");
+  EXPECT_EQ(events[1].text, "after it");
+}
+
 }  // namespace
 }  // namespace seeker::app

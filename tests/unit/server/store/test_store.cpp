@@ -92,6 +92,20 @@ TEST(Store, EndingAMissionDropsItsCheckpointAndLeavesNothingUnfinished) {
   EXPECT_EQ(store.unfinished_mission().value(), (UnfinishedMission{mission_named("a"), std::nullopt}));
 }
 
+TEST(Store, AMissionThatGoesOnKeepsItsEventsAndAnotherOfItsNameHasNone) {
+  const TemporaryFolder folder;
+  Store store = open_or_die(folder.path());
+  ASSERT_TRUE(store.begin_mission(mission_named("a")));
+  EXPECT_EQ(store.highest_event("a").value(), 0U);
+  ASSERT_TRUE(store.record_event(event_of("a", 1)));
+  ASSERT_TRUE(store.record_event(event_of("a", 2)));
+  ASSERT_TRUE(store.begin_mission(mission_named("a")));
+  EXPECT_EQ(store.highest_event("a").value(), 2U);
+  ASSERT_TRUE(store.end_mission("a", {2, "OPERATOR", "stopped", ""}));
+  ASSERT_TRUE(store.begin_mission(mission_named("a")));
+  EXPECT_TRUE(store.events("a").value().empty());
+}
+
 TEST(Store, UnknownMissionAndEmptyIdAreRefused) {
   const TemporaryFolder folder;
   Store store = open_or_die(folder.path());
