@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "common/core/text.hpp"
+#include "server/nav/known_floor.hpp"
 
 namespace seeker::app {
 namespace {
 
 /// Of the floor that is known to be connected; ways are planned on the finer map.
 constexpr double kFloorCell_m = 0.2;
-/// Shortest time between two looks at the floor where no way is planned.
+/// Shortest time between two looks at the floor where no way is planned, and at the walls.
 constexpr double kMapPeriod_s = 1.0;
 
 nav::DriverParams driver_of(const GotoParams& params) {
@@ -27,6 +28,7 @@ nav::DriverParams driver_of(const GotoParams& params) {
 GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound)
     : mission_(std::move(mission)),
       floors_(params.cost_map, {std::move(bound), mission_.keep_out}, kFloorCell_m, kMapPeriod_s),
+      segments_(seconds(kMapPeriod_s)),
       drive_(driver_of(params), params.retry) {}
 
 void GotoBehaviour::resumed(RobotTime /*now*/) { drive_.interrupted(); }
@@ -34,6 +36,7 @@ void GotoBehaviour::resumed(RobotTime /*now*/) { drive_.interrupted(); }
 void GotoBehaviour::map_moved(const Pose2& new_T_old) {
   floors_.transform(new_T_old);
   sonar_obstacles_.transform(new_T_old);
+  segments_.forget();
   drive_.interrupted();
 }
 
@@ -64,7 +67,14 @@ void GotoBehaviour::give_up(const std::string& why, Decision& decision) {
   next_waypoint(decision);
 }
 
-void GotoBehaviour::drive(const nav::DriveInput& input, Decision& decision) {
+bool GotoBehaviour::stays_blocked(const Situation& situation, const Point2& goal_map) {
+  if (!floors_.areas().allows(goal_map)) {
+    return true;
+  }
+  return situation.tracker != nullptr && nav::on_wall(goal_map, segments_.of(*situation.tracker, situation.now));
+}
+
+void GotoBehaviour::drive(const Situation& situation, const nav::DriveInput& input, Decision& decision) {
   const Point2& goal = mission_.waypoints[current_];
   if (!std::exchange(under_way_, true)) {
     const bool last = current_ + 1 == mission_.waypoints.size();
@@ -81,7 +91,7 @@ void GotoBehaviour::drive(const nav::DriveInput& input, Decision& decision) {
     give_up(driven.reason, decision);
   } else if (!drive_.waiting_for().empty()) {
     decision.activity = "waiting for the way to " + text(goal) + " m to become free: " + drive_.waiting_for();
-    if (!floors_.areas().allows(goal)) {  // nobody moves a place out of a kept-out area
+    if (stays_blocked(situation, goal)) {
       give_up(drive_.waiting_for(), decision);
     }
   }
@@ -104,7 +114,7 @@ Decision GotoBehaviour::step(const Situation& situation) {
   }
   const nav::DriveInput input{situation.now, map_T_base, situation.sonar, situation.scan, floors_};
   sonar_obstacles_.note(input);
-  drive(input, decision);
+  drive(situation, input, decision);
   return decision;
 }
 

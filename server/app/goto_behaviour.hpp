@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/app/behaviour.hpp"
+#include "server/app/segment_view.hpp"
 #include "server/nav/cost_map.hpp"
 #include "server/nav/floor_view.hpp"
 #include "server/nav/path_follower.hpp"
@@ -37,12 +38,15 @@ class GotoBehaviour final : public Behaviour {
 
  private:
   void next_waypoint(Decision& decision);
-  void drive(const nav::DriveInput& input, Decision& decision);
+  void drive(const Situation& situation, const nav::DriveInput& input, Decision& decision);
+  /// Whether what the place lies in will never go away: a kept-out area, a mapped wall.
+  [[nodiscard]] bool stays_blocked(const Situation& situation, const Point2& goal_map);
   void give_up(const std::string& why, Decision& decision);
 
   api::GotoMission mission_;
   nav::FloorSource floors_;
   nav::SonarObstacles sonar_obstacles_;
+  SegmentView segments_;
   nav::RetryDrive drive_;
   std::size_t current_ = 0;
   bool under_way_ = false;  ///< to the current place

@@ -74,5 +74,12 @@ TEST(GotoSystem, APlaceInAKeptOutAreaIsGivenUpAtOnce) {
   EXPECT_EQ(robot.end().outcome, api::Outcome::kUnreachable) << robot.mission().activity;
 }
 
+TEST(GotoSystem, APlaceInAMappedWallIsGivenUpAtOnce) {
+  SimulatedRobot robot({corridor("goto_wall", 3.0, "")});
+  ASSERT_TRUE(robot.loop->start_mission(drive_to({2.0, 1.5}), "test"));
+  robot.run(20.0);  // on its way it drives up to the wall
+  EXPECT_EQ(robot.end().outcome, api::Outcome::kUnreachable) << robot.mission().activity;
+}
+
 }  // namespace
 }  // namespace seeker::testing
