@@ -213,7 +213,11 @@ Result<PlaceAnswer> LineSlam::find_place(const std::vector<SeenPoints>& seen) {
       none.reason = "the map shows nothing about the place that was named";
       return none;
     }
-    return recogniser_.locate(*about, seen, SearchWindow{hint, params.hint_m, params.hint_rad});
+    // Whoever names a place is taken at their word where scans agree, although they may fit elsewhere, too.
+    PlaceAnswer there = recogniser_.confirm(*about, seen, hint);
+    return there.verdict == PlaceVerdict::kUnique
+               ? there
+               : recogniser_.locate(*about, seen, SearchWindow{hint, params.hint_m, params.hint_rad});
   }
   const Result<PlaceMap>& whole = whole_place();
   if (!whole) {

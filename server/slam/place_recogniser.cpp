@@ -210,8 +210,6 @@ void PlaceRecogniser::accept(PlaceCandidate candidate, PlaceAnswer& answer) cons
   const Matrix3 stood = Eigen::Vector3d(stood_m2, stood_m2, stood_rad2).asDiagonal();
   candidate.match.covariance = (candidate.match.covariance.inverse() + stood.inverse()).inverse();
   answer.verdict = PlaceVerdict::kUnique;
-  answer.expected = true;
-  answer.reason = "the robot stands where it was";
   answer.candidates = {std::move(candidate)};
 }
 
@@ -254,11 +252,15 @@ PlaceAnswer PlaceRecogniser::confirm(const PlaceMap& map, const std::vector<Seen
   if (agrees(here, map_T_base) && !outdone(here)) {
     PlaceAnswer answer;
     answer.cells = query.cells.size();
+    answer.expected = true;
+    answer.reason = "the robot stands where it was";
     accept(std::move(here), answer);
     return answer;
   }
   PlaceAnswer near = ranked(map, query, {map_T_base, params_.kept.max_m, params_.kept.max_rad});
   if (agrees_near(near, map_T_base) && !outdone(near.candidates.front())) {
+    // In one view a corner looks like the next one, a step and a quarter turn on: others have to say the same.
+    near.reason = "the robot stands near to where it was";
     accept(PlaceCandidate(near.candidates.front()), near);
     return near;
   }

@@ -335,6 +335,19 @@ TEST(LineSlam, GoesOnWhereItStoodInAMapOfItsFirstMetre) {
   EXPECT_TRUE(validate(slam.map()));
 }
 
+TEST(LineSlam, IsFoundAtThePlaceThatIsNamedInAMapThatTellsNoPlaceFromAnother) {
+  Trip trip(15);
+  LineSlam slam({}, trip.truth());
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 1.0));
+  ASSERT_TRUE(slam.relocalise(std::nullopt));
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 0.3));
+  ASSERT_NE(slam.estimate().quality, LocalisationQuality::kLocalised) << "nobody has said where it is";
+  ASSERT_TRUE(slam.relocalise(trip.truth()));
+  ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 0.3));
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.1);
+}
+
 TEST(LineSlam, IsFoundElsewhereWhenItDoesNotStandWhereItStood) {
   Trip first(9);
   LineSlam mapper({}, first.truth());

@@ -276,6 +276,19 @@ TEST(PlaceRecogniser, ACorridorKeepsTheRobotWhereItStoodAndSaysHowWellThatIsKnow
   EXPECT_LT(match.covariance(0, 0), 0.3) << "no more than where it stood";
 }
 
+TEST(PlaceRecogniser, ARobotThatHasMovedALittleIsFoundAndOtherViewsMustSaySoToo) {
+  Rng rng(16);
+  const PlaceMap map = room_map(rng);
+  const Pose2 truth{2.5, 3.6, 0.7};
+  const std::vector<SeenPoints> now{seen_points(scan_at(office(), truth, 1.0, rng, kTwoPi))};
+  const PlaceAnswer stands = PlaceRecogniser().confirm(map, now, truth);
+  EXPECT_TRUE(stands.expected) << stands.reason;
+  const PlaceAnswer moved = PlaceRecogniser().confirm(map, now, truth * Pose2{0.4, -0.3, 0.9});
+  ASSERT_EQ(moved.verdict, PlaceVerdict::kUnique) << moved.reason;
+  EXPECT_FALSE(moved.expected);
+  EXPECT_THAT(moved.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02));
+}
+
 TEST(PlaceRecogniser, ARobotThatWentOnIntoUnseenSpaceIsFoundAboutWhereItWas) {
   Rng rng(15);
   const Pose2 kept{1.5, 1.5, 0.8};
