@@ -235,9 +235,6 @@ void LineSlam::follow(Scan& scan) {
   if (backend_.step_loops()) {
     ++revision_;
   }
-  if (map_is_full()) {
-    begin_next_map(scan.scan.stamp, params_.points.carried_keyframes);
-  }
 }
 
 MatchResult LineSlam::match_points(Scan& scan) {
@@ -316,9 +313,16 @@ void LineSlam::correct(Scan& scan, const MatchResult& match) {
     learn_odometry(match, covariance);
   }
   const bool far = moved(scan.predicted, match.map_T_base, params_.points.first_m, params_.points.first_rad);
-  const bool points_first = params_.points.use == PointUse::kAll || scan.gap || contradicted || unseen || far;
+  // Lines that begin the next local map say nothing of what the wheels were off by on the way to this scan.
+  const bool full = map_is_full();
+  const bool joins = full && params_.points.use == PointUse::kLeftover;
+  const bool points_first = params_.points.use == PointUse::kAll || scan.gap || contradicted || unseen || far || joins;
   if (points_first) {
     use_points(scan, match);
+  }
+  if (full) {
+    scan.before = inverse(lines_->robot()) * scan.before;
+    begin_next_map(scan.scan.stamp, params_.points.carried_keyframes);
   }
   const Association association = lines_->associate(scan.observations);
   const SpUpdateReport report = update_lines(scan.observations, association);
@@ -371,29 +375,6 @@ void LineSlam::keep(const Scan& scan) {
   });
   if (fresh) {
     kept.push_back(pack_keyframe(scan.scan, backend_.newest().id, pose));
-  }
-}
-
-bool LineSlam::map_is_full() const {
-  return way_m_ >= params_.local.max_way_m || lines_->segments().size() >= params_.local.max_segments;
-}
-
-void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
-  store_local_map();
-  const Pose2 last_T_new = lines_->robot();
-  const Matrix3 covariance =
-      with_floor(lines_->robot_covariance_map(), params_.local.joint_sigma_m, params_.local.joint_sigma_rad);
-  backend_.begin_next(last_T_new, covariance, stamp);
-  start_local_map();
-  cloud_.move_to(inverse(last_T_new), {}, carried);
-  odometry_bias_.change_frame(inverse(last_T_new));
-  jump_.clear();
-  last_try_ = inverse(last_T_new) * last_try_;
-  claim_.change_node(last_T_new);
-  for (std::optional<Pose2>* map_T_node : {&kept_map_T_node_, &hint_map_T_node_}) {
-    if (*map_T_node) {
-      *map_T_node = **map_T_node * last_T_new;
-    }
   }
 }
 

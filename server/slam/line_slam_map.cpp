@@ -1,4 +1,4 @@
-// The map of line SLAM as a whole: handed out, loaded, and searched for the robot.
+// The map of line SLAM as a whole: its local maps one after the other; handed out, loaded, searched for the robot.
 #include <algorithm>
 #include <numbers>
 #include <utility>
@@ -39,6 +39,33 @@ void LineSlam::store_local_map() {
     last_id = std::max(last_id, segment.id);
   }
   next_id_ += last_id;
+}
+
+bool LineSlam::map_is_full() const {
+  return way_m_ >= params_.local.max_way_m || lines_->segments().size() >= params_.local.max_segments;
+}
+
+// Its frame is the robot where its first scan is taken, not where the last one of the present map was: what the robot
+// may be off by on the way between the two belongs to the joint. A local map that begins with an uncertain heading
+// learns of it what no wall says, because the Jacobians of one wall are taken at ever other estimates: after 10 m a
+// tenth to a seventh of its variance (Julier & Uhlmann 2001; Huang, Mourikis & Roumeliotis 2010).
+void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
+  store_local_map();
+  const Pose2 last_T_new = lines_->robot();
+  const Matrix3 covariance =
+      with_floor(lines_->robot_covariance_map(), params_.local.joint_sigma_m, params_.local.joint_sigma_rad);
+  backend_.begin_next(last_T_new, covariance, stamp);
+  start_local_map();
+  cloud_.move_to(inverse(last_T_new), {}, carried);
+  odometry_bias_.change_frame(inverse(last_T_new));
+  jump_.clear();
+  last_try_ = inverse(last_T_new) * last_try_;
+  claim_.change_node(last_T_new);
+  for (std::optional<Pose2>* map_T_node : {&kept_map_T_node_, &hint_map_T_node_}) {
+    if (*map_T_node) {
+      *map_T_node = **map_T_node * last_T_new;
+    }
+  }
 }
 
 std::vector<MapSegment> LineSlam::segments() const {
