@@ -108,6 +108,13 @@ void describe(config::Fields& f, UnseenMotionParams& params) {
   f.angle_deg("max_turn_degps", params.max_turn_radps);
 }
 
+void describe(config::Fields& f, TurnSenseParams& params) {
+  f.angle_deg("least_deg", params.least_rad);
+  f.angle_deg("most_deg", params.most_rad);
+  f.angle_deg("enough_deg", params.enough_rad);
+  f.field("reversed_share", params.reversed_share);
+}
+
 void describe(config::Fields& f, LineSlamParams& params) {
   f.section("odometry", params.odometry);
   f.section("extractor", params.extractor);
@@ -129,6 +136,7 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.field("odometry_scale_down", params.odometry_scale.down);
   f.section("odometry_bias", params.odometry_bias);
   f.section("unseen", params.unseen);
+  f.section("turn_sense", params.turn_sense);
   f.field("lost_after", params.lost_after);
   f.field("repeats_fault", params.repeats_fault);
 }

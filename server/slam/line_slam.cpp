@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/angle.hpp"
 #include "server/slam/covariance.hpp"
 
 namespace seeker::slam {
@@ -51,6 +52,7 @@ struct LineSlam::Scan {
   std::vector<OrientedPoint> points;      ///< thinned
   Pose2 before;                           ///< node_T_base at the scan before that was looked at,
   Pose2 predicted;                        ///< and now, by odometry
+  double wheels_turned_rad = 0.0;         ///< since then
   double dt_s = 0.0;                      ///< since then
   bool gap = false;                       ///< after more way than a match bridges safely
   bool silent = false;                    ///< the wheels told of no motion
@@ -64,6 +66,7 @@ LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
       odometry_scale_(params.odometry_scale),
       odometry_bias_(params.odometry_bias),
       unseen_(params.unseen),
+      turn_sense_(params.turn_sense),
       jump_(params.points.jump),
       travelled_(params.odometry),
       cloud_(params.points.cloud),
@@ -85,6 +88,7 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   cloud_.clear();
   odometry_bias_.forget_match();
   unseen_ = UnseenMotion(params_.unseen);
+  turn_sense_.clear();
   jump_.clear();
   travelled_.correct({}, Matrix3::Zero());
   next_id_ = 1;
@@ -158,6 +162,9 @@ Status LineSlam::update(const LaserScan& scan) {
   if (Status fresh = check_repeats(scan); !fresh) {
     return fresh;
   }
+  if (Status mounted = check_direction(); !mounted) {
+    return mounted;
+  }
   ++counts_.scans;
   const PoseEstimate travelled = travelled_.estimate();
   const bool jumped = odometry_jumped();
@@ -176,6 +183,7 @@ Status LineSlam::update(const LaserScan& scan) {
             .points = {},
             .before = lines_->robot(),
             .predicted = {},
+            .wheels_turned_rad = travelled.map_T_base.theta_rad,
             .dt_s = to_seconds(scan.stamp - std::exchange(used_stamp_, scan.stamp))};
   step.silent = !jumped && unseen_.is_silent(travelled.map_T_base);
   const UncertainPose motion = expected_motion(travelled, step.silent, step.dt_s);
@@ -222,6 +230,9 @@ void LineSlam::follow(Scan& scan) {
     odometry_bias_.forget_match();
     note_failure(scan);
     return;
+  }
+  if (!scan.silent && !scan.gap) {
+    turn_sense_.note(scan.wheels_turned_rad, wrap_angle(match.map_T_base.theta_rad - scan.before.theta_rad));
   }
   correct(scan, match);
   matched_ = true;

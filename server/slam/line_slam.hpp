@@ -60,6 +60,8 @@ class LineSlam final : public MapTracker {
 
   void begin(const Pose2& map_T_base, RobotTime stamp);
   [[nodiscard]] Status check_repeats(const LaserScan& scan);
+  /// A mirrored scanner would build a map of a mirrored building.
+  [[nodiscard]] Status check_direction();
   /// Since the last scan that was looked at.
   [[nodiscard]] bool odometry_jumped() const;
   [[nodiscard]] bool stands_still(const LaserScan& scan) const;
@@ -104,6 +106,7 @@ class LineSlam final : public MapTracker {
   OdometryScale odometry_scale_;
   OdometryBias odometry_bias_;
   UnseenMotion unseen_;
+  TurnSense turn_sense_;
   JumpWitness jump_;
   OdometryTracker travelled_;     ///< since the last scan: its pose is the increment
   std::unique_ptr<SpMap> lines_;  ///< of the newest local map, in its frame

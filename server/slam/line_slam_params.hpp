@@ -15,6 +15,7 @@
 #include "server/slam/scan_matcher.hpp"
 #include "server/slam/segment_fusion.hpp"
 #include "server/slam/sp_params.hpp"
+#include "server/slam/turn_sense.hpp"
 #include "server/slam/unseen_motion.hpp"
 
 namespace seeker::slam {
@@ -123,6 +124,7 @@ struct LineSlamParams {
   OdometryScaleParams odometry_scale;
   OdometryBiasParams odometry_bias;
   UnseenMotionParams unseen;
+  TurnSenseParams turn_sense;
   lines::FastParams extractor;
   lines::ObservationParams observation = kRealWalls;
   SpMapParams lines;

@@ -32,6 +32,18 @@ Status LineSlam::check_repeats(const LaserScan& scan) {
   return {};
 }
 
+Status LineSlam::check_direction() {
+  if (!turn_sense_.reversed()) {
+    return {};
+  }
+  quality_ = LocalisationQuality::kLost;
+  cause_ = "the scans turn the other way than the wheels";
+  return fail(Errc::kInvalidArgument,
+              "the scans turn the other way than the wheels: the beams run in the other direction, the scanner hangs "
+              "upside down or the wheels are swapped; set the angle of the first beam and that between two beams, with "
+              "their signs, and begin a new map");
+}
+
 bool LineSlam::odometry_jumped() const { return travelled_.estimate().quality == LocalisationQuality::kDegraded; }
 
 UncertainPose LineSlam::expected_motion(const PoseEstimate& travelled, bool silent, double dt_s) {

@@ -381,6 +381,25 @@ TEST(LineSlam, FindsItselfByATurnOnTheSpotWhereItWentOnAndLooksAway) {
   EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.2);
 }
 
+TEST(LineSlam, RefusesBeamsThatRunInTheOtherDirection) {
+  Trip trip(17);
+  LineSlam slam;
+  Status taken;
+  for (int k = 0; k < 2000 && taken; ++k) {
+    trip.step();
+    ASSERT_TRUE(slam.predict(trip.odom(), trip.time()));
+    LaserScan scan = trip.scan();
+    std::reverse(scan.ranges_m.begin(), scan.ranges_m.end());
+    taken = slam.update(scan);
+  }
+  ASSERT_FALSE(taken);
+  EXPECT_NE(taken.error().message.find("turn the other way"), std::string::npos) << taken.error().message;
+  EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLost);
+  slam.reset({});
+  trip.step();
+  EXPECT_TRUE(trip.feed(slam)) << "a new map begins";
+}
+
 TEST(LineSlam, IsLostInTheMapOfAnotherBuilding) {
   Trip trip(12);
   LineSlam mapper({}, trip.truth());
