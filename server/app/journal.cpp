@@ -36,8 +36,7 @@ std::optional<api::MissionRequest> parse_request(const store::Blob& blob) {
 /// Of a mission that nobody goes on with.
 Status close_cut_off(store::Store& store, const store::MissionRecord& mission) {
   return store.end_mission(
-      mission.id,
-      {.ended_ns = mission.started_ns, .outcome = "FAULT", .cause = "the program was killed", .remedy = ""});
+      mission.id, {.ended_ns = mission.started_ns, .outcome = "FAULT", .cause = "the program ended", .remedy = ""});
 }
 
 }  // namespace
@@ -179,8 +178,8 @@ void Journal::work() {
     lock.unlock();
     const Status written = write(store_);
     lock.lock();
-    if (!written && told_ != written.error().code && on_error_) {
-      told_ = written.error().code;
+    if (!written && !told_ && on_error_) {
+      told_ = true;
       on_error_(written.error());
     }
   }

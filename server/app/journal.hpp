@@ -19,7 +19,8 @@
 namespace seeker::app {
 
 /// Missions, their events and detections in order. When the disk cannot follow, the oldest waiting entry is dropped and
-/// counted; errors are told once per kind of error.
+/// counted. Only the first error is told: what could not be written is missing later, and the errors of that hide the
+/// cause.
 class Journal {
  public:
   /// Opens the store. Errors as Store::open().
@@ -29,8 +30,8 @@ class Journal {
   /// Writes what is waiting, then ends the thread.
   ~Journal();
 
-  /// The mission that was running when a program was killed; nothing after an orderly end. Its record stays open until
-  /// it is resumed or another mission begins, over any number of restarts.
+  /// The mission that was running when the program ended, killed or told to; nothing when none was. Its record stays
+  /// open until it is resumed or another mission begins, over any number of restarts.
   [[nodiscard]] const std::optional<api::MissionRequest>& unfinished() const { return unfinished_; }
   [[nodiscard]] std::uint64_t highest_detection_id() const { return highest_detection_id_; }
 
@@ -38,7 +39,7 @@ class Journal {
   void mission(const api::MissionStatus& status);
   void event(const api::Event& event);
   void detection(const api::Detection& detection, const std::string& mission);
-  /// Called on the journal's thread with the sentence of a failed write.
+  /// Called on the journal's thread with the sentence of the first failed write.
   void set_on_error(std::function<void(const Error&)> on_error);
   [[nodiscard]] std::uint64_t dropped() const;
 
@@ -59,7 +60,7 @@ class Journal {
   std::condition_variable wake_;
   std::deque<Write> queue_;
   std::function<void(const Error&)> on_error_;
-  std::optional<Errc> told_;
+  bool told_ = false;  ///< of an error
   std::uint64_t dropped_ = 0;
   bool quit_ = false;
   std::thread thread_;

@@ -50,7 +50,7 @@ TEST(Journal, AnotherMissionClosesTheRecordOfTheOneThatWasCutOff) {
   EXPECT_EQ(unfinished_in(folder.path()), "round");
   Journal::open(folder.path()).value()->mission_started(exploration("another"), RobotTime{});
   EXPECT_EQ(end_of(folder.path(), "round")->outcome, "FAULT");
-  EXPECT_EQ(end_of(folder.path(), "round")->cause, "the program was killed");
+  EXPECT_EQ(end_of(folder.path(), "round")->cause, "the program ended");
   EXPECT_EQ(unfinished_in(folder.path()), "another");
 }
 
@@ -73,6 +73,24 @@ TEST(Journal, WhatHappenedBeforeAKillStaysWhenTheMissionGoesOn) {
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].text, "before the kill");
   EXPECT_EQ(events[1].text, "after it");
+}
+
+TEST(Journal, OnlyTheFirstErrorIsToldSinceThoseAfterItHideTheCause) {
+  const testing::TemporaryFolder folder;
+  std::vector<std::string> told;
+  {
+    const auto journal = Journal::open(folder.path()).value();
+    journal->set_on_error([&](const Error& error) { told.push_back(error.message); });
+    api::MissionStatus status;
+    status.id = "never-begun";
+    status.end = api::MissionEnd{api::Outcome::kComplete, "", "", {}};
+    journal->mission(status);
+    api::Event event;
+    event.text = std::string(store::kMaxText_bytes + 1, 'x');
+    journal->event(event);
+  }
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told.front().find("never-begun"), std::string::npos) << told.front();
 }
 
 }  // namespace
