@@ -18,6 +18,11 @@ bool is_token(const std::string& text, std::size_t max_length) {
   });
 }
 
+bool names_folder(char c) {
+  const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  return letter || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+}
+
 double grey_sigma(const Image& grey) {
   double sum = 0.0;
   double sum2 = 0.0;
@@ -183,6 +188,15 @@ Status validate_task(const RecogniseMission& recognise) {
 }
 
 }  // namespace
+
+Status validate_robot_id(std::string_view robot_id) {
+  constexpr std::size_t kMaxId = 64;
+  const bool fits = !robot_id.empty() && robot_id.size() <= kMaxId && robot_id.front() != '.';
+  if (!fits || !std::all_of(robot_id.begin(), robot_id.end(), names_folder)) {
+    return fail(Errc::kInvalidArgument, "must have 1 to 64 letters, digits, '-', '_' and '.', and not begin with '.'");
+  }
+  return {};
+}
 
 Detection moved(Detection detection, const Pose2& new_T_old) {
   detection.map_T_base = new_T_old * detection.map_T_base;

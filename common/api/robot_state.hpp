@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kProtocolMinor = 3;
 
 /// Who the robot is: answered before anything else.
 struct RobotInfo {
-  std::string robot_id;  ///< [a-z0-9-]{1,32}
+  std::string robot_id;  ///< as in validate_robot_id()
   std::string software_version;
   std::uint32_t protocol_major = kProtocolMajor;
   std::uint32_t protocol_minor = kProtocolMinor;
@@ -33,6 +33,9 @@ struct RobotInfo {
 
   friend bool operator==(const RobotInfo&, const RobotInfo&) = default;
 };
+
+/// 1 to 64 letters, digits, '-', '_' and '.', which is not the first: the id also names folders and files.
+[[nodiscard]] Status validate_robot_id(std::string_view robot_id);
 
 enum class ComponentState : std::uint8_t { kCreated, kInactive, kActive, kError };
 [[nodiscard]] std::string_view to_string(ComponentState state);

@@ -8,7 +8,6 @@
 namespace seeker::wire {
 namespace {
 
-constexpr std::size_t kMaxRobotIdBytes = 32;
 constexpr int kCovarianceRows = 3;
 
 std::string bytes_of(const api::PieceHash& hash) { return {hash.begin(), hash.end()}; }
@@ -171,9 +170,8 @@ void read_detections(const DetectionField& from, std::vector<api::Detection>& to
 }
 
 std::string read_robot_id(const std::string& id, Check& check) {
-  const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
-  if (id.empty() || id.size() > kMaxRobotIdBytes || !std::all_of(id.begin(), id.end(), allowed)) {
-    check.refuse("robot_id", Errc::kInvalidArgument, "must have 1 to 32 characters of a-z, 0-9 and -");
+  if (const Status valid = api::validate_robot_id(id); !valid) {
+    check.refuse("robot_id", valid.error().code, valid.error().message);
     return {};
   }
   return id;

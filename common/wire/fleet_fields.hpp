@@ -13,7 +13,7 @@
 
 namespace seeker::wire {
 
-/// 1 to 32 characters of a-z, 0-9 and -.
+/// As in api::validate_robot_id().
 [[nodiscard]] std::string read_robot_id(const std::string& id, Check& check);
 
 /// Nine numbers, row by row, of a field `covariance`.

@@ -1,5 +1,6 @@
 #include "server/app/robot_options.hpp"
 
+#include "common/api/robot_state.hpp"
 #include "server/app/estimators.hpp"
 #include "server/options/camera_options.hpp"
 #include "server/options/explore_options.hpp"
@@ -229,6 +230,8 @@ void describe(config::Fields& f, StereoSettings& settings) {
 
 void describe(config::Fields& f, RobotOptions& options) {
   f.field("robot_id", options.robot_id);
+  const Status id = api::validate_robot_id(options.robot_id);
+  f.check("robot_id", id.has_value(), id ? "" : id.error().message);
   f.choice("driver", options.driver,
            config::Choices<DriverType>{
                {"sim", DriverType::kSim}, {"replay", DriverType::kReplay}, {"emulator", DriverType::kEmulator}});

@@ -68,5 +68,15 @@ TEST(RobotFiles, PeopleWalkWhereTheWorldOrTheRobotSaysSo) {
   EXPECT_FALSE(people_walk(quiet, "false"));
 }
 
+TEST(RobotFiles, ARobotIdThatNamesNoFolderIsRefusedWhereItStands) {
+  const auto options = app::load_robot_options(source_file("config/robots/sim.yaml"), {"robot_id=../../esc"});
+  ASSERT_FALSE(options);
+  EXPECT_NE(options.error().message.find("robot_id"), std::string::npos) << options.error().message;
+  EXPECT_NE(options.error().message.find("64 letters"), std::string::npos) << options.error().message;
+  const auto written = app::parse_robot_options("driver: sim\nrobot_id: a/b\n", "robot.yaml", {});
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().message.find("robot.yaml:2"), std::string::npos) << written.error().message;
+}
+
 }  // namespace
 }  // namespace seeker::testing

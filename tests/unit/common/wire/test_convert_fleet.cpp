@@ -172,6 +172,21 @@ TEST(ConvertFleet, OfALargeFloorTheTilesNextToTheRobotAreTold) {
   }));
 }
 
+TEST(ConvertFleet, ARobotIdThatNamesNoFolderIsRefused) {
+  for (const char* id : {"", "..", "../../esc", "a/b", ".hidden"}) {
+    pb::FleetManifest manifest;
+    manifest.set_robot_id(id);
+    EXPECT_FALSE(from_message<api::FleetManifest>(manifest)) << id;
+    pb::FleetChunk chunk;
+    chunk.set_robot_id(id);
+    chunk.set_sha256(std::string(32, 'x'));
+    EXPECT_FALSE(from_message<api::FleetChunk>(chunk)) << id;
+  }
+  pb::FleetManifest manifest;
+  manifest.set_robot_id("Hall_2.left");
+  EXPECT_TRUE(from_message<api::FleetManifest>(manifest));
+}
+
 TEST(ConvertFleet, ATopologyThatMakesNoSenseIsRefused) {
   using T = pb::FleetTopology;
   EXPECT_EQ(refusal_of([](T& t) { t.set_robot_id("r2"); }), Errc::kInvalidArgument) << "speaks of another robot";
