@@ -13,6 +13,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include "common/core/assert.hpp"
 #include "common/log/log.hpp"
 #include "common/net/listen.hpp"
 #include "common/net/random_id.hpp"
@@ -156,14 +157,28 @@ class Server::Impl {
 
   void admit(tcp::socket socket) {
     ++hub_.stats.accepted;
-    // Some more than max_sessions are let in, to be told why they are refused; beyond that there is no talk.
+    const auto said_hello =
+        std::count_if(sessions_.begin(), sessions_.end(), [](const auto& session) { return session->open(); });
+    const bool full = static_cast<std::size_t>(said_hello) >= params_.max_sessions;
+    // Some more are let in then, to be told why they are refused.
     constexpr std::size_t kRefusing = 32;
-    if (sessions_.size() >= params_.max_sessions + kRefusing) {
-      return;
+    const std::size_t most = params_.max_sessions + (full ? kRefusing : 0);
+    while (sessions_.size() >= most) {
+      drop_longest_silent();
     }
-    const auto session = std::make_shared<Session>(hub_, std::move(socket), sessions_.size() >= params_.max_sessions);
+    const auto session = std::make_shared<Session>(hub_, std::move(socket), full);
     sessions_.insert(session);
     session->start();
+  }
+
+  /// Who has not said hello makes room, or silent connections would lock everybody out. There must be one.
+  void drop_longest_silent() {
+    const auto waits_longer = [](const auto& a, const auto& b) {
+      return a->open() != b->open() ? !a->open() : a->since() < b->since();
+    };
+    const std::shared_ptr<Session> longest = *std::min_element(sessions_.begin(), sessions_.end(), waits_longer);
+    SEEKER_ASSERT(!longest->open());
+    longest->end({::seeker::v1::Close::REASON_SILENT, "it made room for another connection", false, false});
   }
 
   void on_opened(const std::shared_ptr<Session>& opened) {
@@ -181,7 +196,7 @@ class Server::Impl {
   void on_ended(const std::shared_ptr<Session>& session, const wire::Ending& ending) {
     sessions_.erase(session);
     if (!session->open()) {
-      log::info(kPart, "a connection ended before hello: " + ending.text);
+      log::debug(kPart, "a connection ended before hello: " + ending.text);  // anybody can make any number of them
       return;
     }
     const api::Caller& caller = session->caller();

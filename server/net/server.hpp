@@ -34,9 +34,9 @@ struct BacklogLimits {
 };
 
 struct ServerParams {
-  std::string address = "127.0.0.1";                 ///< of the interface to listen on
-  std::uint16_t port = 7471;                         ///< 0: any free one
-  std::size_t max_sessions = 256;                    ///< connections at a time, those without hello included
+  std::string address = "127.0.0.1";  ///< of the interface to listen on
+  std::uint16_t port = 7471;          ///< 0: any free one
+  std::size_t max_sessions = 256;     ///< connections at a time, those without hello included: they make room
   Duration heartbeat = std::chrono::seconds(1);      ///< wall time
   Duration lost_after = std::chrono::seconds(3);     ///< wall time without a sign of life
   Duration linger = std::chrono::milliseconds(500);  ///< wall time for the last frames of a session to leave

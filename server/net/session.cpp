@@ -42,7 +42,8 @@ wire::Ending ending_of(const Error& error) {
 
 Session::Session(SessionHub& hub, net::Transport transport, bool full)
     : hub_(hub),
-      session_(session_params(hub, full), net::wall_now()),
+      since_(net::wall_now()),
+      session_(session_params(hub, full), since_),
       outbox_(hub.params.session.queued_replies, hub.params.session.queued_bytes),
       streams_(hub.backlogs, hub.stream_id),
       connection_(std::make_shared<net::Connection>(

@@ -58,6 +58,7 @@ class Session : public std::enable_shared_from_this<Session> {
   [[nodiscard]] wire::StreamSender& streams() { return streams_; }
   [[nodiscard]] const SessionHub& hub() const { return hub_; }
   [[nodiscard]] bool open() const { return session_.open(); }
+  [[nodiscard]] wire::WallTime since() const { return since_; }
   [[nodiscard]] bool ended() const { return ended_; }
   [[nodiscard]] const api::Caller& caller() const { return session_.caller(); }
   [[nodiscard]] std::uint64_t instance() const { return session_.instance(); }
@@ -70,6 +71,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void wake_at(wire::WallTime due);
 
   SessionHub& hub_;
+  wire::WallTime since_;  ///< when it connected
   wire::ServerSession session_;
   wire::Outbox outbox_;
   wire::StreamSender streams_;

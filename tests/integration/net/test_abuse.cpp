@@ -129,6 +129,31 @@ TEST_F(AbuseTest, TooManySessionsAreRefusedInWords) {
   EXPECT_EQ(reply->hello_reply().status(), pb::HelloReply::STATUS_BUSY);
 }
 
+TEST_F(AbuseTest, SilentConnectionsMakeRoomForOthersAndForgetNoSession) {
+  params_.max_sessions = 4;
+  Recorder<std::string> lines;
+  const log::ScopedSink sink([&](const log::Line& line) {
+    if (line.level >= log::Level::kInfo) {
+      lines.add(line.text);
+    }
+  });
+  start();
+  const auto first = connect("first");
+  std::vector<std::unique_ptr<RawClient>> silent;
+  for (int k = 0; k < 12; ++k) {
+    silent.push_back(std::make_unique<RawClient>(port_));
+  }
+  EXPECT_FALSE(silent.front()->receive()) << "it has waited longest";
+  const auto late = connect("late");
+  ASSERT_TRUE(late);
+  EXPECT_TRUE(ask<api::RobotStatus>([&](auto r) { late->get_status(r); }));
+  EXPECT_TRUE(ask<api::RobotStatus>([&](auto r) { first->get_status(r); }));
+  EXPECT_TRUE(robot_.values().lost.empty());
+  for (const std::string& line : lines.items()) {
+    EXPECT_EQ(line.find("hello"), std::string::npos) << line;
+  }
+}
+
 TEST_F(AbuseTest, AReconnectReplacesTheHalfOpenSessionOfTheSameClient) {
   start();
   RawClient half_open(port_);
