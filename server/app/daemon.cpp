@@ -24,8 +24,7 @@ int config_error(const Error& error) {
 }
 
 int serve(const DaemonArguments& arguments, const RobotOptions& options, const std::filesystem::path& state,
-          Assembly assembly) {
-  const TerminationSignals signals;
+          const TerminationSignals& signals, Assembly assembly) {
   Result<std::unique_ptr<Journal>> journal = Journal::open(state / options.robot_id);
   if (!journal) {
     log::error(kPart, journal.error().message);
@@ -100,11 +99,13 @@ int run_daemon(const DaemonArguments& arguments) {
   }
   const std::filesystem::path state = arguments.state.empty() ? default_state_folder() : arguments.state;
   Result<Assembly> assembly = assemble(
+  // Before any thread: making the robot starts some, and one that does not block a signal dies of it with all others.
+  const TerminationSignals signals;
       *options, {.folder = state / "landmarks", .robot_id = options->robot_id, .software_version = SEEKER_VERSION});
   if (!assembly) {
     return config_error(assembly.error());
   }
-  return serve(arguments, *options, state, std::move(*assembly));
+  return serve(arguments, *options, state, signals, std::move(*assembly));
 }
 
 }  // namespace seeker::app
