@@ -75,9 +75,12 @@ Sink exchange_sink(Sink sink) {
 void set_level(Level level) { state().level.store(level, std::memory_order_relaxed); }
 Level level() { return state().level.load(std::memory_order_relaxed); }
 
-Level parse_level(std::string_view text) {
+std::optional<Level> parse_level(std::string_view text) {
   if (text == "debug") {
     return Level::kDebug;
+  }
+  if (text == "info") {
+    return Level::kInfo;
   }
   if (text == "warning") {
     return Level::kWarning;
@@ -85,7 +88,7 @@ Level parse_level(std::string_view text) {
   if (text == "error") {
     return Level::kError;
   }
-  return text == "off" ? Level::kOff : Level::kInfo;
+  return text == "off" ? std::optional(Level::kOff) : std::nullopt;
 }
 
 void debug(std::string_view part, std::string_view text) { write(Level::kDebug, part, text); }

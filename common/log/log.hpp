@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,8 +26,8 @@ using Sink = std::function<void(const Line&)>;
 /// Lines below this level are not made. Default: kInfo.
 void set_level(Level level);
 [[nodiscard]] Level level();
-/// "debug", "info", "warning", "error", "off"; anything else is kInfo.
-[[nodiscard]] Level parse_level(std::string_view text);
+/// "debug", "info", "warning", "error", "off"; nothing for any other text.
+[[nodiscard]] std::optional<Level> parse_level(std::string_view text);
 
 void debug(std::string_view part, std::string_view text);
 void info(std::string_view part, std::string_view text);

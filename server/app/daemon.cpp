@@ -88,7 +88,7 @@ std::filesystem::path default_state_folder() {
 }
 
 int run_daemon(const DaemonArguments& arguments) {
-  log::set_level(log::parse_level(arguments.log_level));
+  log::set_level(log::parse_level(arguments.log_level).value_or(log::Level::kInfo));
   const Result<RobotOptions> options = load_robot_options(arguments.config, arguments.overrides);
   if (!options) {
     return config_error(options.error());

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/api/fleet.hpp"
+#include "common/log/log.hpp"
 
 namespace seeker::app {
 namespace {
@@ -21,6 +22,19 @@ constexpr const char* kMapWaits =
 std::optional<Pose2> known_place(const RobotLoop& loop) {
   const PoseEstimate pose = loop.status().pose;
   return is_placed(pose.quality) ? std::optional<Pose2>(pose.map_T_base) : std::nullopt;
+}
+
+/// What whoever looks after the server wants to know without a client.
+void tell_log(const api::Event& event) {
+  constexpr const char* kPart = "robot";
+  if (event.kind == "fault") {
+    (event.severity >= api::Severity::kError ? log::error : log::warning)(kPart, "fault " + event.text);
+  } else if (event.kind == "fault-cleared") {
+    log::info(kPart, "fault " + event.text + " is gone");
+  } else if (event.kind == "mission-started" || event.kind == "mission-ended") {
+    log::info(kPart, "mission '" + event.mission + "' " + (event.kind == "mission-ended" ? "ended: " : "began: ") +
+                         event.text);
+  }
 }
 
 }  // namespace
@@ -172,6 +186,12 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
       journal_(std::move(journal)),
       maps_({maps, identity_.robot_id, identity_.software_version}, loop_, mailbox_),
       landmarks_(std::move(landmarks.library), std::move(landmarks.in_use)) {
+  loop_.on_event = [this](const api::Event& event) {
+    tell_log(event);
+    if (journal_ && !event.mission.empty()) {
+      journal_->event(event);
+    }
+  };
   if (journal_) {
     keep_journal();
   }
@@ -266,11 +286,6 @@ void Robot::keep_journal() {
     journal_->mission_started(request, loop_.now());
   };
   loop_.on_mission = [this](const api::MissionStatus& status) { journal_->mission(status); };
-  loop_.on_event = [this](const api::Event& event) {
-    if (!event.mission.empty()) {
-      journal_->event(event);
-    }
-  };
   loop_.on_detection = [this](const api::Detection& detection) {
     const auto& mission = loop_.missions().last();
     journal_->detection(detection, mission ? mission->id : std::string());

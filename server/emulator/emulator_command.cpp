@@ -83,7 +83,7 @@ Status serve(const EmulatorArguments& arguments, drivers::SharedDevices devices,
 }  // namespace
 
 int run_emulator(const EmulatorArguments& arguments) {
-  log::set_level(log::parse_level(arguments.log_level));
+  log::set_level(log::parse_level(arguments.log_level).value_or(log::Level::kInfo));
   const Result<app::RobotOptions> options = app::load_robot_options(arguments.config, arguments.overrides);
   if (!options) {
     log::error(kPart, options.error().message);

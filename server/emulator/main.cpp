@@ -25,7 +25,9 @@ int main(int argc, char** argv) {
   auto* port_option = app.add_option("--port", port, "TCP port; 0 takes any free one (default: 7472)");
   app.add_option("--port-file", arguments.port_file, "Write the port to this file once the world can be reached");
   app.add_option("--truth", arguments.truth_file, "Write where the robots really are to this file (CSV)");
-  app.add_option("--log-level", arguments.log_level, "debug, info, warning, error or off")->capture_default_str();
+  app.add_option("--log-level", arguments.log_level, "What is logged")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

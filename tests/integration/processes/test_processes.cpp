@@ -120,6 +120,8 @@ TEST(Processes, TerminationIsOrderlyAndWrongConfigurationHasItsOwnCode) {
   EXPECT_NE(wrong.output().find("sim.sped"), std::string::npos) << wrong.output();
 }
 
+  ChildProcess loud(program("seekerd"), {"--log-level", "loud"}, daemon.folder() / "loud");
+  EXPECT_EQ(loud.wait(seconds(20)), 2);
 /// The laser of the robot whose logs these are.
 const std::vector<std::string> kLaserOfTrace0 = {
     "--set", "replay.laser.angle_min_deg=-135", "--set", "replay.laser.angle_step_deg=0.351562",
