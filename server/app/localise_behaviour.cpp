@@ -41,15 +41,18 @@ Result<std::unique_ptr<Behaviour>> LocaliseBehaviour::create(const LocaliseSetti
   const std::string& map = loaded->summary.map_name;
   const bool places_robot =
       mission.landmarks == settings.estimator_database || (!map.empty() && map == situation.map_name);
-  return std::unique_ptr<Behaviour>(
-      new LocaliseBehaviour(settings.look, mission, std::move(*core), places_robot, situation));
+  // A map without a name may be the one of the survey or not: nobody knows.
+  return std::unique_ptr<Behaviour>(new LocaliseBehaviour(settings.look, mission, std::move(*core), places_robot,
+                                                          places_robot ? "" : map, situation));
 }
 
 LocaliseBehaviour::LocaliseBehaviour(const TurnAndLookParams& params, api::LocaliseMission mission,
-                                     localize::StereoLocaliser localiser, bool places_robot, const Situation& situation)
+                                     localize::StereoLocaliser localiser, bool places_robot, std::string other_map,
+                                     const Situation& situation)
     : mission_(std::move(mission)),
       localiser_(std::move(localiser)),
       places_robot_(places_robot),
+      other_map_(std::move(other_map)),
       sweep_(params),
       rng_(kSeed) {
   localiser_.start_anywhere();
@@ -100,9 +103,12 @@ void LocaliseBehaviour::found(const Situation& situation, Decision& decision) {
       .outcome = api::Outcome::kComplete,
       .cause = "the robot is at " + text_of(place.map_T_base) + " in the frame of '" + mission_.landmarks +
                "': " + std::to_string(localiser_.last().inliers.size()) + " landmarks agree, sigma " +
-               std::to_string(static_cast<int>(std::ceil(1000.0 * sigma_m))) + " mm",
-      .remedy =
-          places_robot_ ? "" : "the robot's map is of another frame; load the map that was surveyed in to drive by it",
+               std::to_string(static_cast<int>(std::ceil(1000.0 * sigma_m))) + " mm" +
+               (places_robot_ ? "" : "; where it is in its own map stays as it was"),
+      .remedy = other_map_.empty()
+                    ? ""
+                    : "the landmarks were surveyed in the map '" + other_map_ +
+                          "', which is not in use; 'seeker map load " + other_map_ + "' has the robot drive by it",
       .unreachable = {}};
 }
 

@@ -34,13 +34,14 @@ class LocaliseBehaviour final : public Behaviour {
 
  private:
   LocaliseBehaviour(const TurnAndLookParams& params, api::LocaliseMission mission, localize::StereoLocaliser localiser,
-                    bool places_robot, const Situation& situation);
+                    bool places_robot, std::string other_map, const Situation& situation);
   void follow_odometry(const Situation& situation);
   void found(const Situation& situation, Decision& decision);
 
   api::LocaliseMission mission_;
   localize::StereoLocaliser localiser_;
-  bool places_robot_;  ///< the pose found is one of the frame that the estimator works in
+  bool places_robot_;      ///< the pose found is one of the frame that the estimator works in
+  std::string other_map_;  ///< that the landmarks were surveyed in, where it is known to be another than the robot's
   TurnAndLook sweep_;
   Rng rng_;
   std::optional<RobotTime> moved_at_;

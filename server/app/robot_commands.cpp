@@ -10,7 +10,12 @@ Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& reque
   if (!lease.owner.empty() && lease.owner != client) {
     return fail(Errc::kRefused, "'" + lease.owner + "' holds the lease; wait until it is released, or take it over");
   }
-  if (map_.relocalising() || (map_.has_segments() && pose_.quality == LocalisationQuality::kLost)) {
+  if (const Status able = able_to(request.task); !able) {
+    return tl::unexpected<Error>(able.error());
+  }
+  const bool lost = map_.has_segments() && pose_.quality == LocalisationQuality::kLost;
+  // Who looks for landmarks wants to know where a lost robot is.
+  if (map_.relocalising() || (lost && !std::holds_alternative<api::LocaliseMission>(request.task))) {
     return fail(Errc::kNotReady, "the robot does not know where it is in the map" +
                                      (pose_.cause.empty() ? std::string() : " (" + pose_.cause + ")") +
                                      "; 'seeker relocalise --wait' looks for it, --at X,Y,DEG helps");

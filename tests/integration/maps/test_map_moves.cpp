@@ -39,7 +39,7 @@ class MapMoves : public ::testing::Test {
     assembly.parts.estimator = std::make_unique<app::TrackerEstimator>(std::make_unique<FakeMapTracker>(state));
     assembly.parts.behaviours = [this, real = assembly.parts.behaviours](const api::MissionTask& task,
                                                                          const app::Situation& situation) {
-      return std::holds_alternative<api::ReturnMission>(task)
+      return std::holds_alternative<api::ReturnMission>(task) || std::holds_alternative<api::LocaliseMission>(task)
                  ? Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Finder>(mug_map))
                  : real(task, situation);
     };
@@ -129,6 +129,16 @@ TEST_F(MapMoves, RobotThatIsFoundAgainMovesNothingOfWhatItKnows) {
   }
   EXPECT_EQ(count("map-moved"), 0);
   EXPECT_EQ(count("robot-found"), 2);
+}
+
+TEST_F(MapMoves, ALostRobotLooksForLandmarksAndDoesNothingElse) {
+  ticks(1);
+  state->estimate.quality = LocalisationQuality::kLost;
+  ticks(5);
+  ASSERT_EQ(loop->status().pose.quality, LocalisationQuality::kLost);
+  EXPECT_EQ(go().error().code, Errc::kNotReady);
+  const Status looking = go(api::LocaliseMission{.landmarks = "lab"});
+  EXPECT_TRUE(looking) << looking.error().message;
 }
 
 TEST_F(MapMoves, MapIsNotExchangedUnderARunningMission) {
