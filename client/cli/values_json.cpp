@@ -185,6 +185,12 @@ void write_json(Json& json, const api::RobotStatus& status) {
   } else {
     json.null();
   }
+  json.key("cut_off");
+  if (status.cut_off) {
+    json.begin_object().field("id", status.cut_off->id).field("kind", status.cut_off->kind).end_object();
+  } else {
+    json.null();
+  }
   json.key("faults").begin_array();
   for (const api::Fault& fault : status.faults) {
     write_fault(json, fault);

@@ -65,6 +65,9 @@ void print_status(const Context& context, const api::RobotInfo& info, const api:
   } else {
     row(context, "mission", "none");
   }
+  if (s.cut_off) {
+    row(context, "cut off", s.cut_off->id + "; 'seeker resume' goes on with it");
+  }
   for (const api::Fault& fault : s.faults) {
     row(context, "fault", alarm(context, fault.component + ": " + fault.message) + "; " + fault.remedy);
   }

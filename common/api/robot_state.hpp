@@ -78,6 +78,14 @@ struct LeaseState {
 
 enum class LeaseAction : std::uint8_t { kAcquire, kRequest, kGrant, kDeny, kTakeOver, kRelease };
 
+/// A mission that was running when the robot's program ended; resuming goes on with it.
+struct CutOffMission {
+  MissionId id;
+  std::string kind;  ///< of its task, as in MissionStatus
+
+  friend bool operator==(const CutOffMission&, const CutOffMission&) = default;
+};
+
 struct RobotStatus {
   RobotTime stamp;
   PoseEstimate pose;
@@ -94,6 +102,7 @@ struct RobotStatus {
   std::optional<TickTiming> timing;       ///< of the loop; absent where no wall clock paces it
   std::uint64_t map_revision = 0;         ///< of the occupancy
   std::optional<LineMapStatus> line_map;  ///< absent where the estimator keeps no map of segments
+  std::optional<CutOffMission> cut_off;   ///< until it goes on or another mission is started
 
   friend bool operator==(const RobotStatus&, const RobotStatus&) = default;
 };

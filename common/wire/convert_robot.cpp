@@ -147,6 +147,10 @@ void write(const api::RobotStatus& from, pb::RobotStatus* to) {
     timing->set_late(from.timing->late);
     timing->set_worst_ns(from.timing->worst.count());
   }
+  if (from.cut_off) {
+    to->mutable_cut_off()->set_id(clean_text(from.cut_off->id, kMaxNameBytes));
+    to->mutable_cut_off()->set_kind(clean_text(from.cut_off->kind, kMaxNameBytes));
+  }
 }
 
 void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check) {
@@ -180,6 +184,12 @@ void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check) {
   }
   if (from.has_timing()) {
     to.timing = TickTiming{from.timing().ticks(), from.timing().late(), Duration(from.timing().worst_ns())};
+  }
+  if (from.has_cut_off()) {
+    const auto scope = check.in("cut_off");
+    to.cut_off.emplace();
+    to.cut_off->id = check.text("id", from.cut_off().id(), kMaxNameBytes);
+    to.cut_off->kind = check.text("kind", from.cut_off().kind(), kMaxNameBytes);
   }
 }
 

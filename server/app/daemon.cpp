@@ -33,7 +33,8 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
   if ((*journal)->unfinished()) {
     log::warning(kPart,
                  "mission '" + (*journal)->unfinished()->id +
-                     "' was cut off by a crash; 'seeker resume' starts it again, the robot stays disarmed until then");
+                     "' was cut off when the program ended; 'seeker resume' starts it again, the robot stays disarmed "
+                     "until then");
   }
   Robot robot(
       {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
@@ -98,9 +99,9 @@ int run_daemon(const DaemonArguments& arguments) {
     return EXIT_SUCCESS;
   }
   const std::filesystem::path state = arguments.state.empty() ? default_state_folder() : arguments.state;
-  Result<Assembly> assembly = assemble(
   // Before any thread: making the robot starts some, and one that does not block a signal dies of it with all others.
   const TerminationSignals signals;
+  Result<Assembly> assembly = assemble(
       *options, {.folder = state / "landmarks", .robot_id = options->robot_id, .software_version = SEEKER_VERSION});
   if (!assembly) {
     return config_error(assembly.error());

@@ -105,6 +105,9 @@ api::RobotStatus RobotLoop::status() const {
   status.timing = parts_.devices.clock->timing();
   status.map_revision = map_.revision();
   status.line_map = map_.status();
+  if (unfinished_) {
+    status.cut_off = api::CutOffMission{unfinished_->id, std::string(api::task_name(unfinished_->task))};
+  }
   return status;
 }
 

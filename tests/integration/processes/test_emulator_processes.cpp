@@ -36,6 +36,42 @@ TEST(EmulatorProcesses, TwoRobotsDriveInOneWorldAndOneComesBackAfterItsDeath) {
   EXPECT_NEAR(paths.at(1).back().x(), 19.0, 0.4);
 }
 
+TEST(EmulatorProcesses, ARobotThatIsToldToEndInAMissionDoesSoInOrderAndOffersTheMissionAgain) {
+  const Emulator emulator(fresh_folder("slow"), source_file("config/worlds/corridor.yaml"),
+                          source_file("config/robots/sim.yaml"), 1, 1.0);
+  const fs::path folder = fresh_folder("told");
+  std::string output;
+  {
+    Daemon robot(emulator.robot(0), folder);
+    ASSERT_EQ(seeker(robot, {"goto", "--detach", "6,0"}, &output), 0) << output;
+    robot.process->send(SIGTERM);
+    EXPECT_EQ(robot.process->wait(seconds(30)), 0) << robot.process->output();
+    EXPECT_NE(robot.process->output().find("motion first"), std::string::npos) << robot.process->output();
+  }
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder / "state")) {
+    EXPECT_NE(entry.path().extension(), ".db-wal") << entry.path();
+  }
+  const Daemon again(emulator.robot(0), folder);
+  ASSERT_EQ(seeker(again, {"status"}, &output), 0) << output;
+  EXPECT_NE(output.find("'seeker resume' goes on with it"), std::string::npos) << output;
+  EXPECT_NE(again.process->output().find("was cut off when the program ended"), std::string::npos);
+}
+
+TEST(EmulatorProcesses, AWorldThatDiesIsAFaultOfARobotThatStandsBy) {
+  std::string output;
+  Emulator emulator;
+  const Daemon robot(emulator.robot(0));
+  emulator.process->send(SIGKILL);
+  EXPECT_EQ(emulator.process->wait(seconds(10)), 128 + SIGKILL);
+  while (output.find("cannot be reached") == std::string::npos) {
+    ASSERT_EQ(seeker(robot, {"status"}, &output), 0) << output;
+  }
+  EXPECT_NE(seeker(robot, {"goto", "1,1"}, &output), 0);
+  EXPECT_NE(output.find("seeker-emulator runs"), std::string::npos) << output;
+  ASSERT_EQ(seeker(robot, {"components"}, &output), 0) << output;
+  EXPECT_NE(output.find("ERROR"), std::string::npos) << output;
+}
+
 TEST(EmulatorProcesses, ARobotWithoutAWorldSaysWhatToStart) {
   const fs::path folder = fresh_folder("nobody");
   ChildProcess robot(program("seekerd"),

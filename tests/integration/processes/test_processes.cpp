@@ -105,6 +105,8 @@ TEST(Processes, ServerKilledInTheMissionOffersItAgainAndStaysDisarmed) {
   ASSERT_TRUE(status);
   EXPECT_FALSE(status->motors_armed);
   EXPECT_FALSE(status->mission.has_value());
+  ASSERT_TRUE(status->cut_off);
+  EXPECT_EQ(status->cut_off->kind, "search");
   const Status resumed = rpc::wait<void>(
       [&](auto reply) { client->command_mission(api::MissionCommand::kResume, std::move(reply)); }, kCall);
   EXPECT_TRUE(resumed) << resumed.error().message;
@@ -118,10 +120,10 @@ TEST(Processes, TerminationIsOrderlyAndWrongConfigurationHasItsOwnCode) {
                      daemon.folder() / "wrong");
   EXPECT_EQ(wrong.wait(seconds(20)), 78);
   EXPECT_NE(wrong.output().find("sim.sped"), std::string::npos) << wrong.output();
-}
-
   ChildProcess loud(program("seekerd"), {"--log-level", "loud"}, daemon.folder() / "loud");
   EXPECT_EQ(loud.wait(seconds(20)), 2);
+}
+
 /// The laser of the robot whose logs these are.
 const std::vector<std::string> kLaserOfTrace0 = {
     "--set", "replay.laser.angle_min_deg=-135", "--set", "replay.laser.angle_step_deg=0.351562",

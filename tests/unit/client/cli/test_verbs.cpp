@@ -39,7 +39,7 @@ class Verbs : public ::testing::Test, public CliFixture {
 
 TEST_F(Verbs, ReportsAreOneJsonDocumentWithTheDocumentedKeys) {
   const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> cases{
-      {{"status"}, {"robot_id", "status", "pose", "quality", "estop", "faults", "mission"}},
+      {{"status"}, {"robot_id", "status", "pose", "quality", "estop", "faults", "mission", "cut_off"}},
       {{"components"}, {"components", "state", "rate_hz"}},
       {{"detections"}, {"detections", "target", "position", "sigma_m", "range_source"}},
       {{"grid"}, {"searched", "unsearched", "unreachable", "coverage", "gaps"}},
@@ -58,6 +58,14 @@ TEST_F(Verbs, ReportsAreOneJsonDocumentWithTheDocumentedKeys) {
       EXPECT_NE(ran.out.find("\"" + key + "\":"), std::string::npos) << verb[0] << " " << key << " in " << ran.out;
     }
   }
+}
+
+TEST_F(Verbs, AMissionThatWasCutOffIsPartOfTheStatus) {
+  EXPECT_EQ(run({"status"}).out.find("cut off"), std::string::npos);
+  host->edit([](testing::FakeRobotValues& v) { v.status.cut_off = api::CutOffMission{"round-1", "explore"}; });
+  EXPECT_NE(run({"status"}).out.find("round-1; 'seeker resume' goes on with it"), std::string::npos);
+  EXPECT_NE(run({"status", "--json"}).out.find("\"cut_off\":{\"id\":\"round-1\",\"kind\":\"explore\"}"),
+            std::string::npos);
 }
 
 TEST_F(Verbs, EveryErrorClassHasItsExitCodeAndOneSentence) {

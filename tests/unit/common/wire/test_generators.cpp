@@ -223,6 +223,9 @@ api::RobotStatus ValueMaker::status() {
     s.line_map = line_map();
   }
   if (flag()) {
+    s.cut_off = api::CutOffMission{text(), text()};
+  }
+  if (flag()) {
     s.timing = TickTiming{rng_.bits(), rng_.bits(), Duration(rng_.below(1'000'000'000))};
   }
   return s;
