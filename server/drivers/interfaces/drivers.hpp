@@ -53,6 +53,8 @@ class BaseDriver : public Driver {
   /// Holds the velocity until the next call or until the driver's own time-out has passed, then halts.
   [[nodiscard]] virtual Status set_velocity(const Twist2& velocity, RobotTime now) = 0;
   [[nodiscard]] virtual Status set_motors(bool enabled) = 0;
+  /// Whether it moves as it is told. kRefused says why it never does: a recording goes its own way.
+  [[nodiscard]] virtual Status drivable() const { return {}; }
 };
 
 class LidarDriver : public Driver {
@@ -95,6 +97,9 @@ class Clock {
   /// Waits at most `limit` of wall time for where advance() leads to, so that its caller can do other things meanwhile.
   /// False: not there yet. Clocks whose advance() itself waits are always there. kCancelled as above.
   [[nodiscard]] virtual Result<bool> await(Duration /*limit*/) { return true; }
+  /// Whether the world that the devices are in is there; the error says why not, and the time stands still meanwhile.
+  /// kCancelled: it never comes back. Only a world behind a link can be lost.
+  [[nodiscard]] virtual Status reachable() const { return {}; }
   /// True where the world stands still unless advance() is called.
   [[nodiscard]] virtual bool lockstep() const = 0;
   /// Where several robots share a world: it stands still from here until advance() or let_go(). Devices are read and

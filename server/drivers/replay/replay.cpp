@@ -27,7 +27,8 @@ double front_laser_view_rad(std::size_t beams) {
 }
 
 tl::unexpected<Error> refused() {
-  return fail(Errc::kRefused, "a replayed robot cannot be driven; use the simulator or hardware to move");
+  return fail(Errc::kRefused,
+              "this robot replays a log, which cannot be driven; use the simulator or hardware to move");
 }
 
 }  // namespace
@@ -165,6 +166,8 @@ Status ReplayClock::advance(Duration period) {
 Status ReplayBase::set_velocity(const Twist2& velocity, RobotTime /*now*/) {
   return velocity == Twist2{} ? Status{} : Status(refused());
 }
+
+Status ReplayBase::drivable() const { return refused(); }
 
 Status ReplayBase::set_motors(bool enabled) { return enabled ? Status(refused()) : Status{}; }
 

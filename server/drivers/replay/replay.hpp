@@ -93,6 +93,7 @@ class ReplayBase final : public BaseDriver {
   [[nodiscard]] Result<std::optional<OdometrySample>> read() override { return source_->take_odometry(); }
   [[nodiscard]] Status set_velocity(const Twist2& velocity, RobotTime now) override;
   [[nodiscard]] Status set_motors(bool enabled) override;
+  [[nodiscard]] Status drivable() const override;
 
  private:
   std::shared_ptr<ReplaySource> source_;

@@ -282,6 +282,7 @@ TEST(Replay, RefusesToDriveAndFilesThatAreNoLogs) {
   EXPECT_EQ(base.set_velocity({0.1, 0.0}, {}).error().code, Errc::kRefused);
   EXPECT_TRUE(base.set_velocity({}, {}));
   EXPECT_EQ(base.set_motors(true).error().code, Errc::kRefused);
+  EXPECT_EQ(base.drivable().error().code, Errc::kRefused);
   EXPECT_EQ(ReplaySource::open("/nonexistent/file.clf").error().code, Errc::kNotFound);
   const TemporaryLog noise("noise", "hello\nworld 1 2 3\n");
   EXPECT_EQ(ReplaySource::open(noise.path()).error().code, Errc::kParse);
