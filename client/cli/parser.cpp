@@ -336,7 +336,7 @@ void add_reports(Parse& parse) {
   grab->add_option("--out", c->out, "File to write (default CAMERA.png)");
   auto [components, r] = add_verb<ComponentsVerb>(parse, parse.app, "components", "The robot's parts and their state",
                                                   "seeker components --restart camera");
-  components->add_option("--restart", r->restart, "Restart this component; motion stays disarmed until armed again");
+  components->add_option("--restart", r->restart, "Restart this component; a running mission is paused");
 }
 
 void add_rest(Parse& parse) {

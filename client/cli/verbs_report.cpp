@@ -104,7 +104,8 @@ VerbResult show_components(const Context& context, const ComponentsVerb& verb) {
     if (!ok) {
       return tl::unexpected<Error>(ok.error());
     }
-    say(context, "restarted " + verb.restart + "; motion stays disarmed until it is armed again");
+    say(context,
+        "restarted " + verb.restart + "; the motors are off until a mission starts or is resumed, or somebody drives");
   }
   const auto components = ask<std::vector<api::ComponentInfo>>(context, &api::RobotApi::list_components);
   if (!components) {

@@ -1,6 +1,7 @@
 #include "server/app/components.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/core/assert.hpp"
 
@@ -85,6 +86,25 @@ void Components::set_error(const std::string& name, const std::string& message) 
   }
 }
 
+void Components::hold_up(const std::string& kind, const std::string& message) {
+  for (Entry& entry : entries_) {
+    if (entry.info.kind == kind && entry.info.state == api::ComponentState::kActive) {
+      entry.held_up = true;
+      entry.info.state = api::ComponentState::kError;
+      entry.info.last_error = message;
+    }
+  }
+}
+
+void Components::go_on() {
+  for (Entry& entry : entries_) {
+    if (std::exchange(entry.held_up, false)) {
+      entry.info.state = api::ComponentState::kActive;
+      entry.info.last_error.clear();
+    }
+  }
+}
+
 bool Components::active(const std::string& name) const {
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return entry.info.name == name && entry.info.state == api::ComponentState::kActive;
@@ -95,7 +115,8 @@ std::vector<api::ComponentInfo> Components::list(RobotTime now) const {
   std::vector<api::ComponentInfo> infos;
   for (const Entry& entry : entries_) {
     api::ComponentInfo info = entry.info;
-    const bool fresh = entry.outputs.size() >= 2 && now - entry.outputs.back() <= kRateWindow;
+    const bool works = info.state == api::ComponentState::kActive;
+    const bool fresh = works && entry.outputs.size() >= 2 && now - entry.outputs.back() <= kRateWindow;
     const double span_s = fresh ? to_seconds(entry.outputs.back() - entry.outputs.front()) : 0.0;
     info.rate_hz = span_s > 0.0 ? static_cast<double>(entry.outputs.size() - 1) / span_s : 0.0;
     infos.push_back(std::move(info));

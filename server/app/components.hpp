@@ -33,6 +33,9 @@ class Components {
   /// One output was produced at `now` (for the rate).
   void count_output(const std::string& name, RobotTime now);
   void set_error(const std::string& name, const std::string& message);
+  /// Those of a kind that are active are in ERROR until go_on(): what they stand on is gone, not they.
+  void hold_up(const std::string& kind, const std::string& message);
+  void go_on();
   [[nodiscard]] bool active(const std::string& name) const;
   [[nodiscard]] std::vector<api::ComponentInfo> list(RobotTime now) const;
 
@@ -41,6 +44,7 @@ class Components {
     api::ComponentInfo info;
     ComponentHooks hooks;
     std::vector<RobotTime> outputs;  ///< stamps of the newest outputs, at most kRateSamples
+    bool held_up = false;
   };
 
   void activate(Entry& entry);

@@ -11,12 +11,18 @@ bool FaultList::raise(api::Fault fault) {
     return true;
   }
   same->message = std::move(fault.message);
+  same->remedy = std::move(fault.remedy);
   same->severity = fault.severity;
   return false;
 }
 
 bool FaultList::clear(const std::string& id) {
   return std::erase_if(faults_, [&](const api::Fault& f) { return f.id == id; }) > 0;
+}
+
+std::optional<api::Fault> FaultList::find(const std::string& id) const {
+  const auto found = std::find_if(faults_.begin(), faults_.end(), [&](const api::Fault& f) { return f.id == id; });
+  return found == faults_.end() ? std::nullopt : std::optional(*found);
 }
 
 const api::Fault* FaultList::blocking() const {

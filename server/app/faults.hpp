@@ -2,6 +2,7 @@
 /// What is wrong with the robot now.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ class FaultList {
   bool raise(api::Fault fault);
   /// True when it was there.
   bool clear(const std::string& id);
+  [[nodiscard]] std::optional<api::Fault> find(const std::string& id) const;
   [[nodiscard]] const std::vector<api::Fault>& all() const { return faults_; }
   /// The first fault that forbids motion (kError or worse); null when there is none.
   [[nodiscard]] const api::Fault* blocking() const;

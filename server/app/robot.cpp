@@ -327,7 +327,7 @@ void Robot::run(bool wait_for_client) {
       loop_.tick(std::chrono::steady_clock::now());
     }
     // The others in a shared world may be slow, or the way there cut: clients are served meanwhile.
-    while (!mailbox_.closed() && !loop_.await(kAwaitSlice)) {
+    while (!mailbox_.closed() && !loop_.await(kAwaitSlice, std::chrono::steady_clock::now())) {
       mailbox_.run_pending();
     }
     now_ns_ = loop_.now().time_since_epoch().count();

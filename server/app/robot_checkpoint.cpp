@@ -105,6 +105,9 @@ Status RobotLoop::resume_in_map(const Result<LineMap>& map, const MapIdentity& i
   if (!unfinished_) {
     return fail(Errc::kNotReady, "no mission was cut off");
   }
+  if (Status able = able_to(unfinished_->task); !able) {
+    return able;
+  }
   const Status usable = map ? validate(*map) : Status(tl::unexpected<Error>(map.error()));
   if (!usable) {
     if (usable.error().code != Errc::kNotFound) {  // not found: cut off before there was one

@@ -52,6 +52,9 @@ Status RobotLoop::command_mission(api::MissionCommand command, const std::string
     const Result<api::MissionId> again = start_mission(api::MissionRequest(*unfinished_), client);
     return again ? Status() : Status(tl::unexpected<Error>(again.error()));
   }
+  if (const Status able = within_reach(); resume && !able) {
+    return able;
+  }
   const Status done = missions_.command(command, now());
   if (done && resume) {
     authority_.arm();
@@ -92,6 +95,12 @@ Result<api::LeaseState> RobotLoop::command_lease(const std::string& client, api:
 }
 
 Status RobotLoop::drive(const std::string& client, const api::DriveCommand& command) {
+  if (const Status drivable = parts_.devices.base->drivable(); !drivable) {
+    return drivable;
+  }
+  if (const Status able = within_reach(); !able) {
+    return able;
+  }
   if (!realtime()) {
     return fail(Errc::kRefused,
                 "the robot's clock runs at another speed than 1, so it cannot be driven by hand; start "
@@ -110,8 +119,12 @@ Status RobotLoop::drive(const std::string& client, const api::DriveCommand& comm
 Status RobotLoop::restart_component(const std::string& name) {
   const Status ok = components_.restart(name);
   if (ok) {
-    // What moves the robot may have changed: it stays disarmed until somebody arms it again on purpose.
+    // What moves the robot may have changed: it stays disarmed until somebody moves it again on purpose.
     authority_.disarm();
+    if (name == "base") {
+      motors_on_ = false;  // as the base begins; no tick may have told it so
+      odom_T_restart_ = odometry_ ? std::optional(odometry_->odom_T_base) : std::nullopt;
+    }
     missions_.pause(now(), name + " was restarted; resume the mission when the way is clear");
     for (const char* fault : {"-failed", "-invalid", "-silent", "-refused"}) {
       clear(name + fault);

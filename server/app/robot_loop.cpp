@@ -126,8 +126,9 @@ void RobotLoop::tick(WallTime wall_now) {
   }
 }
 
-bool RobotLoop::await(Duration limit) {
+bool RobotLoop::await(Duration limit, WallTime wall_now) {
   const Result<bool> there = parts_.devices.clock->await(limit);
+  watch_world(wall_now);
   if (!there) {
     end_source(there.error());
   }
@@ -139,6 +140,8 @@ void RobotLoop::end_source(const Error& error) {
     return;
   }
   ended_ = true;
+  const api::Fault* fault = faults_.blocking();
+  missions_.end(api::Outcome::kFault, error.message, fault != nullptr ? fault->remedy : "", now());
   const std::string summary = parts_.devices.summary ? parts_.devices.summary() : "";
   log("source-ended", summary.empty() ? error.message : summary);
   republish_ = true;
@@ -196,6 +199,9 @@ void RobotLoop::look() {
     return;
   }
   Result<CameraFrame> frame = parts_.devices.camera->grab();
+  if (!frame && !world_there()) {
+    return;
+  }
   if (!frame) {
     raise("camera-failed", "camera", "camera: " + frame.error().message,
           "check the camera, then 'seeker components --restart camera'");
@@ -249,19 +255,21 @@ void RobotLoop::act(const Twist2& wanted) {
                 params_.safety);
   safety_reason_ = verdict.reason;
   command_ = verdict.allowed;
-  if (!components_.active("base")) {
+  if (!components_.active("base") || !parts_.devices.base->drivable()) {
     return;
   }
   if (arm != motors_on_) {
-    if (const Status ok = parts_.devices.base->set_motors(arm); ok) {
-      motors_on_ = arm;
+    if (const Status ok = parts_.devices.base->set_motors(arm); !ok) {
+      base_refused(ok.error());
+      return;
     }
+    motors_on_ = arm;
   }
   if (!motors_on_ && command_ == Twist2{}) {
     return;
   }
-  if (const Status ok = parts_.devices.base->set_velocity(command_, now()); !ok && ok.error().code != Errc::kRefused) {
-    raise("base-refused", "base", "base: " + ok.error().message, "'seeker components --restart base'");
+  if (const Status ok = parts_.devices.base->set_velocity(command_, now()); !ok) {
+    base_refused(ok.error());
   }
 }
 

@@ -73,8 +73,9 @@ class RobotLoop {
   void start();
   /// One pass, at the end of which robot time has advanced by one period.
   void tick(WallTime wall_now);
-  /// Waits at most `limit` of wall time for the end of the tick in a world that others are in too. False: not yet.
-  [[nodiscard]] bool await(Duration limit);
+  /// Waits at most `limit` of wall time for the end of the tick in a world that others are in too. False: not yet. A
+  /// world that cannot be reached is a fault at once, and the end of a mission when it lasts.
+  [[nodiscard]] bool await(Duration limit, WallTime wall_now);
   /// See drivers::Clock: a shared world waits for this robot, or goes on without it.
   void hold_world() { parts_.devices.clock->hold(); }
   void let_world_go() { parts_.devices.clock->let_go(); }
@@ -175,6 +176,17 @@ class RobotLoop {
   const LaserScan* tell_estimator();
   void note_reading(const Status& status, const char* id);
   void end_source(const Error& error);
+  // What commands can reach (robot_reach.cpp).
+  /// False, a fault and drivers in ERROR while the world of the devices cannot be reached.
+  bool world_there();
+  void watch_world(WallTime wall_now);
+  /// Why the robot can do nothing now.
+  [[nodiscard]] Status within_reach() const;
+  /// Why it cannot do this mission, wherever it is.
+  [[nodiscard]] Status able_to(const api::MissionTask& task) const;
+  void base_refused(const Error& error);
+  /// The base counts its way anew from here: odometry goes on from where it was.
+  void continue_odometry(drivers::OdometrySample& sample);
   [[nodiscard]] Twist2 decide(WallTime wall_now);
   // The fleet (robot_fleet.cpp).
   void note_topology();
@@ -233,7 +245,9 @@ class RobotLoop {
 
   std::optional<drivers::OdometrySample> odometry_;
   OdometryHistory odometry_history_;
-  RobotTime told_odometry_;  ///< stamp of the last that the estimator got
+  std::optional<Pose2> odom_T_restart_;  ///< where the base was restarted, until it has told of itself again,
+  std::optional<Pose2> odom_T_counted_;  ///< and the frame in which it has counted since then
+  RobotTime told_odometry_;              ///< stamp of the last that the estimator got
   std::optional<LaserScan> scan_;
   std::optional<SonarScan> sonar_;
   bool fresh_odometry_ = false;
@@ -254,6 +268,7 @@ class RobotLoop {
   std::string safety_reason_;
   bool motors_on_ = false;
   bool ended_ = false;
+  std::optional<WallTime> world_lost_at_;  ///< since when it cannot be reached
   bool republish_ = false;
   std::optional<api::MissionRequest> unfinished_;
   bool resuming_ = false;  ///< unfinished_ goes on when the robot has found its place in its map

@@ -112,12 +112,17 @@ api::RobotStatus RobotLoop::status() const {
 }
 
 std::vector<std::string> RobotLoop::capabilities() const {
-  std::vector<std::string> words{"goto", "return", "drive"};
-  if (parts_.devices.stereo) {
-    words.insert(words.end(), {"survey", "localise", "camera:left", "camera:right"});
-  }
+  std::vector<std::string> words;
+  const bool drivable = parts_.devices.base->drivable().has_value();
+  const auto add = [&words](bool there, std::initializer_list<const char*> more) {
+    words.insert(words.end(), there ? more.begin() : more.end(), more.end());
+  };
+  add(drivable, {"goto", "return", "drive"});
+  add(parts_.devices.stereo && drivable, {"survey"});
+  add(parts_.devices.stereo != nullptr, {"localise", "camera:left", "camera:right"});
+  add(parts_.devices.camera && drivable, {"search"});
   if (parts_.devices.camera) {
-    words.insert(words.end(), {"search", "recognise", "camera:" + parts_.devices.camera_name});
+    words.insert(words.end(), {"recognise", "camera:" + parts_.devices.camera_name});
   }
   if (parts_.devices.lidar) {
     words.emplace_back("lidar");
@@ -125,9 +130,8 @@ std::vector<std::string> RobotLoop::capabilities() const {
   if (parts_.devices.sonar) {
     words.emplace_back("sonar");
   }
-  if (map_.has_segments()) {
-    words.insert(words.end(), {"line_map", "explore"});
-  }
+  add(map_.has_segments(), {"line_map"});
+  add(map_.has_segments() && drivable, {"explore"});
   return words;
 }
 

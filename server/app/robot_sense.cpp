@@ -30,6 +30,9 @@ void RobotLoop::read(Driver* driver, const std::string& name, Duration timeout, 
   }
   Result<std::optional<Sample>> sample = driver->read();
   const Status ok = !sample ? Status(tl::unexpected<Error>(sample.error())) : *sample ? check(**sample) : Status();
+  if (!ok && !world_there()) {
+    return;
+  }
   if (!ok) {
     raise(name + "-invalid", name, name + ": " + ok.error().message,
           "mend the device, then 'seeker components --restart " + name + "'");
@@ -52,6 +55,7 @@ void RobotLoop::read(Driver* driver, const std::string& name, Duration timeout, 
 void RobotLoop::sense() {
   read(parts_.devices.base.get(), "base", params_.base_timeout, odometry_, fresh_odometry_, last_odometry_);
   if (fresh_odometry_) {
+    continue_odometry(*odometry_);
     odometry_history_.add(*odometry_);
   }
   read(parts_.devices.lidar.get(), "lidar", params_.lidar_timeout, scan_, fresh_scan_, last_scan_);

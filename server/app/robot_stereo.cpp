@@ -45,7 +45,7 @@ void RobotLoop::take_look() {
 void RobotLoop::give_look(const Result<StereoLook>& look) {
   if (look) {
     clear("stereo-failed");
-  } else {
+  } else if (world_there()) {
     raise("stereo-failed", "stereo", "stereo camera: " + look.error().message,
           "check the camera, then 'seeker components --restart stereo'", api::Severity::kWarning);
   }

@@ -174,6 +174,7 @@ class EmulatorClock final : public Clock {
     return {};
   }
   [[nodiscard]] Result<bool> await(Duration limit) override { return link_->await(limit); }
+  [[nodiscard]] Status reachable() const override { return link_->reachable(); }
   void hold() override {
     v1::EmulatorRequest request;
     request.set_hold(true);

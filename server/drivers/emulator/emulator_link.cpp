@@ -142,7 +142,7 @@ Status EmulatorLink::take_welcome(const v1::EmulatorReply& reply) {
     return check.status();
   }
   if (world_id_ && *world_id_ != reply.welcome().world_id()) {
-    ended_ = Error{Errc::kCancelled, "the emulator was started anew and this robot's world is gone; restart seekerd"};
+    ended_ = Error{Errc::kCancelled, "the emulator was started anew and this robot's world is gone"};
     return tl::unexpected<Error>(*ended_);
   }
   world_id_ = reply.welcome().world_id();
@@ -170,9 +170,16 @@ void EmulatorLink::lose(const Error& error) {
   }
 }
 
+Status EmulatorLink::reachable() const {
+  if (ended_) {
+    return tl::unexpected<Error>(*ended_);
+  }
+  return state_ == State::kUp ? Status() : fail_with_context("the simulated world cannot be reached", why_down_);
+}
+
 Result<v1::EmulatorReply> EmulatorLink::call(v1::EmulatorRequest request) {
-  if (state_ != State::kUp) {
-    return fail_with_context("the simulated world cannot be reached", why_down_);
+  if (const Status there = reachable(); !there) {
+    return tl::unexpected<Error>(there.error());
   }
   send(request);
   last_call_ = last_id_;
@@ -181,7 +188,7 @@ Result<v1::EmulatorReply> EmulatorLink::call(v1::EmulatorRequest request) {
     lose({Errc::kTimeout, "the emulator does not answer"});
   }
   if (!answer_) {
-    return fail_with_context("the simulated world cannot be reached", why_down_);
+    return tl::unexpected<Error>(reachable().error());
   }
   if (const Status done = wire::status_of(answer_->error()); !done) {
     return tl::unexpected<Error>(done.error());

@@ -47,6 +47,8 @@ class EmulatorLink {
   /// anew. kCancelled: another run of the emulator has taken the place of the one this robot was in.
   [[nodiscard]] Result<bool> await(Duration limit);
 
+  /// Why the world cannot be reached now. kCancelled: it never comes back.
+  [[nodiscard]] Status reachable() const;
   [[nodiscard]] RobotTime now() const { return now_; }
   [[nodiscard]] bool lockstep() const { return lockstep_; }
   [[nodiscard]] double speed() const { return speed_; }

@@ -181,7 +181,11 @@ TEST(EmulatorLink, ComesBackAfterACut) {
   ASSERT_TRUE(robot.base->activate());
   other.clock->let_go();
   next_tick(*robot.clock);
+  EXPECT_TRUE(robot.clock->reachable());
   proxy.cut();
+  while (robot.base->read()) {
+  }
+  EXPECT_EQ(robot.clock->reachable().error().code, Errc::kLinkLost);
   next_tick(*robot.clock);  // is cut, connects again, and is in the same world
   next_tick(*robot.clock);
   EXPECT_GE(robot.clock->now(), RobotTime() + 200ms);
@@ -201,6 +205,7 @@ TEST(EmulatorLink, DoesNotGoOnInAnotherWorld) {
   }
   ASSERT_FALSE(there);
   EXPECT_EQ(there.error().code, Errc::kCancelled);
+  EXPECT_EQ(robot.clock->reachable().error().code, Errc::kCancelled);
 }
 
 TEST(EmulatorLink, SaysWhatToStartWhereNobodyAnswers) {
