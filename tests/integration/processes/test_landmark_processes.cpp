@@ -32,7 +32,7 @@ TEST(LandmarkProcesses, ARobotThatWasSwitchedOffFindsItsPlaceInTheSurveyedLabora
     ASSERT_EQ(seeker(daemon, {"survey", "lab", "--at", "0,0"}, &output), 0) << output;
     EXPECT_NE(output.find("12 looks are kept as 'lab'"), std::string::npos) << output;
     ASSERT_EQ(seeker(daemon, {"localise", "lab"}, &output), 0) << output;
-    EXPECT_EQ(output.find("map load"), std::string::npos) << "the map of the survey is still in use: " << output;
+    EXPECT_EQ(output.find("surveyed in"), std::string::npos) << "the map of the survey is still in use: " << output;
     EXPECT_EQ(seeker(daemon, {"survey", "lab"}, &output), 3) << "an existing database is not replaced: " << output;
     EXPECT_EQ(seeker(daemon, {"landmarks", "verify", "lab"}, &output), 0) << output;
     EXPECT_EQ(seeker(daemon, {"landmarks", "export", "lab", folder / "lab.csv"}, &output), 0) << output;
