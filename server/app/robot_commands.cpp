@@ -88,7 +88,8 @@ Result<api::LeaseState> RobotLoop::command_lease(const std::string& client, api:
   if (state && state->owner != before) {
     log("lease", state->owner.empty() ? "the lease is free" : "'" + state->owner + "' holds the lease");
   }
-  if (state && state->owner == client && action != api::LeaseAction::kRelease) {
+  const bool to_drive = action != api::LeaseAction::kRelease && parts_.devices.base->drivable();
+  if (state && state->owner == client && to_drive) {
     authority_.arm();
   }
   return state;

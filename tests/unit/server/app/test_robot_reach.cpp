@@ -159,6 +159,8 @@ TEST_F(RobotReach, ARecordingIsNotCommanded) {
   EXPECT_EQ(refused.error().message, "it is a recording");
   EXPECT_EQ(start("second", api::ExploreMission{}).error().code, Errc::kRefused);
   EXPECT_EQ(loop->drive("tester", {}).error().message, "it is a recording");
+  ASSERT_TRUE(loop->command_lease("tester", api::LeaseAction::kAcquire));
+  EXPECT_FALSE(loop->status().motors_armed);
   const std::vector<std::string> can = loop->capabilities();
   EXPECT_EQ(std::count(can.begin(), can.end(), "goto"), 0);
   EXPECT_EQ(std::count(can.begin(), can.end(), "lidar"), 1);
@@ -169,6 +171,16 @@ TEST_F(RobotReach, ARecordingIsNotCommanded) {
   EXPECT_TRUE(start("third", recognise)) << "it only looks";
   ticks(3);
   EXPECT_TRUE(loop->status().faults.empty());
+}
+
+TEST_F(RobotReach, ARecordingIsLookedForInItsMapWhileItMoves) {
+  ASSERT_TRUE(go("first"));
+  ticks(10);
+  base->recording = true;  // it goes its way, whatever it is told
+  loop->stop();
+  ASSERT_GT(loop->status().velocity.v_m_s, 0.1);
+  const Status looked_for = loop->relocalise(std::nullopt);
+  EXPECT_TRUE(looked_for) << looked_for.error().message;
 }
 
 TEST_F(RobotReach, ALostWorldIsAFaultAtOnceAndGoneWithItsCause) {
