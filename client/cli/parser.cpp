@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -7,6 +9,7 @@
 
 #include "client/cli/command_line.hpp"
 #include "client/cli/names.hpp"
+#include "common/config/number_text.hpp"
 
 namespace seeker::cli {
 namespace {
@@ -42,9 +45,10 @@ void add_globals(Parse& parse) {
   app.add_flag("--json", global.json, "Print data as JSON");
   app.add_option("--timeout", global.timeout_s,
                  "Longest wall time in s: for an answer (default 5), or for the whole of a mission, watch and run")
-      ->check(CLI::PositiveNumber);
+      ->check(config::number_above_zero, "above 0");
   CLI::Option* quiet = app.add_flag("-q,--quiet", global.quiet, "No progress and no messages except errors");
   app.add_flag("-v,--verbose", global.verbose, "Every event of the robot as a message")->excludes(quiet);
+  app.set_version_flag("--version", "", "As the verb version");
   app.require_subcommand(1);
   app.footer(
       "Data go to stdout, messages and progress to stderr. NO_COLOR switches colours off.\n"
@@ -55,7 +59,8 @@ void add_globals(Parse& parse) {
 /// What every mission has; the option --detach.
 template <class Verb>
 CLI::Option* add_mission_options(CLI::App& sub, Verb& verb) {
-  sub.add_option("--time-limit", verb.time_limit_s, "Longest robot time, s")->check(CLI::PositiveNumber);
+  sub.add_option("--time-limit", verb.time_limit_s, "Longest robot time, s")
+      ->check(config::number_above_zero, "above 0");
   sub.add_option("--link-policy", verb.link_policy, "What the robot does when this client is gone")
       ->check(CLI::IsMember({"stop", "finish-step", "continue", "return"}))
       ->capture_default_str();
@@ -73,12 +78,12 @@ void add_target_options(CLI::App& sub, TargetOptions& o) {
   sub.add_option("--recogniser", o.recogniser, "How targets with a picture are recognised; else as their files say")
       ->check(CLI::IsMember({"template", "features"}));
   sub.add_option("--width", o.width_m, "Width of targets given as pictures, m (default 0.4), or of the solids (0.2)")
-      ->check(CLI::PositiveNumber);
+      ->check(config::number_above_zero, "above 0");
   sub.add_option("--height", o.height_m, "Height of targets given as pictures, m (default 0.4), or of the solids (0.2)")
-      ->check(CLI::PositiveNumber);
+      ->check(config::number_above_zero, "above 0");
   sub.add_option("--depth", o.depth_m,
                  "Depth of targets given as pictures, m (default 0: flat), or of the solids (0.2)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(config::number_from_zero, "0 or above");
   sub.parse_complete_callback([&o] {
     if (o.targets.empty() && o.solids.empty()) {
       throw CLI::RequiredError("--target or --solid");
@@ -141,7 +146,9 @@ void add_goto(Parse& parse) {
                                      "seeker goto 3,4.5 6,2 --heading 90\n  seeker goto --home\n"
                                      "Ctrl-C asks the robot to stop the mission before the program ends.");
   CLI::Option* points = sub->add_option("points", o->points, "Points X,Y in m");
-  sub->add_option("--heading", o->heading_deg, "Heading at the last point, degrees")->needs(points);
+  sub->add_option("--heading", o->heading_deg, "Heading at the last point, degrees")
+      ->check(config::finite_number)
+      ->needs(points);
   repeatable(sub->add_option("--keep-out", o->keep_out, "Never enter: corners \"x,y x,y ...\" or @FILE; repeatable"));
   sub->add_flag("--home", o->home, "Return to where the robot was started")->excludes(points);
   add_mission_options(*sub, *o);
@@ -243,10 +250,14 @@ void add_motion(Parse& parse) {
   auto [drive, d] = add_verb<DriveVerb>(
       parse, parse.app, "drive", "Drive by hand: a velocity for some seconds, or the keyboard while a key is held",
       "seeker drive 0.2 0 --for 3\n  seeker drive          (keyboard: arrows or w a s d, space stops, q ends)");
-  CLI::Option* v = drive->add_option("v", d->v_m_s, "Forward velocity, m/s");
-  CLI::Option* omega = drive->add_option("omega", d->omega_rad_s, "Turn rate, rad/s, positive to the left");
+  CLI::Option* v = drive->add_option("v", d->v_m_s, "Forward velocity, m/s")->check(config::finite_number);
+  CLI::Option* omega = drive->add_option("omega", d->omega_rad_s, "Turn rate, rad/s, positive to the left")
+                           ->check(config::finite_number);
   v->needs(omega);
-  drive->add_option("--for", d->for_s, "Seconds to drive")->check(CLI::Range(0.1, 600.0))->capture_default_str();
+  drive->add_option("--for", d->for_s, "Seconds to drive")
+      ->check(CLI::Range(0.1, 600.0))
+      ->check(config::finite_number)
+      ->capture_default_str();
   drive->add_flag("--take-over", d->take_over, "Take the lease from its present owner");
   add_verb<StopVerb>(parse, parse.app, "stop", "End mission and motion", "seeker stop");
   auto [estop, e] = add_verb<EstopVerb>(parse, parse.app, "estop", "Emergency stop: latches until it is released",
@@ -319,7 +330,7 @@ void add_reports(Parse& parse) {
       ->check(CLI::IsMember(
           {"status", "scan", "sonar", "tiles", "grid", "image", "mission", "event", "detection", "segments"}));
   watch->add_option("--rate", w->rate_hz, "Highest rate of each topic, Hz")
-      ->check(CLI::PositiveNumber)
+      ->check(config::number_above_zero, "above 0")
       ->capture_default_str();
   add_maps(parse);
   auto [grid, g] = add_verb<GridVerb>(parse, parse.app, "grid", "What was searched, what was not, and the gaps",
@@ -385,7 +396,7 @@ CommandTree tree_of(const CLI::App& app) {
       tree.words = values;
       continue;
     }
-    CommandTree::Option entry{{}, option->get_description(), option->get_type_size() != 0, values};
+    CommandTree::Option entry{{}, option->get_description(), option->get_items_expected_max() != 0, values};
     for (const std::string& name : option->get_lnames()) {
       entry.names.push_back("--" + name);
     }
@@ -400,17 +411,39 @@ CommandTree tree_of(const CLI::App& app) {
   return tree;
 }
 
-/// The first word that could be a verb and is none; CLI11 would only say that one is missing.
+/// The first word, when it is no verb; CLI11 would only say that one is missing. Options before it are passed over with
+/// their values.
 std::optional<std::string> unknown_verb(const CLI::App& app, const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments.front().starts_with('-')) {
-    return std::nullopt;
-  }
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (sub->get_name() == arguments.front()) {
+  for (auto word = arguments.begin(); word != arguments.end(); ++word) {
+    if (!word->starts_with('-')) {
+      const bool known = !app.get_subcommands([&](const CLI::App* sub) { return sub->get_name() == *word; }).empty();
+      return known ? std::nullopt : std::optional<std::string>(*word);
+    }
+    const std::size_t equals = word->find('=');
+    const CLI::Option* option = app.get_option_no_throw(word->substr(0, equals));
+    if (option == nullptr || option == app.get_help_ptr() || option == app.get_version_ptr()) {
       return std::nullopt;
     }
+    if (option->get_items_expected_max() != 0 && equals == std::string::npos && std::next(word) != arguments.end()) {
+      ++word;
+    }
   }
-  return arguments.front();
+  return std::nullopt;
+}
+
+/// What CLI11 says as a sentence of ours, with where to read on.
+std::string sentence_of(const CLI::App& app, const CLI::ParseError& error) {
+  std::string text = error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  if (text.size() > 1 && std::isupper(static_cast<unsigned char>(text[1])) == 0) {
+    text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  }
+  std::string words = "seeker";
+  for (const CLI::App* verb = &app; !verb->get_subcommands().empty();) {
+    verb = verb->get_subcommands().front();
+    words += " " + verb->get_name();
+  }
+  return text + "; see " + words + " --help";
 }
 
 }  // namespace
@@ -419,21 +452,29 @@ ParsedCommandLine parse_command_line(const std::vector<std::string>& arguments) 
   Parse parse;
   build(parse);
   ParsedCommandLine result;
+  // Looked for by hand: what is wrong may stand before it.
+  result.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
   if (const auto verb = unknown_verb(parse.app, arguments)) {
     result.exit_code = ExitCode::kUsage;
-    result.err = "there is no verb '" + *verb + "'; seeker --help lists them\n";
+    result.err = "there is no verb '" + *verb + "'; seeker --help lists them";
     return result;
   }
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
   try {
     parse.app.parse(reversed);
+  } catch (const CLI::CallForVersion&) {
+    parse.global.json = result.json;
+    parse.verb = VersionVerb{};
   } catch (const CLI::ParseError& error) {
-    std::ostringstream out;
-    std::ostringstream err;
     // CLI11's own codes (104..109 and more) would say nothing to a script.
-    result.exit_code = parse.app.exit(error, out, err) == 0 ? ExitCode::kOk : ExitCode::kUsage;
-    result.out = out.str();
-    result.err = err.str();
+    result.exit_code = error.get_exit_code() == 0 ? ExitCode::kOk : ExitCode::kUsage;
+    if (result.exit_code == ExitCode::kOk) {
+      std::ostringstream out;
+      parse.app.exit(error, out, out);
+      result.out = out.str();
+    } else {
+      result.err = sentence_of(parse.app, error);
+    }
     return result;
   }
   if (parse.verb) {

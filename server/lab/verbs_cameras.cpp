@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/config/number_text.hpp"
 #include "server/lab/calibrate_command.hpp"
 #include "server/lab/solids_study.hpp"
 #include "server/lab/survey_command.hpp"
@@ -16,7 +17,9 @@ Verb add_calibrate(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("calibrate", "A stereo camera from pairs of pictures of a chessboard");
   verb->add_option("folder", o->files.folder, "Folder with the pairs")->required();
   verb->add_option("--board", *board, "Inner corners of the board, COLUMNSxROWS")->capture_default_str();
-  verb->add_option("--square", o->board.square_m, "Side of a square, m")->required()->check(CLI::PositiveNumber);
+  verb->add_option("--square", o->board.square_m, "Side of a square, m")
+      ->required()
+      ->check(config::number_above_zero, "above 0");
   verb->add_option("--out", o->out, "Calibration file to write (OpenCV YAML)")->required();
   verb->add_option("--left", o->files.left_pattern, "Names of left pictures")->capture_default_str();
   verb->add_option("--right", o->files.right_pattern, "Names of right pictures")->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/config/number_text.hpp"
 #include "common/image/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/experiment.hpp"
@@ -74,7 +75,7 @@ void add_search_options(CLI::App& verb, SearchOptions& o) {
       ->check(CLI::IsMember({"stop", "approach", "continue"}))
       ->capture_default_str();
   verb.add_option("--time-limit", o.time_limit_s, "Longest robot time of a run, s")
-      ->check(CLI::PositiveNumber)
+      ->check(config::number_above_zero, "above 0")
       ->capture_default_str();
   verb.add_flag("--pictures", o.pictures, "A picture of the map beside every new run");
   verb.add_flag("--explore", o.explore, "Map the building too; targets are scored after laying the map on its walls");

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/config/number_text.hpp"
 #include "common/image/files.hpp"
 #include "server/lab/experiment.hpp"
 #include "server/lab/explore_experiment.hpp"
@@ -39,14 +40,14 @@ void add_options(CLI::App& verb, ExploreOptions& o) {
       ->check(CLI::IsMember(explore_strategies()))
       ->capture_default_str();
   verb.add_option("--time-limit", o.time_limit_s, "Longest robot time of a run, s")
-      ->check(CLI::PositiveNumber)
+      ->check(config::number_above_zero, "above 0")
       ->capture_default_str();
   verb.add_option("--bound", o.bound,
                   "Explore inside this polygon only: X,Y,X,Y,... in m from the start, x ahead of it")
       ->delimiter(',');
   verb.add_flag("--return-to-start", o.return_to_start, "Drive back when all is explored");
   verb.add_option("--wall-near", o.wall_near_m, "A wall counts as mapped when a segment is so near, m")
-      ->check(CLI::PositiveNumber)
+      ->check(config::number_above_zero, "above 0")
       ->capture_default_str();
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/config/number_text.hpp"
 #include "common/core/angle.hpp"
 #include "server/lab/lines_command.hpp"
 #include "server/lab/merge_command.hpp"
@@ -84,7 +85,7 @@ Verb add_score(CLI::App& app) {
       ->capture_default_str();
   verb->add_option("--odometry", o->odometry, "Log whose odometry carries poses between scans (else interpolated)");
   verb->add_option("--max-gap", o->params.max_gap_s, "A time without a pose this near is missed, s")
-      ->check(CLI::PositiveNumber)
+      ->check(config::number_above_zero, "above 0")
       ->capture_default_str();
   verb->add_flag("--exact-only", o->exact_only, "Only relations between scans that the log calls exactly stamped");
   verb->add_flag("--json", o->json, "Print JSON");
