@@ -198,7 +198,8 @@ struct ParsedCommandLine {
   std::optional<CommandLine> command;
   ExitCode exit_code = ExitCode::kOk;
   std::string out;
-  std::string err;
+  std::string err;    ///< what is wrong, as one sentence without prefix and end of line
+  bool json = false;  ///< --json is on it, also when the rest is wrong
 };
 
 /// `arguments` are those after the program's name; SEEKER_ROBOT gives the default of --robot.

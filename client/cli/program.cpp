@@ -129,7 +129,7 @@ class Dispatch {
       return fail_with_context(verb.file, ok.error());
     }
     if (verb.check) {
-      say(context_, verb.file + " is sound: " + std::to_string(script->steps.size()) + " steps");
+      print_check(context_, verb.file, *script);
       return ExitCode::kOk;
     }
     return with_robot([&] { return run_script(context_, *script, file.parent_path(), folders); }, true);
@@ -201,8 +201,14 @@ ExitCode report(const Context& context, const Error& error) {
 
 ExitCode run_program(const std::vector<std::string>& arguments, const Process& process, const Connector& connect) {
   const ParsedCommandLine parsed = parse_command_line(arguments);
+  if (!parsed.err.empty()) {
+    Context context;
+    context.out = process.out;
+    context.err = process.err;
+    context.json = parsed.json;
+    return report(context, Error{Errc::kInvalidArgument, parsed.err});
+  }
   *process.out << parsed.out << std::flush;
-  *process.err << parsed.err << std::flush;
   if (!parsed.command) {
     return parsed.exit_code;
   }

@@ -199,6 +199,14 @@ std::string unmet(const Expectation& expect, const Result<std::optional<MissionR
   return about_mission ? "no mission ended in this step, so nothing of one can be expected" : "";
 }
 
+void print_check(const Context& context, const std::string& file, const Script& script) {
+  if (context.json) {
+    print_steps(context, script, {}, true);
+  } else {
+    say(context, file + " is sound: " + std::to_string(script.steps.size()) + " steps");
+  }
+}
+
 VerbResult run_script(const Context& context, const Script& script, const std::filesystem::path& folder,
                       const std::vector<std::filesystem::path>& target_folders) {
   Player player(context, folder, target_folders);

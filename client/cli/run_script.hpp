@@ -24,6 +24,9 @@ struct StepReport {
 /// Checks an expectation. `result` is what the step did: its mission's report, nothing for other steps, or its error.
 [[nodiscard]] std::string unmet(const Expectation& expect, const Result<std::optional<MissionReport>>& result);
 
+/// Says that a script is sound, as JSON with the keys of one that was played but without steps.
+void print_check(const Context& context, const std::string& file, const Script& script);
+
 /// Plays the steps in order up to the first whose expectation fails; prints a line (or JSON) a step. kOk only when
 /// every expectation holds; Ctrl-C and a lost link end it with their own codes.
 [[nodiscard]] VerbResult run_script(const Context& context, const Script& script, const std::filesystem::path& folder,

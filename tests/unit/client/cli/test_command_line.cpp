@@ -65,6 +65,13 @@ TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
       {"completion", "tcsh"},
       {"--timeout", "0", "status"},
       {"-q", "-v", "status"},
+      {"--timeout", "nan", "status"},
+      {"--timeout", "inf", "status"},
+      {"watch", "--rate", "-1"},
+      {"goto", "1,2", "--heading", "nan"},
+      {"search", "--target", "a", "--depth", "nan"},
+      {"drive", "nan", "0"},
+      {"drive", "0.1", "0", "--for", "nan"},
   };
   for (const auto& arguments : wrong) {
     const ParsedCommandLine parsed = parse_command_line(arguments);
@@ -72,6 +79,32 @@ TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
     EXPECT_EQ(parsed.exit_code, ExitCode::kUsage) << (arguments.empty() ? "nothing" : arguments.back());
     EXPECT_FALSE(parsed.err.empty());
   }
+}
+
+TEST(CommandLine, WrongUseIsOneSentenceThatSaysWhereToReadOn) {
+  EXPECT_EQ(parse_command_line({"goto", "3,0", "--time-limit", "0"}).err,
+            "--time-limit: must be a number above 0, not '0'; see seeker goto --help");
+  EXPECT_EQ(parse_command_line({"status", "--bogus"}).err,
+            "the following argument was not expected: --bogus; see seeker status --help");
+  EXPECT_EQ(parse_command_line({"map", "info"}).err, "name is required; see seeker map info --help");
+}
+
+TEST(CommandLine, AWordThatIsNoVerbIsToldAlsoAfterOptions) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"foo"},
+                                                    {"--json", "foo"},
+                                                    {"--robot", "status", "foo"},
+                                                    {"--timeout=3", "-q", "foo"}}) {
+    EXPECT_EQ(parse_command_line(arguments).err, "there is no verb 'foo'; seeker --help lists them");
+  }
+  EXPECT_EQ(parse_command_line({"--help", "foo"}).exit_code, ExitCode::kOk);
+  EXPECT_EQ(parse_command_line({"--bogus", "foo"}).err.find("no verb"), std::string::npos);
+}
+
+TEST(CommandLine, TheOptionVersionIsTheVerbVersion) {
+  const ParsedCommandLine parsed = parse_command_line({"--version", "--json"});
+  ASSERT_TRUE(parsed.command) << parsed.err;
+  EXPECT_TRUE(std::holds_alternative<VersionVerb>(parsed.command->verb));
+  EXPECT_TRUE(parsed.command->global.json);
 }
 
 TEST(CommandLine, GlobalOptionsStandBeforeOrAfterTheVerb) {
@@ -101,6 +134,14 @@ TEST(CommandLine, RepeatableOptionsTakeOneValueEach) {
   const auto& search = std::get<SearchVerb>(parsed.command->verb);
   EXPECT_EQ(search.targets, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(search.keep_out.size(), 2U);
+}
+
+TEST(Completion, AFlagTakesNoValueAndAnOptionDoes) {
+  const CommandTree tree = command_tree();
+  for (const CommandTree::Option& option : tree.options) {
+    const std::string& name = option.names.front();
+    EXPECT_EQ(option.takes_value, name == "--robot" || name == "--timeout") << name;
+  }
 }
 
 TEST(Completion, NamesVerbsAndOptionsForEveryShell) {

@@ -102,6 +102,31 @@ TEST_F(Verbs, UsageErrorsAreFoundWithoutARobot) {
   EXPECT_NE(ran.err.find("there is no target 'nobody-knows-it'"), std::string::npos);
 }
 
+TEST_F(Verbs, WrongCommandLinesAreJsonWhereItIsAskedFor) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--json", "goto", "3,0", "--time-limit", "0"},
+        {"status", "--bogus", "--json"},
+        {"--json", "foo"},
+        {"--json"}}) {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_TRUE(is_json(ran.out)) << ran.out;
+    EXPECT_EQ(ran.out.rfind("{\"error\":{\"code\":\"invalid_argument\",", 0), 0U) << ran.out;
+    EXPECT_NE(ran.out.find("\"exit_code\":2"), std::string::npos) << ran.out;
+    EXPECT_EQ(ran.err.rfind("seeker: ", 0), 0U) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  }
+  EXPECT_EQ(run({"foo"}).out, "");
+}
+
+TEST_F(Verbs, ACheckedScriptIsADocumentWithJson) {
+  write("ok.yaml", "name: tea\nsteps:\n  - goto: {waypoints: [[1, 2]]}\n");
+  const Ran ran = run({"run", "--check", path("ok.yaml"), "--json"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.out, "{\"script\":\"tea\",\"ok\":true,\"steps_planned\":1,\"steps\":[]}\n");
+  EXPECT_NE(run({"run", "--check", path("ok.yaml")}).err.find("is sound: 1 steps"), std::string::npos);
+}
+
 TEST_F(Verbs, SearchReportsTheEndAndItsExitCode) {
   const std::vector<std::pair<api::Outcome, int>> outcomes{{api::Outcome::kTargetFound, 0},
                                                            {api::Outcome::kNotFoundAreaCovered, 6},
