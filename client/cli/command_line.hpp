@@ -1,5 +1,6 @@
 /// \file
-/// What the user asked for, as values. The parser behind it (CLI11) is in parser.cpp only.
+/// What the user asked for, as values. The parser behind it (CLI11) is in parser.cpp and
+/// parser_errors.cpp only.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "client/cli/command_line.hpp"
 #include "client/cli/names.hpp"
+#include "client/cli/parser_errors.hpp"
 #include "common/config/number_text.hpp"
 
 namespace seeker::cli {
@@ -409,41 +409,6 @@ CommandTree tree_of(const CLI::App& app) {
     tree.commands.push_back(tree_of(*sub));
   }
   return tree;
-}
-
-/// The first word, when it is no verb; CLI11 would only say that one is missing. Options before it are passed over with
-/// their values.
-std::optional<std::string> unknown_verb(const CLI::App& app, const std::vector<std::string>& arguments) {
-  for (auto word = arguments.begin(); word != arguments.end(); ++word) {
-    if (!word->starts_with('-')) {
-      const bool known = !app.get_subcommands([&](const CLI::App* sub) { return sub->get_name() == *word; }).empty();
-      return known ? std::nullopt : std::optional<std::string>(*word);
-    }
-    const std::size_t equals = word->find('=');
-    const CLI::Option* option = app.get_option_no_throw(word->substr(0, equals));
-    if (option == nullptr || option == app.get_help_ptr() || option == app.get_version_ptr()) {
-      return std::nullopt;
-    }
-    if (option->get_items_expected_max() != 0 && equals == std::string::npos && std::next(word) != arguments.end()) {
-      ++word;
-    }
-  }
-  return std::nullopt;
-}
-
-/// What CLI11 says as a sentence of ours, with where to read on.
-std::string sentence_of(const CLI::App& app, const CLI::ParseError& error) {
-  std::string text = error.what();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  if (text.size() > 1 && std::isupper(static_cast<unsigned char>(text[1])) == 0) {
-    text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
-  }
-  std::string words = "seeker";
-  for (const CLI::App* verb = &app; !verb->get_subcommands().empty();) {
-    verb = verb->get_subcommands().front();
-    words += " " + verb->get_name();
-  }
-  return text + "; see " + words + " --help";
 }
 
 }  // namespace
