@@ -50,18 +50,24 @@ void add_grid(image::MapScene& scene, const api::GridReport& grid) {
     scene.facts.emplace_back("searched", fixed("%.1f m\xC2\xB2", summary.covered_area_m2));
     scene.facts.emplace_back("mean probability", fixed("%.2f", summary.mean_probability));
   }
-  for (const api::Gap& gap : grid.evidence.gaps) {
-    scene.gaps.push_back({gap.centre, gap.area_m2, gap.reason});
-  }
+  scene.gaps = marks_of(grid.evidence.gaps);
 }
 
+bool is_search(const api::MissionStatus& mission) { return mission.kind == api::task_name(api::SearchMission{}); }
+
+bool is_exploration(const api::MissionStatus& mission) { return mission.kind == api::task_name(api::ExploreMission{}); }
+
+/// Only a search or an exploration is what the picture is of; after a drive or a survey it is the map that is shown.
 void add_status(image::MapScene& scene, const api::RobotStatus& status) {
   scene.robot = status.pose.map_T_base;
-  if (!status.mission) {
+  if (!status.mission || !(is_search(*status.mission) || is_exploration(*status.mission))) {
     return;
   }
   const api::MissionStatus& mission = *status.mission;
-  scene.title = mission.kind + " " + mission.id;
+  scene.title = is_search(mission) ? "Search" : "Exploration";
+  // Ids that seeker makes up begin with the kind, which the title tells.
+  const bool told = mission.id.starts_with(mission.kind + "-") && mission.id.size() > mission.kind.size() + 1;
+  scene.facts.emplace_back("mission", told ? mission.id.substr(mission.kind.size() + 1) : mission.id);
   scene.facts.emplace_back(
       "outcome", mission.end ? std::string(to_string(mission.end->outcome)) : std::string(to_string(mission.state)));
   scene.facts.emplace_back("path", fixed("%.1f m", mission.path_length_m));
@@ -71,10 +77,13 @@ void add_status(image::MapScene& scene, const api::RobotStatus& status) {
   }
 }
 
-void add_detections(image::MapScene& scene, const std::vector<api::Detection>& detections) {
+/// Those of mission `only`, where it is named. Robots of older versions do not say which mission has found it.
+void add_detections(image::MapScene& scene, const std::vector<api::Detection>& detections, const api::MissionId& only) {
   for (const api::Detection& d : detections) {
-    scene.detections.push_back(
-        {d.target, d.position, d.position_covariance, d.map_T_base.translation(), d.bearing_map_rad});
+    if (only.empty() || d.mission.empty() || d.mission == only) {
+      scene.detections.push_back(
+          {d.target, d.position, d.position_covariance, d.map_T_base.translation(), d.bearing_map_rad});
+    }
   }
 }
 
@@ -108,7 +117,7 @@ Result<std::optional<Grid<std::uint8_t>>> fetch_occupancy(const Context& context
   return assemble((*tiles)->tiles);
 }
 
-Result<image::MapScene> fetch_scene(const Context& context) {
+Result<image::MapScene> fetch_scene(const Context& context, SceneOf of) {
   image::MapScene scene;
   scene.title = "Map";
   Result<std::optional<Grid<std::uint8_t>>> occupancy = fetch_occupancy(context);
@@ -117,11 +126,23 @@ Result<image::MapScene> fetch_scene(const Context& context) {
   }
   scene.occupancy = std::move(*occupancy);
   using api::RobotApi;
+  std::optional<api::MissionStatus> mission;
   Status ok = add_part<api::RobotInfo>(context, &RobotApi::get_info,
                                        [&](const api::RobotInfo& info) { scene.robot_radius_m = info.robot_radius_m; });
   if (ok) {
-    ok = add_part<api::RobotStatus>(context, &RobotApi::get_status, [&](const auto& s) { add_status(scene, s); });
+    ok = add_part<api::RobotStatus>(context, &RobotApi::get_status, [&](const auto& status) {
+      mission = status.mission;
+      add_status(scene, status);
+    });
   }
+  // What the robot has kept of an earlier search is not what an exploration did.
+  const bool explored = mission && is_exploration(*mission);
+  if (explored && of == SceneOf::kEvidence) {
+    scene.title = "Evidence of the last search";
+    scene.facts.clear();
+  }
+  const bool evidence = !explored || of == SceneOf::kEvidence;
+  const bool own_only = mission && of == SceneOf::kMission && (explored || is_search(*mission));
   if (ok) {
     ok = add_part<std::vector<api::StampedPose>>(context, &RobotApi::get_trajectory, [&](const auto& trajectory) {
       for (const api::StampedPose& pose : trajectory) {
@@ -129,12 +150,13 @@ Result<image::MapScene> fetch_scene(const Context& context) {
       }
     });
   }
-  if (ok) {
+  if (ok && evidence) {
     ok = add_part<api::GridReport>(context, &RobotApi::get_grid, [&](const auto& g) { add_grid(scene, g); });
   }
   if (ok) {
-    ok = add_part<std::vector<api::Detection>>(context, &RobotApi::get_detections,
-                                               [&](const auto& d) { add_detections(scene, d); });
+    ok = add_part<std::vector<api::Detection>>(context, &RobotApi::get_detections, [&](const auto& d) {
+      add_detections(scene, d, own_only ? mission->id : api::MissionId());
+    });
   }
   if (!ok) {
     return tl::unexpected<Error>(ok.error());
@@ -159,7 +181,7 @@ Status save_picture(const fs::path& path, const Image& picture) {
 }
 
 Result<std::vector<fs::path>> export_map(const Context& context, const std::string& name, const MapPictures& pictures) {
-  const Result<image::MapScene> scene = fetch_scene(context);
+  const Result<image::MapScene> scene = fetch_scene(context, SceneOf::kMission);
   if (!scene) {
     return tl::unexpected<Error>(scene.error());
   }

@@ -13,8 +13,14 @@ namespace seeker::cli {
 /// The occupancy as one grid. Error: kTooLarge when the tiles lie too far apart to be one picture.
 [[nodiscard]] Result<std::optional<Grid<std::uint8_t>>> fetch_occupancy(const Context& context);
 
+/// What a picture is of, when the newest mission is an exploration and the robot still has evidence of a search.
+enum class SceneOf : std::uint8_t {
+  kMission,  ///< the newest mission: an exploration without evidence, and with what it has found itself
+  kEvidence  ///< the newest evidence, whichever mission gathered it
+};
+
 /// Map, trajectory, grid lists, evidence, detections and pose; what the robot does not have is left out.
-[[nodiscard]] Result<image::MapScene> fetch_scene(const Context& context);
+[[nodiscard]] Result<image::MapScene> fetch_scene(const Context& context, SceneOf of);
 
 /// Which of its pictures export_map() writes.
 struct MapPictures {

@@ -6,6 +6,7 @@
 
 #include "client/cli/json.hpp"
 #include "common/api/robot_api.hpp"
+#include "common/image/map_picture.hpp"
 
 namespace seeker::cli {
 
@@ -57,7 +58,10 @@ void write_list(Json& json, std::string_view name, const std::vector<T>& values)
 /// One line: name, position with sigma, bearing, score, range source, sightings.
 [[nodiscard]] std::string text_of(const api::Detection& detection);
 [[nodiscard]] std::string text_of(const api::CoverageSummary& coverage);
-[[nodiscard]] std::string text_of(const api::Gap& gap);
+/// Gaps as a picture marks them.
+[[nodiscard]] std::vector<image::GapMark> marks_of(const std::vector<api::Gap>& gaps);
+/// One line each, numbered as in a picture (image::listed_gaps).
+[[nodiscard]] std::vector<std::string> lines_of(const std::vector<api::Gap>& gaps);
 /// One line: number, rule, the reason, how many alternatives there were.
 [[nodiscard]] std::string text_of(const ExploreDecision& decision);
 /// One line for people about any update.

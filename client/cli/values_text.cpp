@@ -117,8 +117,21 @@ std::string text_of(const api::CoverageSummary& coverage) {
          fixed("mean %.2f", coverage.mean_probability);
 }
 
-std::string text_of(const api::Gap& gap) {
-  return fixed("%.1f m\xC2\xB2 at ", gap.area_m2) + text_of(gap.centre) + " " + gap.reason;
+std::vector<image::GapMark> marks_of(const std::vector<api::Gap>& gaps) {
+  std::vector<image::GapMark> marks;
+  for (const api::Gap& gap : gaps) {
+    marks.push_back({gap.centre, gap.area_m2, gap.reason});
+  }
+  return marks;
+}
+
+std::vector<std::string> lines_of(const std::vector<api::Gap>& gaps) {
+  std::vector<std::string> lines;
+  for (const image::GapMark& gap : image::listed_gaps(marks_of(gaps))) {
+    lines.push_back(std::to_string(lines.size() + 1) + "  " + fixed("%.1f m\xC2\xB2 at ", gap.area_m2) +
+                    text_of(gap.centre) + " " + gap.reason);
+  }
+  return lines;
 }
 
 std::string text_of(const ExploreDecision& decision) {

@@ -256,10 +256,10 @@ void print_report(const Context& context, const MissionReport& report, const std
   if (m.coverage) {
     row("covered", text_of(*m.coverage));
     row("cells", std::to_string(m.cells_searched) + " searched, " + std::to_string(m.cells_unsearched) + " left");
-    row("gaps", std::to_string(gaps.size()));
+    row("gaps", std::to_string(lines_of(gaps).size()));
   }
-  for (const api::Gap& gap : gaps) {
-    row("", text_of(gap));
+  for (const std::string& gap : lines_of(gaps)) {
+    row("", gap);
   }
   row("path", fixed("%.1f m", m.path_length_m));
   row("time",

@@ -154,7 +154,7 @@ VerbResult show_grid(const Context& context, const GridVerb& verb) {
     return tl::unexpected<Error>(grid.error());
   }
   if (!verb.evidence.empty()) {
-    const Result<image::MapScene> scene = fetch_scene(context);
+    const Result<image::MapScene> scene = fetch_scene(context, SceneOf::kEvidence);
     if (!scene) {
       return tl::unexpected<Error>(scene.error());
     }
@@ -176,9 +176,10 @@ VerbResult show_grid(const Context& context, const GridVerb& verb) {
       std::to_string(lists.searched.size()) + " searched, " + std::to_string(lists.unsearched.size()) + " to search, " +
           std::to_string(lists.unreachable.size()) + " unreachable" + fixed(", side %.2f m", lists.cell_size_m));
   row(context, "covered", text_of(grid->evidence.summary));
-  row(context, "gaps", std::to_string(grid->evidence.gaps.size()));
-  for (const api::Gap& gap : grid->evidence.gaps) {
-    row(context, "", text_of(gap));
+  const std::vector<std::string> gaps = lines_of(grid->evidence.gaps);
+  row(context, "gaps", std::to_string(gaps.size()));
+  for (const std::string& gap : gaps) {
+    row(context, "", gap);
   }
   for (const Point2& cell : lists.unreachable) {
     row(context, "unreachable", text_of(cell));

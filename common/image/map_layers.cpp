@@ -157,21 +157,15 @@ void draw_paths(Canvas& canvas, const MapView& view, const MapScene& scene) {
               {look::kTrajectory.colour, kText_px, Anchor::kLeft, false, kWhite});
 }
 
-std::vector<GapMark> numbered_gaps(std::vector<GapMark> gaps) {
-  std::stable_sort(gaps.begin(), gaps.end(), [](const GapMark& a, const GapMark& b) { return a.area_m2 > b.area_m2; });
-  gaps.resize(std::min(gaps.size(), kNumberedGaps));
-  return gaps;
-}
-
 void draw_gaps(Canvas& canvas, const MapView& view, const std::vector<GapMark>& gaps) {
-  int number = 0;
-  for (const GapMark& gap : numbered_gaps(gaps)) {
-    const Point2 at = view.to_px(gap.centre);
+  const std::vector<GapMark> listed = listed_gaps(gaps);
+  for (std::size_t n = 0; n < std::min(listed.size(), kNumberedGaps); ++n) {
+    const Point2 at = view.to_px(listed[n].centre);
     constexpr double kRadius_px = 8.5;
     constexpr double kText_px = 8.0;
     canvas.fill_circle(at, kRadius_px, kWhite, 0.9);
     canvas.circle(at, kRadius_px, {look::kGap, 1.6});
-    canvas.text(at + Point2(0.0, kText_px / 2.0), std::to_string(++number), {look::kGap, kText_px, Anchor::kCentre});
+    canvas.text(at + Point2(0.0, kText_px / 2.0), std::to_string(n + 1), {look::kGap, kText_px, Anchor::kCentre});
   }
 }
 

@@ -42,7 +42,5 @@ void draw_pin(Canvas& canvas, const Point2& at_px, double size_px);
 
 /// More gaps than this are counted, not numbered on the map.
 inline constexpr std::size_t kNumberedGaps = 9;
-/// The largest gaps first.
-[[nodiscard]] std::vector<GapMark> numbered_gaps(std::vector<GapMark> gaps);
 
 }  // namespace seeker::image

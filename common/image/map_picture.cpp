@@ -146,13 +146,10 @@ class Panel {
     canvas_.text(Point2(left_ + kPad_px + width() / 2.0, y_), "0.5", {kBlack, kText_px, Anchor::kCentre});
     canvas_.text(Point2(left_ + kPad_px + width(), y_), "1", {kBlack, kText_px, Anchor::kRight});
   }
-  void gaps(const std::vector<GapMark>& gaps) {
-    heading("gaps: " + std::to_string(gaps.size()));
-    int number = 0;
-    for (const GapMark& gap : numbered_gaps(gaps)) {
-      std::array<char, 32> area{};
-      std::snprintf(area.data(), area.size(), "%.1f m\xC2\xB2", gap.area_m2);
-      fact(std::to_string(++number) + "  " + gap.reason, area.data());
+  void gaps(const std::vector<GapMark>& listed) {
+    heading("gaps: " + std::to_string(listed.size()));
+    for (const auto& [name, area] : gap_rows(listed)) {
+      fact(name, area);
     }
   }
   [[nodiscard]] double bottom_px() const { return y_ + kPad_px; }
@@ -178,8 +175,8 @@ double write_panel(Canvas& canvas, double left_px, const MapScene& scene) {
   if (scene.evidence) {
     panel.evidence_bar();
   }
-  if (!scene.gaps.empty()) {
-    panel.gaps(scene.gaps);
+  if (const std::vector<GapMark> listed = listed_gaps(scene.gaps); !listed.empty()) {
+    panel.gaps(listed);
   }
   return panel.bottom_px();
 }
@@ -194,6 +191,26 @@ void paste(Canvas& canvas, const Image& picture, int left_px, int top_px) {
 }
 
 }  // namespace
+
+std::vector<GapMark> listed_gaps(std::vector<GapMark> gaps) {
+  constexpr double kSmallest_m2 = 0.05;
+  std::erase_if(gaps, [](const GapMark& gap) { return !(gap.area_m2 >= kSmallest_m2); });
+  std::stable_sort(gaps.begin(), gaps.end(), [](const GapMark& a, const GapMark& b) { return a.area_m2 > b.area_m2; });
+  return gaps;
+}
+
+std::vector<std::pair<std::string, std::string>> gap_rows(const std::vector<GapMark>& listed) {
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (std::size_t n = 0; n < std::min(listed.size(), kNumberedGaps); ++n) {
+    std::array<char, 32> area{};
+    std::snprintf(area.data(), area.size(), "%.1f m\xC2\xB2", listed[n].area_m2);
+    rows.emplace_back(std::to_string(n + 1) + "  " + listed[n].reason, area.data());
+  }
+  if (listed.size() > kNumberedGaps) {
+    rows.emplace_back("and " + std::to_string(listed.size() - kNumberedGaps) + " more", "");
+  }
+  return rows;
+}
 
 Result<Image> draw_map(const MapScene& scene, const MapPictureOptions& options) {
   const Result<MapView> view = fit_view(scene, options);

@@ -60,6 +60,13 @@ struct MapPictureOptions {
   double margin_m = 0.4;       ///< around what is known
 };
 
+/// The gaps as pictures and lists number them from 1: the largest first, without those that would read 0.0 m².
+[[nodiscard]] std::vector<GapMark> listed_gaps(std::vector<GapMark> gaps);
+
+/// What the panel says below its heading "gaps: N": number, reason and area of each that has a number on the map, then
+/// how many there are more.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> gap_rows(const std::vector<GapMark>& listed);
+
 /// Draws the scene. Error: kNotReady when it holds nothing that has a place; kTooLarge beyond 5 km.
 [[nodiscard]] Result<Image> draw_map(const MapScene& scene, const MapPictureOptions& options = {});
 

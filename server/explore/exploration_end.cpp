@@ -120,14 +120,14 @@ ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last
   if (!unreachable.empty()) {
     return unreachable_end(std::move(unreachable), left.people.at_map);
   }
-  const std::string known = text(known_floor_.present_area_m2()) + " m2 of floor are known";
+  const std::string known = text(known_floor_.present_area_m2()) + " m\xC2\xB2 of floor are known";
   if (left.beyond_limits) {
     return {EndKind::kBoundReached,
             known + "; all that is left lies beyond the bound or in kept-out ground",
             "give a wider bound to explore on",
             {}};
   }
-  return {EndKind::kComplete, known + "; nothing is left to explore", "none is needed", {}};
+  return {EndKind::kComplete, known + "; nothing is left to explore", "", {}};
 }
 
 void Exploration::Impl::conclude(ExploreEnd end, RobotTime now, ExploreStep& out) {

@@ -191,7 +191,8 @@ void SearchMission::Impl::finish_covered(const StrategyStep& step, const Strateg
   }
   const double share = summary_.reachable_area_m2 > 0.0 ? summary_.covered_area_m2 / summary_.reachable_area_m2 : 0.0;
   const std::string covered = text(kPercent * share) + " % of " + text(summary_.reachable_area_m2) +
-                              " m2 reachable floor seen with probability " + text(summary_.threshold) + " or more";
+                              " m\xC2\xB2 reachable floor seen with probability " + text(summary_.threshold) +
+                              " or more";
   const bool walled_in = summary_.reachable_area_m2 <= 0.0;
   if (step.trapped || walled_in) {
     const std::string cause = walled_in ? "the robot is walled in: there is no floor around it to drive on" : covered;

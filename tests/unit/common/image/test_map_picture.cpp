@@ -106,6 +106,22 @@ TEST(MapPicture, ShowsFloorWallsUnknownAndTheMarks) {
   EXPECT_EQ(colour_at(10.6, 3.4), (Colour{214, 0, 110}));  // the pin of the target
 }
 
+TEST(MapPicture, GapsAreNumberedFromTheLargestAndTheRestIsCounted) {
+  std::vector<GapMark> gaps{{Point2(1, 1), 0.04, "not seen"}, {Point2(2, 2), 0.5, "cut off"}};
+  for (int n = 0; n < 11; ++n) {
+    gaps.push_back({Point2(n, 0), 1.0 + n, "not seen"});
+  }
+  const std::vector<GapMark> listed = listed_gaps(gaps);
+  ASSERT_EQ(listed.size(), 12U) << "0.0 m2 is no gap";
+  EXPECT_DOUBLE_EQ(listed.front().area_m2, 11.0);
+  EXPECT_EQ(listed.back().reason, "cut off");
+  const auto rows = gap_rows(listed);
+  ASSERT_EQ(rows.size(), 10U);
+  EXPECT_EQ(rows.front(), (std::pair<std::string, std::string>("1  not seen", "11.0 m\xC2\xB2")));
+  EXPECT_EQ(rows.back().first, "and 3 more");
+  EXPECT_EQ(gap_rows({gaps[1]}).size(), 1U);
+}
+
 TEST(MapPicture, BareMapAndBareTrackCanBeDrawn) {
   MapScene track;
   track.trajectory = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}};

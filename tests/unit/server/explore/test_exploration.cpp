@@ -18,6 +18,8 @@ TEST(Exploration, FrontierExploresTwoRooms) {
   print("frontier", run);
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kComplete);
+  EXPECT_NE(run.end->cause.find("m\xC2\xB2 of floor"), std::string::npos) << run.end->cause;
+  EXPECT_EQ(run.end->remedy, "") << "there is nothing to remedy";
   EXPECT_GT(run.least_clearance_m, 0.2);
   EXPECT_GT(run.wall_share, 0.9);
   EXPECT_DOUBLE_EQ(run.progress, 1.0);
