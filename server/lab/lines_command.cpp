@@ -75,6 +75,12 @@ std::string text_of(const LineStatistics& s) {
   return table.text();
 }
 
+/// What --scan has made, with --json.
+struct DrawnScan {
+  std::string file;
+};
+void describe(config::Fields& f, DrawnScan& drawn) { f.field("file", drawn.file); }
+
 Status draw_one(const LinesOptions& o, const drivers::ReplayParams& geometry) {
   std::optional<LaserScan> chosen;
   std::uint64_t number = 0;
@@ -144,7 +150,11 @@ Status run_lines(const LinesOptions& o, std::ostream& out) {
     return tl::unexpected<Error>(options.error());
   }
   if (o.scan) {
-    return draw_one(o, options->replay.params);
+    const Status drawn = draw_one(o, options->replay.params);
+    if (drawn) {
+      out << (o.json ? to_json(DrawnScan{o.out.string()}) : "wrote " + o.out.string() + "\n");
+    }
+    return drawn;
   }
   const Result<LineStatistics> statistics = measure_lines(o.log, options->replay.params);
   if (!statistics) {

@@ -166,7 +166,7 @@ Result<Image> draw_scan(const LaserScan& scan, const lines::ScanLines& found, co
   return canvas.image();
 }
 
-Status run_plot(const PlotOptions& options) {
+Status run_plot(const PlotOptions& options, std::ostream& out) {
   const Result<std::vector<NamedTrajectory>> all = read_all(options);
   if (!all) {
     return tl::unexpected<Error>(all.error());
@@ -176,7 +176,14 @@ Status run_plot(const PlotOptions& options) {
     return tl::unexpected<Error>(walls.error());
   }
   const Result<Image> picture = draw_trajectories(*all, *walls);
-  return picture ? image::write_png(options.out, *picture) : Status(tl::unexpected<Error>(picture.error()));
+  if (!picture) {
+    return tl::unexpected<Error>(picture.error());
+  }
+  if (const Status ok = image::write_png(options.out, *picture); !ok) {
+    return ok;
+  }
+  out << "wrote " << options.out.string() << '\n';
+  return {};
 }
 
 }  // namespace seeker::lab

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct PlotOptions {
   bool align = false;  ///< each is moved onto the first by the best rigid motion
 };
 
-/// Draws what the options name into a PNG file. Errors of the files.
-[[nodiscard]] Status run_plot(const PlotOptions& options);
+/// Draws what the options name into a PNG file and says which. Errors of the files.
+[[nodiscard]] Status run_plot(const PlotOptions& options, std::ostream& out);
 
 }  // namespace seeker::lab

@@ -41,7 +41,9 @@ Verb add_slam(CLI::App& app) {
   auto o = std::make_shared<SlamOptions>();
   CLI::App* verb = app.add_subcommand("slam", "An estimator over a recorded log: trajectory, map and what it cost");
   verb->add_option("log", o->log, "CARMEN log, or scans as numbers with commas; plain or .gz")->required();
-  verb->add_option("--out", o->out, "Folder for trajectory.tum, map.png and report.json (default: nothing is written)");
+  verb->add_option("--out", o->out,
+                   "Folder for trajectory.tum, map.png, walls.csv, report.json and, where past poses were mended, "
+                   "trajectory_online.tum (default: nothing is written)");
   verb->add_option("--estimator", o->estimator, "Which estimator (default: the robot file's)")
       ->check(CLI::IsMember(estimator_names()));
   add_geometry(*verb, *o);
@@ -150,7 +152,7 @@ Verb add_plot(CLI::App& app) {
   add_geometry(*verb, *o);
   return [o] {
     o->config = found_config(o->config);
-    return exit_code_of(run_plot(*o));
+    return exit_code_of(run_plot(*o, std::cout));
   };
 }
 

@@ -56,6 +56,11 @@ TEST_F(PlotAndLines, OneScanIsDrawnWithItsLines) {
   const Status done = run_lines(options, out);
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_TRUE(image::read_png(options.out));
+  EXPECT_EQ(out.str(), "wrote " + options.out.string() + "\n");
+  options.json = true;
+  ASSERT_TRUE(run_lines(options, out));
+  EXPECT_NE(out.str().find("\"file\": \"" + options.out.string() + "\""), std::string::npos) << out.str();
+  options.json = false;
   options.scan = 2;
   EXPECT_EQ(run_lines(options, out).error().code, Errc::kNotFound);
   options.scan.reset();
@@ -72,8 +77,10 @@ TEST_F(PlotAndLines, TrajectoriesAreDrawnOverTheWallsOfTheirLog) {
   options.config = testing::source_file("config");
   options.out = folder() / "plot.png";
   options.align = true;
-  const Status done = run_plot(options);
+  std::ostringstream out;
+  const Status done = run_plot(options, out);
   ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(out.str(), "wrote " + options.out.string() + "\n");
   const auto picture = image::read_png(options.out);
   ASSERT_TRUE(picture);
   // The first trajectory can be seen.
@@ -88,7 +95,7 @@ TEST_F(PlotAndLines, TrajectoriesAreDrawnOverTheWallsOfTheirLog) {
   }
   EXPECT_GT(blue, 50);
   options.trajectories.push_back(folder() / "none.tum");
-  EXPECT_EQ(run_plot(options).error().code, Errc::kNotFound);
+  EXPECT_EQ(run_plot(options, out).error().code, Errc::kNotFound);
 }
 
 TEST(TimeFigures, AreEntriesOfTheList) {
