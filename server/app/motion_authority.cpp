@@ -3,12 +3,27 @@
 #include <cmath>
 
 namespace seeker::app {
+namespace {
+
+std::string held_by(const std::string& owner) {
+  return "'" + owner + "' holds the lease; wait until it is released, or take it over with 'seeker drive --take-over'";
+}
+
+}  // namespace
 
 void MotionAuthority::hand_over(const std::string& client) {
   lease_.owner = client;
   lease_.requested_by.clear();
   ++lease_.epoch;
+  stopped_.reset();
   drive_.reset();
+}
+
+void MotionAuthority::stop() {
+  drive_.reset();
+  if (!lease_.owner.empty()) {
+    stopped_ = lease_.epoch++;
+  }
 }
 
 Result<api::LeaseState> MotionAuthority::command_lease(const std::string& client, api::LeaseAction action) {
@@ -16,7 +31,7 @@ Result<api::LeaseState> MotionAuthority::command_lease(const std::string& client
   switch (action) {
     case api::LeaseAction::kAcquire:
       if (!lease_.owner.empty() && !owner) {
-        return fail(Errc::kRefused, "'" + lease_.owner + "' holds the lease; request it, or take it over");
+        return fail(Errc::kRefused, held_by(lease_.owner));
       }
       if (!owner) {
         hand_over(client);
@@ -66,9 +81,11 @@ Status MotionAuthority::drive(const std::string& client, const api::DriveCommand
     return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
   }
   if (lease_.owner != client) {
-    return fail(Errc::kRefused, lease_.owner.empty()
-                                    ? "driving needs the lease; acquire it first"
-                                    : "'" + lease_.owner + "' holds the lease; request it, or take it over");
+    return fail(Errc::kRefused,
+                lease_.owner.empty() ? "driving needs the lease; acquire it first" : held_by(lease_.owner));
+  }
+  if (stopped_ && command.lease_epoch == *stopped_) {
+    return fail(Errc::kRefused, "the robot was stopped while it was driven by hand; acquire the lease again to go on");
   }
   if (command.lease_epoch != lease_.epoch) {
     return fail(Errc::kRefused, "the command belongs to an earlier lease; acquire the lease again");

@@ -3,6 +3,7 @@
 /// thread: the present time is an argument.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,9 @@ class MotionAuthority {
   /// The velocity in force; nothing when none was given or the last one has expired.
   [[nodiscard]] std::optional<Twist2> drive_velocity(RobotTime now) const;
   void cancel_drive() { drive_.reset(); }
+  /// Somebody stopped the robot. The owner keeps the lease under a new epoch: the commands that are still on their way
+  /// are refused, and it moves again only after acquiring it anew.
+  void stop();
 
   /// Latches. Releasing leaves the robot disarmed.
   void set_estop(bool engaged);
@@ -43,6 +47,7 @@ class MotionAuthority {
   void hand_over(const std::string& client);
 
   api::LeaseState lease_;
+  std::optional<std::uint64_t> stopped_;  ///< epoch of the owner's commands that stop() has voided
   std::optional<Drive> drive_;
   bool estop_ = false;
   bool armed_ = false;

@@ -8,7 +8,9 @@ Result<api::MissionId> RobotLoop::start_mission(const api::MissionRequest& reque
   }
   const api::LeaseState& lease = authority_.lease();
   if (!lease.owner.empty() && lease.owner != client) {
-    return fail(Errc::kRefused, "'" + lease.owner + "' holds the lease; wait until it is released, or take it over");
+    return fail(Errc::kRefused, "'" + lease.owner +
+                                    "' holds the lease; wait until it is released, or free it with "
+                                    "'seeker drive 0 0 --take-over'");
   }
   if (const Status able = able_to(request.task); !able) {
     return tl::unexpected<Error>(able.error());
@@ -65,7 +67,7 @@ Status RobotLoop::command_mission(api::MissionCommand command, const std::string
 void RobotLoop::stop() {
   resuming_ = false;
   missions_.end(api::Outcome::kOperator, "stopped by the operator", "", now());
-  authority_.cancel_drive();
+  authority_.stop();
   act({});
 }
 

@@ -33,6 +33,29 @@ TEST(MotionAuthority, CommandOfAnEarlierOwnerIsRefused) {
   EXPECT_NE(status.error().message.find("earlier lease"), std::string::npos);
 }
 
+TEST(MotionAuthority, AStopHoldsAgainstCommandsThatAreStillOnTheirWay) {
+  MotionAuthority authority;
+  ASSERT_TRUE(authority.command_lease("anna", LeaseAction::kAcquire));
+  const api::DriveCommand before = command(authority);
+  ASSERT_TRUE(authority.drive("anna", before, RobotTime{}));
+  authority.stop();
+  EXPECT_FALSE(authority.drive_velocity(RobotTime{}).has_value());
+  const Status status = authority.drive("anna", before, RobotTime{});
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, Errc::kRefused);
+  EXPECT_NE(status.error().message.find("was stopped"), std::string::npos) << status.error().message;
+  ASSERT_TRUE(authority.command_lease("anna", LeaseAction::kAcquire));
+  EXPECT_TRUE(authority.drive("anna", command(authority), RobotTime{}));
+}
+
+TEST(MotionAuthority, ARefusalNamesTheOwnerAndTheOptionThatTakesOver) {
+  MotionAuthority authority;
+  ASSERT_TRUE(authority.command_lease("anna", LeaseAction::kAcquire));
+  const std::string why = authority.command_lease("ben", LeaseAction::kAcquire).error().message;
+  EXPECT_NE(why.find("'anna'"), std::string::npos);
+  EXPECT_NE(why.find("--take-over"), std::string::npos) << why;
+}
+
 TEST(MotionAuthority, OwnerGrantsARequest) {
   MotionAuthority authority;
   ASSERT_TRUE(authority.command_lease("anna", LeaseAction::kAcquire));
