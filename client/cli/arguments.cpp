@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "client/cli/exit_code.hpp"
 #include "client/cli/targets.hpp"
 #include "common/config/yaml.hpp"
 
@@ -65,7 +66,7 @@ Result<Polygon> parse_polygon(const std::string& text) {
   if (text.starts_with('@')) {
     Result<Polygon> file = read_polygon_file(text.substr(1));
     if (!file) {
-      return file;
+      return fail_as_usage(file.error());
     }
     polygon = std::move(*file);
   } else {

@@ -1,4 +1,6 @@
 #include <array>
+#include <atomic>
+#include <csignal>
 #include <string_view>
 
 #include <poll.h>
@@ -43,6 +45,29 @@ class RawTerminal {
  private:
   termios former_{};
   bool ok_ = false;
+};
+
+std::atomic<bool> hung_up{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+
+extern "C" void on_hang_up(int /*signal*/) { hung_up = true; }
+
+/// Until the end of the scope the end of the terminal's session ends the driving, not the program: the robot is told to
+/// stand still and the terminal is set back. A mission's client dies of it, and the link policy says what follows.
+class HangUp {
+ public:
+  HangUp() {
+    hung_up = false;
+    struct sigaction action {};
+    action.sa_handler = on_hang_up;
+    ::sigaction(SIGHUP, &action, &former_);
+  }
+  HangUp(const HangUp&) = delete;
+  HangUp& operator=(const HangUp&) = delete;
+  ~HangUp() { ::sigaction(SIGHUP, &former_, nullptr); }
+
+ private:
+  struct sigaction former_ {};
 };
 
 enum class Key : std::uint8_t { kNone, kForward, kBack, kLeft, kRight, kStop, kQuit };
@@ -100,6 +125,7 @@ Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch) {
     return fail(Errc::kInvalidArgument,
                 "driving by keyboard needs a terminal; give a velocity, as in seeker drive 0.2 0");
   }
+  const HangUp hang_up;
   const RawTerminal terminal;
   if (!terminal.ok()) {
     return fail(Errc::kIo, "the terminal cannot be read key by key; give a velocity, as in seeker drive 0.2 0");
@@ -110,7 +136,8 @@ Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch) {
   for (;;) {
     const Key key = read_key(kTick);
     const auto now = SteadyClock::now();
-    const bool quit = key == Key::kQuit || context.interrupted();
+    const bool interrupted = context.interrupted() || hung_up;
+    const bool quit = key == Key::kQuit || interrupted;
     if (key != Key::kNone) {
       until = now + (key == held ? kNextRepeat : kFirstRepeat);
       held = key;
@@ -123,6 +150,9 @@ Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch) {
     const Status sent = ask<void>(calm, [&](api::Reply<void> reply) {
       context.robot->drive({velocity, kCommandLife, lease_epoch}, std::move(reply));
     });
+    if (sent && interrupted) {
+      return fail(Errc::kCancelled, "interrupted; the robot was told to stand still");
+    }
     if (!sent || quit) {
       return sent;
     }

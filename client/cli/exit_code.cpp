@@ -1,5 +1,7 @@
 #include "client/cli/exit_code.hpp"
 
+#include <utility>
+
 #include "common/core/assert.hpp"
 
 namespace seeker::cli {
@@ -23,6 +25,13 @@ ExitCode exit_code(Errc code) {
     case Errc::kInternal: return ExitCode::kFailed;
   }
   return ExitCode::kFailed;
+}
+
+tl::unexpected<Error> fail_as_usage(Error error) {
+  if (error.code == Errc::kNotFound || error.code == Errc::kCorrupt || error.code == Errc::kIo) {
+    error.code = Errc::kInvalidArgument;
+  }
+  return tl::unexpected<Error>(std::move(error));
 }
 
 ExitCode exit_code(const api::MissionStatus& ended) {

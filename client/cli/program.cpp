@@ -123,10 +123,10 @@ class Dispatch {
     const std::vector<std::filesystem::path> folders = target_folders(verb.target_folders);
     const Result<Script> script = load_script(file);
     if (!script) {
-      return tl::unexpected<Error>(script.error());
+      return fail_as_usage(script.error());
     }
     if (const Status ok = check_missions(*script, file.parent_path(), folders); !ok) {
-      return fail_with_context(verb.file, ok.error());
+      return fail_as_usage({ok.error().code, verb.file + ": " + ok.error().message});
     }
     if (verb.check) {
       print_check(context_, verb.file, *script);

@@ -203,7 +203,7 @@ void print_check(const Context& context, const std::string& file, const Script& 
   if (context.json) {
     print_steps(context, script, {}, true);
   } else {
-    say(context, file + " is sound: " + std::to_string(script.steps.size()) + " steps");
+    say(context, file + " is sound: " + count_of(script.steps.size(), "step"));
   }
 }
 

@@ -138,7 +138,7 @@ Result<image::MapScene> fetch_scene(const Context& context, SceneOf of) {
   // What the robot has kept of an earlier search is not what an exploration did.
   const bool explored = mission && is_exploration(*mission);
   if (explored && of == SceneOf::kEvidence) {
-    scene.title = "Evidence of the last search";
+    scene.title = "Evidence of a search";
     scene.facts.clear();
   }
   const bool evidence = !explored || of == SceneOf::kEvidence;

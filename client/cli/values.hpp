@@ -52,6 +52,8 @@ void write_list(Json& json, std::string_view name, const std::vector<T>& values)
 [[nodiscard]] std::string fixed(const char* format, double value);
 /// "2026-03-01 12:30 UTC"; "-" for 0.
 [[nodiscard]] std::string date_of(std::int64_t unix_s);
+/// "1 loop", "2 loops".
+[[nodiscard]] std::string count_of(std::uint64_t count, const std::string& thing);
 [[nodiscard]] std::string size_of(std::uint64_t bytes);
 [[nodiscard]] std::string text_of(const Point2& p);
 [[nodiscard]] std::string text_of(const Pose2& pose);

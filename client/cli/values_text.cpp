@@ -40,11 +40,11 @@ struct Describe {
     return text + "m";
   }
   std::string operator()(const api::TileUpdate& tiles) const {
-    return std::to_string(tiles.tiles.size()) + " tiles, revision " + std::to_string(tiles.revision);
+    return count_of(tiles.tiles.size(), "tile") + ", revision " + std::to_string(tiles.revision);
   }
   std::string operator()(const api::GridReport& grid) const {
-    return std::to_string(grid.lists.searched.size()) + " cells searched, " +
-           std::to_string(grid.lists.unsearched.size()) + " to go, " + text_of(grid.evidence.summary);
+    return count_of(grid.lists.searched.size(), "cell") + " searched, " + std::to_string(grid.lists.unsearched.size()) +
+           " to go, " + text_of(grid.evidence.summary);
   }
   std::string operator()(const api::ImageFrame& image) const {
     return image.camera + " " + std::to_string(image.frame.image.width_px()) + "x" +
@@ -55,7 +55,7 @@ struct Describe {
     return std::string(to_string(event.severity)) + " " + event.kind + ": " + event.text;
   }
   std::string operator()(const api::SegmentUpdate& update) const {
-    return (update.full ? "all: " : "") + std::to_string(update.changed.size()) + " segments changed, " +
+    return (update.full ? "all: " : "") + count_of(update.changed.size(), "segment") + " changed, " +
            std::to_string(update.removed.size()) + " removed, revision " + std::to_string(update.revision);
   }
   std::string operator()(const api::Detection& detection) const {
@@ -82,6 +82,10 @@ std::string date_of(std::int64_t unix_s) {
   return text.data();
 }
 
+std::string count_of(std::uint64_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 std::string size_of(std::uint64_t bytes) { return fixed("%.1f kB", static_cast<double>(bytes) / 1000.0); }
 
 std::string text_of(const Point2& p) { return "(" + fixed("%.2f, ", p.x()) + fixed("%.2f)", p.y()); }
@@ -106,7 +110,7 @@ std::string text_of(const api::Detection& detection) {
   }
   return text + fixed(", bearing %.1f deg", rad_to_deg(detection.bearing_map_rad)) + " from " +
          text_of(detection.map_T_base.translation()) + fixed(", score %.2f", detection.score) + ", " +
-         std::to_string(detection.sightings) + (detection.sightings == 1 ? " sighting" : " sightings");
+         count_of(detection.sightings, "sighting");
 }
 
 std::string text_of(const api::CoverageSummary& coverage) {

@@ -21,8 +21,8 @@ std::string line_of(const api::MapSummary& map) {
   if (!map.problem.empty()) {
     return map.name + "  UNUSABLE: " + map.problem;
   }
-  return map.name + "  " + std::to_string(map.segments) + " segments, " + std::to_string(map.keyframes) + " scans, " +
-         std::to_string(map.loops) + " loops, " + size_of(map.file_bytes) + ", saved " + date_of(map.saved_unix_s) +
+  return map.name + "  " + count_of(map.segments, "segment") + ", " + count_of(map.keyframes, "scan") + ", " +
+         count_of(map.loops, "loop") + ", " + size_of(map.file_bytes) + ", saved " + date_of(map.saved_unix_s) +
          " by " + (map.robot_id.empty() ? "an unnamed robot" : map.robot_id);
 }
 
@@ -45,11 +45,13 @@ Result<api::MapSummary> upload(const Context& context, const std::string& file, 
                                bool check_only) {
   Result<std::vector<std::uint8_t>> bytes = image::read_file(file, api::kMaxMapTransferBytes);
   if (!bytes) {
-    return tl::unexpected<Error>(bytes.error());
+    return fail_as_usage(bytes.error());
   }
   const api::MapUpload upload{name, std::move(*bytes), replace, check_only};
-  return ask<api::MapSummary>(
+  Result<api::MapSummary> map = ask<api::MapSummary>(
       context, [&](api::Reply<api::MapSummary> reply) { context.robot->upload_map(upload, std::move(reply)); });
+  // That the file is damaged is said by the robot, which alone can read it; its own disk may fail too.
+  return map || map.error().code != Errc::kCorrupt ? std::move(map) : fail_as_usage(map.error());
 }
 
 /// "x,y,theta" in metres and degrees.
@@ -179,8 +181,8 @@ VerbResult inspect_map(const Context& context, const MapInspectVerb& verb) {
   });
   if (map && !verb.verify && !context.json) {
     *context.out << line_of(*map) << "\n  sensors " << map->sensors << "\n  created " << date_of(map->created_unix_s)
-                 << ", software " << map->software_version << "\n  " << map->nodes << " local maps, " << map->edges
-                 << " relations, epoch " << map->epoch << '\n';
+                 << ", software " << map->software_version << "\n  " << count_of(map->nodes, "local map") << ", "
+                 << count_of(map->edges, "relation") << ", epoch " << map->epoch << '\n';
     return ExitCode::kOk;
   }
   return show(context, map, verb.verify ? verb.name + " is sound" : "");

@@ -125,8 +125,9 @@ api::MissionRequest begin_request(const MissionOptions& options, const std::stri
 }
 
 Result<std::vector<api::TargetSpec>> targets_of(const TargetOptions& o) {
-  return load_targets(o.targets, o.solids, {o.recogniser, o.width_m, o.height_m, o.depth_m},
-                      target_folders(o.target_folders));
+  Result<std::vector<api::TargetSpec>> targets = load_targets(
+      o.targets, o.solids, {o.recogniser, o.width_m, o.height_m, o.depth_m}, target_folders(o.target_folders));
+  return targets ? std::move(targets) : fail_as_usage(targets.error());
 }
 
 /// Each "X,Y" in metres.

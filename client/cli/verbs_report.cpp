@@ -22,7 +22,7 @@ std::string alarm(const Context& context, const std::string& text) {
 
 /// "21227 ticks, 3 late by more than 20 ms, worst 0.031 s"
 std::string lateness(const TickTiming& timing) {
-  return std::to_string(timing.ticks) + " ticks, " + std::to_string(timing.late) +
+  return count_of(timing.ticks, "tick") + ", " + std::to_string(timing.late) +
          fixed(" late by more than %.0f ms, ", 1e3 * to_seconds(TickTiming::kLate)) +
          fixed("worst %.3f s", to_seconds(timing.worst));
 }
@@ -36,7 +36,7 @@ void print_status(const Context& context, const api::RobotInfo& info, const api:
   if (s.line_map) {
     const api::LineMapStatus& map = *s.line_map;
     row(context, "map",
-        std::to_string(map.segments) + " segments, " +
+        count_of(map.segments, "segment") + ", " +
             (map.name.empty() ? std::string("not saved yet") : "'" + map.name + "'") +
             (map.use == api::MapUse::kLocalise ? ", only localised in" : "") +
             (map.relocalising ? ", the robot looks for its place in it" : ""));
@@ -120,8 +120,9 @@ VerbResult show_components(const Context& context, const ComponentsVerb& verb) {
   }
   for (const api::ComponentInfo& c : *components) {
     const std::string state(to_string(c.state));
-    *context.out << std::left << std::setw(16) << c.name << std::setw(12) << c.kind << std::setw(14) << c.type
-                 << std::setw(9) << (c.state == api::ComponentState::kError ? alarm(context, state) : state)
+    *context.out << std::left << std::setw(16) << c.name << ' ' << std::setw(12) << c.kind << ' ' << std::setw(18)
+                 << c.type << ' ' << std::setw(9)
+                 << (c.state == api::ComponentState::kError ? alarm(context, state) : state)
                  << fixed("%6.1f Hz", c.rate_hz) << (c.last_error.empty() ? "" : "  " + c.last_error) << '\n';
   }
   return ExitCode::kOk;

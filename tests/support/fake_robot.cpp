@@ -118,6 +118,9 @@ class FakeRobot final : public api::RobotApi {
       if (v.mission && !v.mission->end) {
         end_mission(v);
       }
+      if (!v.lease.owner.empty()) {
+        ++v.lease.epoch;  // commands that are on their way are void
+      }
       return {};
     });
   }
@@ -138,7 +141,10 @@ class FakeRobot final : public api::RobotApi {
   }
   void drive(const api::DriveCommand& command, api::Reply<void> reply) override {
     change("drive", reply, [&](FakeRobotValues& v) -> Status {
-      if (v.lease.owner != caller_.client_name || v.lease.epoch != command.lease_epoch) {
+      if (v.lease.owner == caller_.client_name && v.lease.epoch != command.lease_epoch) {
+        return fail(Errc::kRefused, "the robot was stopped while it was driven by hand; acquire the lease again");
+      }
+      if (v.lease.owner != caller_.client_name) {
         return fail(Errc::kRefused, "the lease belongs to '" + v.lease.owner + "'; acquire it first");
       }
       v.drives.push_back(command);

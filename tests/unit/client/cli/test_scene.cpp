@@ -65,7 +65,7 @@ TEST_F(SceneOfMission, AMapAfterADriveIsNotCaptionedAsTheDrive) {
 
 TEST_F(SceneOfMission, EvidenceThatIsAskedForIsShownUnderItsOwnTitle) {
   const image::MapScene scene = scene_after("explore", SceneOf::kEvidence);
-  EXPECT_EQ(scene.title, "Evidence of the last search");
+  EXPECT_EQ(scene.title, "Evidence of a search");
   constexpr double kPanel_px = 294.0;
   EXPECT_LT(image::text_width_px(scene.title, 13.0), kPanel_px);
   EXPECT_TRUE(scene.evidence);

@@ -98,8 +98,22 @@ TEST_F(Verbs, UsageErrorsAreFoundWithoutARobot) {
   EXPECT_EQ(run({"goto"}).code, 2);
   EXPECT_EQ(run({"search", "-t", path("board.png"), "--bound", "0,0 2,2 2,0 0,2"}).code, 2);
   const Ran ran = run({"search", "-t", "nobody-knows-it", "--targets", folder_.string()});
-  EXPECT_EQ(ran.code, 1);
+  EXPECT_EQ(ran.code, 2);
   EXPECT_NE(ran.err.find("there is no target 'nobody-knows-it'"), std::string::npos);
+}
+
+TEST_F(Verbs, WhatTheCommandLineNamesToBeReadIsUsageWhereItIsNotThere) {
+  write("script.yaml", "steps:\n  - search: {targets: [nobody-knows-it]}\n");
+  connect_error = Error{Errc::kLinkLost, "must not be tried"};
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"search", "-t", path("none.png")},
+                                                    {"search", "-t", path("board.png"), "--bound", "@" + path("none")},
+                                                    {"explore", "--keep-out", "@" + path("none")},
+                                                    {"recognise", "-t", path("none.yaml")},
+                                                    {"run", path("none.yaml")},
+                                                    {"run", "--check", path("script.yaml")}}) {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.code, 2) << arguments[0] << " " << ran.err;
+  }
 }
 
 TEST_F(Verbs, WrongCommandLinesAreJsonWhereItIsAskedFor) {
@@ -124,7 +138,7 @@ TEST_F(Verbs, ACheckedScriptIsADocumentWithJson) {
   const Ran ran = run({"run", "--check", path("ok.yaml"), "--json"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(ran.out, "{\"script\":\"tea\",\"ok\":true,\"steps_planned\":1,\"steps\":[]}\n");
-  EXPECT_NE(run({"run", "--check", path("ok.yaml")}).err.find("is sound: 1 steps"), std::string::npos);
+  EXPECT_NE(run({"run", "--check", path("ok.yaml")}).err.find("is sound: 1 step\n"), std::string::npos);
 }
 
 TEST_F(Verbs, SearchReportsTheEndAndItsExitCode) {
@@ -335,6 +349,18 @@ TEST_F(Verbs, DriveSendsPerishableCommandsUnderALeaseAndGivesItBack) {
   EXPECT_EQ(values.drives.front().ttl, std::chrono::milliseconds(300));
   EXPECT_EQ(values.drives.back().velocity, Twist2{});
   EXPECT_TRUE(values.lease.owner.empty());
+}
+
+TEST_F(Verbs, DriveThatIsStoppedFromElsewhereSaysSo) {
+  const Ran ran = run({"drive", "0.2", "0", "--for", "20"}, [&] {
+    while (host->values().drives.empty()) {
+      std::this_thread::yield();
+    }
+    host->open({"somebody", api::Role::kObserver})->stop([](const Result<void>&) {});
+  });
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_NE(ran.err.find("was stopped"), std::string::npos) << ran.err;
+  EXPECT_TRUE(host->values().lease.owner.empty());
 }
 
 TEST_F(Verbs, DriveIsRefusedWhileAnotherHoldsTheLease) {

@@ -136,7 +136,12 @@ TEST_F(MapVerbs, VerifyOfAFileSendsItToBeCheckedAndUploadKeepsIt) {
   EXPECT_EQ(host->values().uploads.back().name, "attic");
   EXPECT_EQ(host->values().uploads.back().bytes.size(), 5U);
   EXPECT_EQ(run({"map", "upload", path("attic.seekermap"), "--name", "A"}).code, 2);
-  EXPECT_EQ(run({"map", "upload", path("absent.seekermap"), "--name", "a"}).code, 1);
+  EXPECT_EQ(run({"map", "upload", path("absent.seekermap"), "--name", "a"}).code, 2);
+  host->edit([](testing::FakeRobotValues& v) { v.failure = Error{Errc::kCorrupt, "the map file is damaged"}; });
+  EXPECT_EQ(run({"map", "verify", path("attic.seekermap")}).code, 2) << "the file here is damaged";
+  EXPECT_EQ(run({"map", "verify", "office"}).code, 1) << "the file of the robot is damaged";
+  host->edit([](testing::FakeRobotValues& v) { v.failure = Error{Errc::kIo, "the disk is full"}; });
+  EXPECT_EQ(run({"map", "upload", path("attic.seekermap")}).code, 1) << "the robot's disk";
 }
 
 TEST_F(MapVerbs, ExportWritesTheFormatsAskedForAndPicturesByDefault) {
