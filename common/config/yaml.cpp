@@ -115,16 +115,19 @@ class Document::Reader final : public Fields {
   void require(std::string_view key) override {
     asked(key);
     if (!has(key)) {
-      error_at(stack_.back().node, key, "is missing");
+      complain(stack_.back().node, key, "is missing");
     }
   }
   void check(std::string_view key, bool ok, std::string_view message) override {
     if (!ok) {
       const YAML::Node node = lookup(key);
-      error_at(node.IsDefined() ? node : stack_.back().node, key, message);
+      complain(node.IsDefined() ? node : stack_.back().node, key, message);
     }
   }
-  [[nodiscard]] bool has(std::string_view key) const override { return lookup(key).IsDefined(); }
+  [[nodiscard]] bool has(std::string_view key) const override {
+    asked(key);  // who asks whether it is there knows it: it may stand here
+    return lookup(key).IsDefined();
+  }
   [[nodiscard]] bool reading() const override { return true; }
 
   [[nodiscard]] Status finish() {
@@ -185,12 +188,13 @@ class Document::Reader final : public Fields {
   struct Frame {
     YAML::Node node;
     std::string key;
-    std::vector<std::string> allowed;
+    mutable std::vector<std::string> allowed;
+    std::optional<Error> complaint;  ///< what the whole section lacks; an unknown key in it is the likelier cause
   };
 
-  void push(const YAML::Node& node, std::string key) { stack_.push_back({node, std::move(key), {}}); }
+  void push(const YAML::Node& node, std::string key) { stack_.push_back({node, std::move(key), {}, {}}); }
 
-  void asked(std::string_view key) {
+  void asked(std::string_view key) const {
     std::vector<std::string>& allowed = stack_.back().allowed;
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
       allowed.emplace_back(key);
@@ -283,7 +287,19 @@ class Document::Reader final : public Fields {
         }
       }
     }
+    if (!failed_ && frame.complaint) {
+      failed_ = true;
+      error_ = *frame.complaint;
+    }
     stack_.pop_back();
+  }
+
+  /// The first error of a section as a whole, told when no key of it is unknown: "is missing" says little of a key that
+  /// is there and mistyped.
+  void complain(const YAML::Node& node, std::string_view key, std::string_view message) {
+    if (!failed_ && !stack_.back().complaint) {
+      stack_.back().complaint = error_of(node, key, message);
+    }
   }
 
   void error_at(const YAML::Node& node, std::string_view key, std::string_view message) {
@@ -291,6 +307,10 @@ class Document::Reader final : public Fields {
       return;
     }
     failed_ = true;
+    error_ = error_of(node, key, message);
+  }
+
+  [[nodiscard]] Error error_of(const YAML::Node& node, std::string_view key, std::string_view message) const {
     std::string path;
     for (const Frame& frame : stack_) {
       path += (path.empty() || frame.key.starts_with('[') ? "" : ".") + frame.key;
@@ -298,7 +318,7 @@ class Document::Reader final : public Fields {
     path += (path.empty() || key.starts_with('[') ? "" : ".") + std::string(key);
     const int line = node.IsDefined() ? node.Mark().line : -1;
     const std::string place = line >= 0 ? name_ + ":" + std::to_string(line + 1) : name_;
-    error_ = {Errc::kParse, place + ": " + path + ": " + std::string(message)};
+    return {Errc::kParse, place + ": " + path + ": " + std::string(message)};
   }
 
   std::string name_;

@@ -74,6 +74,10 @@ TEST(Script, ErrorsNameFileLineAndPath) {
       std::string::npos);
   EXPECT_NE(error_of("steps:\n  - return: {}\n    pause: {}\n").find("exactly one"), std::string::npos);
   EXPECT_NE(error_of("steps:\n  - expect: {}\n").find("exactly one"), std::string::npos);
+  EXPECT_EQ(error_of("steps:\n  - return: {}\n  - serach: {targets: [cross]}\n    expect: {outcome: TARGET_FOUND}\n")
+                .find("m.yaml:3: steps[1].serach: unknown key; allowed here: search, "),
+            0U);
+  EXPECT_EQ(error_of("stesp:\n  - return: {}\n").find("m.yaml:1: stesp: unknown key"), 0U);
   EXPECT_NE(error_of("steps: []\n").find("1 to 1000"), std::string::npos);
   EXPECT_NE(error_of("name: x\n").find("steps: is missing"), std::string::npos);
   EXPECT_NE(error_of("steps:\n  - goto: {waypoints: [[0, 0]], keep_out: [{corners: [[0,0],[2,2],[2,0],[0,2]]}]}\n")

@@ -91,6 +91,13 @@ TEST(Yaml, UnknownKeyNamesFileLinePathAndWhatIsAllowed) {
             "car.yaml:3: wheels[1].nam: unknown key; allowed here: radius_m, name");
 }
 
+TEST(Yaml, UnknownKeyIsToldBeforeWhatTheSectionLacks) {
+  EXPECT_EQ(error_of("spare:\n  radius_m: -1\n  nam: b\n"),
+            "car.yaml:3: spare.nam: unknown key; allowed here: radius_m, name");
+  const std::string all = error_of("door: 2\n");
+  EXPECT_NE(all.find("tow_kg"), std::string::npos) << "what may be left out is allowed too: " << all;
+}
+
 TEST(Yaml, WrongTypesRangesAndRepeatsAreRefused) {
   EXPECT_EQ(error_of("doors: two\n"), "car.yaml:1: doors: expected a whole number, got 'two'");
   EXPECT_EQ(error_of("speed_m_s: .nan\n"), "car.yaml:1: speed_m_s: must be a finite number");
