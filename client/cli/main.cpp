@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <poll.h>
 #include <unistd.h>
 
 #include "client/cli/program.hpp"
@@ -37,6 +38,10 @@ int main(int argc, char** argv) {
   const char* no_colour = std::getenv("NO_COLOR");
   process.no_colour = no_colour != nullptr && *no_colour != '\0';
   process.interrupted = [] { return interrupted.load(); };
+  process.out_ended = [] {
+    pollfd out{STDOUT_FILENO, 0, 0};
+    return ::poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
+  };
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return static_cast<int>(seeker::cli::run_program(arguments, process, seeker::cli::connect_robot));
 }

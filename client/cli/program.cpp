@@ -218,7 +218,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, const Process& p
     return report(dispatch.context(), result.error());
   }
   process.out->flush();
-  if (!process.out->good()) {
+  if (!process.out->good() && !process.out_ended()) {
     *process.err << "seeker: stdout cannot be written\n";
     return ExitCode::kFailed;
   }

@@ -36,6 +36,8 @@ struct Process {
   bool err_is_tty = false;
   bool no_colour = false;  ///< NO_COLOR is set
   std::function<bool()> interrupted = [] { return false; };
+  /// Whoever read `out` has had enough, as head does at the end of a pipe.
+  std::function<bool()> out_ended = [] { return false; };
 };
 
 /// Runs one command line (without the program's name).

@@ -1,7 +1,10 @@
 #include "client/cli/scene.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
+
+#include <unistd.h>
 
 #include "client/cli/values.hpp"
 #include "common/image/map_server.hpp"
@@ -170,6 +173,26 @@ Status make_folder_of(const fs::path& path) {
     fs::create_directories(path.parent_path(), error);
     if (error) {
       return fail(Errc::kIo, "cannot make the folder " + path.parent_path().string() + ": " + error.message());
+    }
+  }
+  return {};
+}
+
+Status check_can_write(const std::string& name) {
+  if (Status ok = make_folder_of(name); !ok) {
+    return ok;
+  }
+  const fs::path parent = fs::path(name).parent_path();
+  const fs::path folder = parent.empty() ? fs::path(".") : parent;
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    return fail(Errc::kIo, "cannot write into " + folder.string() + ": " + std::generic_category().message(errno));
+  }
+  for (const char* ending : {".png", ".pgm", ".yaml"}) {
+    const fs::path file = name + ending;
+    std::error_code error;
+    const bool there = fs::exists(file, error);
+    if (there && (fs::is_directory(file, error) || ::access(file.c_str(), W_OK) != 0)) {
+      return fail(Errc::kIo, "cannot write " + file.string() + ": it is there and is kept from being written");
     }
   }
   return {};

@@ -35,6 +35,10 @@ struct MapPictures {
 /// Makes the folder that a file is to lie in.
 [[nodiscard]] Status make_folder_of(const std::filesystem::path& path);
 
+/// Makes the folder of what export_map() will write as NAME.png, .pgm and .yaml, and says now when they cannot be
+/// written. Error: kIo.
+[[nodiscard]] Status check_can_write(const std::string& name);
+
 /// Writes a picture as PNG into a folder that is made when absent.
 [[nodiscard]] Status save_picture(const std::filesystem::path& path, const Image& picture);
 

@@ -80,6 +80,9 @@ void print_json(const Context& context, const MissionReport& report, const std::
 
 VerbResult run_mission(const Context& context, const api::MissionRequest& request, bool detach,
                        const std::string& save) {
+  if (const Status ok = save.empty() ? Status() : check_can_write(save); !ok) {
+    return fail_with_context("--save", ok.error());
+  }
   Result<MissionRun> run = MissionRun::start(context, request);
   if (!run) {
     return tl::unexpected<Error>(run.error());

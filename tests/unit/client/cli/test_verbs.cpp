@@ -1,45 +1,22 @@
 #include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "client/cli/targets.hpp"
 #include "common/image/pgm.hpp"
 #include "common/image/png.hpp"
-#include "tests/unit/client/cli/cli_fixture.hpp"
+#include "tests/unit/client/cli/verbs_fixture.hpp"
 
 namespace seeker::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Verbs : public ::testing::Test, public CliFixture {
- protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) / ("seeker_cli_" + std::to_string(::getpid()) + "_" +
-                                                ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-    Image picture(32, 32, 1);
-    for (int v = 0; v < 32; ++v) {
-      for (int u = 0; u < 32; ++u) {
-        *picture.at(u, v) = static_cast<std::uint8_t>((u / 4 + v / 4) % 2 == 0 ? 20 : 230);
-      }
-    }
-    ASSERT_TRUE(image::write_png(folder_ / "board.png", picture));
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-
-  fs::path folder_;
-};
+class Verbs : public VerbsFixture {};
 
 TEST_F(Verbs, ReportsAreOneJsonDocumentWithTheDocumentedKeys) {
   const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> cases{
-      {{"status"}, {"robot_id", "status", "pose", "quality", "estop", "faults", "mission", "cut_off"}},
+      {{"status"}, {"robot_id", "status", "pose", "quality", "estop", "faults", "mission"}},
       {{"components"}, {"components", "state", "rate_hz"}},
       {{"detections"}, {"detections", "target", "position", "sigma_m", "range_source"}},
       {{"grid"}, {"searched", "unsearched", "unreachable", "coverage", "gaps"}},
@@ -66,79 +43,6 @@ TEST_F(Verbs, AMissionThatWasCutOffIsPartOfTheStatus) {
   EXPECT_NE(run({"status"}).out.find("round-1; 'seeker resume' goes on with it"), std::string::npos);
   EXPECT_NE(run({"status", "--json"}).out.find("\"cut_off\":{\"id\":\"round-1\",\"kind\":\"explore\"}"),
             std::string::npos);
-}
-
-TEST_F(Verbs, EveryErrorClassHasItsExitCodeAndOneSentence) {
-  const std::vector<std::pair<Errc, int>> codes{
-      {Errc::kInternal, 1},    {Errc::kNotFound, 1},   {Errc::kInvalidArgument, 2}, {Errc::kRefused, 3},
-      {Errc::kBusy, 3},        {Errc::kNotReady, 3},   {Errc::kLinkLost, 4},        {Errc::kTimeout, 5},
-      {Errc::kCancelled, 130}, {Errc::kUnreachable, 3}};
-  for (const auto& [error, code] : codes) {
-    host->edit([&, e = error](testing::FakeRobotValues& v) { v.failure = Error{e, "the cause; the remedy"}; });
-    const Ran ran = run({"status", "--json"});
-    EXPECT_EQ(ran.code, code) << to_string(error);
-    EXPECT_EQ(ran.err, "seeker: the cause; the remedy\n");
-    EXPECT_TRUE(is_json(ran.out));
-    EXPECT_NE(ran.out.find("\"code\":\"" + std::string(to_string(error)) + "\""), std::string::npos);
-  }
-}
-
-TEST_F(Verbs, NoLinkIsFourAndNoAnswerIsFive) {
-  connect_error = Error{Errc::kLinkLost, "nobody answers at 127.0.0.1:1"};
-  EXPECT_EQ(run({"status"}).code, 4);
-  connect_error.reset();
-  host->hold_replies(true);
-  EXPECT_EQ(run({"status", "--timeout", "0.1"}).code, 5);
-  host->release_replies();
-}
-
-TEST_F(Verbs, UsageErrorsAreFoundWithoutARobot) {
-  connect_error = Error{Errc::kLinkLost, "must not be tried"};
-  EXPECT_EQ(run({"goto", "3;4"}).code, 2);
-  EXPECT_EQ(run({"goto"}).code, 2);
-  EXPECT_EQ(run({"search", "-t", path("board.png"), "--bound", "0,0 2,2 2,0 0,2"}).code, 2);
-  const Ran ran = run({"search", "-t", "nobody-knows-it", "--targets", folder_.string()});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_NE(ran.err.find("there is no target 'nobody-knows-it'"), std::string::npos);
-}
-
-TEST_F(Verbs, WhatTheCommandLineNamesToBeReadIsUsageWhereItIsNotThere) {
-  write("script.yaml", "steps:\n  - search: {targets: [nobody-knows-it]}\n");
-  connect_error = Error{Errc::kLinkLost, "must not be tried"};
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"search", "-t", path("none.png")},
-                                                    {"search", "-t", path("board.png"), "--bound", "@" + path("none")},
-                                                    {"explore", "--keep-out", "@" + path("none")},
-                                                    {"recognise", "-t", path("none.yaml")},
-                                                    {"run", path("none.yaml")},
-                                                    {"run", "--check", path("script.yaml")}}) {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.code, 2) << arguments[0] << " " << ran.err;
-  }
-}
-
-TEST_F(Verbs, WrongCommandLinesAreJsonWhereItIsAskedFor) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--json", "goto", "3,0", "--time-limit", "0"},
-        {"status", "--bogus", "--json"},
-        {"--json", "foo"},
-        {"--json"}}) {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.code, 2);
-    EXPECT_TRUE(is_json(ran.out)) << ran.out;
-    EXPECT_EQ(ran.out.rfind("{\"error\":{\"code\":\"invalid_argument\",", 0), 0U) << ran.out;
-    EXPECT_NE(ran.out.find("\"exit_code\":2"), std::string::npos) << ran.out;
-    EXPECT_EQ(ran.err.rfind("seeker: ", 0), 0U) << ran.err;
-    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
-  }
-  EXPECT_EQ(run({"foo"}).out, "");
-}
-
-TEST_F(Verbs, ACheckedScriptIsADocumentWithJson) {
-  write("ok.yaml", "name: tea\nsteps:\n  - goto: {waypoints: [[1, 2]]}\n");
-  const Ran ran = run({"run", "--check", path("ok.yaml"), "--json"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_EQ(ran.out, "{\"script\":\"tea\",\"ok\":true,\"steps_planned\":1,\"steps\":[]}\n");
-  EXPECT_NE(run({"run", "--check", path("ok.yaml")}).err.find("is sound: 1 step\n"), std::string::npos);
 }
 
 TEST_F(Verbs, SearchReportsTheEndAndItsExitCode) {
@@ -406,6 +310,17 @@ TEST_F(Verbs, WatchPrintsJsonLinesUntilItsTime) {
     EXPECT_EQ(line.rfind("{\"topic\":\"event\",\"sequence\":", 0), 0U);
   }
   EXPECT_GT(count, 5);
+}
+
+TEST_F(Verbs, LongNamesOfComponentsKeepTheirDistance) {
+  host->edit([](testing::FakeRobotValues& v) {
+    v.components.front().name = "a-recogniser-with-a-long-name";
+    v.components.front().kind = "recogniser-of-all";
+    v.components.front().type = "template+features+solids";
+    v.components.front().state = api::ComponentState::kActive;
+  });
+  EXPECT_NE(run({"components"}).out.find("a-recogniser-with-a-long-name recogniser-of-all template+features+solids "),
+            std::string::npos);
 }
 
 TEST_F(Verbs, KeyboardWithoutATerminalSaysWhatToDo) {

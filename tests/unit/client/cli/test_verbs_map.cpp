@@ -70,6 +70,15 @@ TEST_F(MapVerbs, AnswerWithTheDocumentedKeys) {
   EXPECT_EQ(read("copy.seekermap").size(), 3U);
 }
 
+TEST_F(MapVerbs, OneOfAThingIsNotToldAsMany) {
+  host->edit([](testing::FakeRobotValues& v) {
+    v.maps.back().loops = 1;
+    v.maps.back().keyframes = 2;
+  });
+  const Ran ran = run({"map", "list"});
+  EXPECT_NE(ran.out.find("4 segments, 2 scans, 1 loop,"), std::string::npos) << ran.out;
+}
+
 TEST_F(MapVerbs, LoadAsksForTheUseThatWasWanted) {
   EXPECT_EQ(run({"map", "load", "office", "--localise"}).code, 0);
   EXPECT_EQ(last_call(), "seeker-test load_map office localise");
