@@ -118,9 +118,7 @@ class FakeRobot final : public api::RobotApi {
       if (v.mission && !v.mission->end) {
         end_mission(v);
       }
-      if (!v.lease.owner.empty()) {
-        ++v.lease.epoch;  // commands that are on their way are void
-      }
+      v.lease.epoch += v.lease.owner.empty() ? 0 : 1;  // commands that are on their way are void
       return {};
     });
   }
