@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include <CLI/CLI.hpp>
+
 namespace seeker::cli {
 
 std::optional<std::string> unknown_verb(const CLI::App& app, const std::vector<std::string>& arguments) {

@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+namespace CLI {  // NOLINT(readability-identifier-naming): the name that CLI11 has
+class App;
+class ParseError;
+}  // namespace CLI
 
 namespace seeker::cli {
 
