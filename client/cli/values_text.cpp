@@ -123,6 +123,7 @@ std::string text_of(const api::CoverageSummary& coverage) {
 
 std::vector<image::GapMark> marks_of(const std::vector<api::Gap>& gaps) {
   std::vector<image::GapMark> marks;
+  marks.reserve(gaps.size());
   for (const api::Gap& gap : gaps) {
     marks.push_back({gap.centre, gap.area_m2, gap.reason});
   }
