@@ -202,10 +202,11 @@ bool rivals(const MergeHypothesis& best, const MergeHypothesis& other, const Mer
          other.support() > params.rival_ratio * best.support();
 }
 
-/// A local map that has gone on to where the other robot has not been makes no pair, and shows shared walls all the same.
+/// A local map that has gone on to where the other robot has not been makes no pair, and shows shared walls all the
+/// same.
 bool speaks_enough(const MergeHypothesis& best, const MergeParams& params) {
-  return std::max(best.pairs.size(), best.witnesses) >= params.min_pairs && best.shared_wall_m >= params.sure_shared_wall_m &&
-         best.weak_wall_m >= params.sure_weak_wall_m &&
+  return std::max(best.pairs.size(), best.witnesses) >= params.min_pairs &&
+         best.shared_wall_m >= params.sure_shared_wall_m && best.weak_wall_m >= params.sure_weak_wall_m &&
          best.weak_wall_m >= params.sure_weak_share * best.shared_wall_m &&
          best.contradiction <= params.sure_contradiction;
 }

@@ -31,7 +31,7 @@ struct MapOverlap {
   double contradiction = 0.0;
   /// The longest piece of wall of b that a has looked through, counted by cells of OverlapParams::cell_m.
   double denied_piece_m = 0.0;
-  double residual_m = 0.0;  ///< root mean square distance of the shared walls
+  double residual_m = 0.0;    ///< root mean square distance of the shared walls
   std::size_t witnesses = 0;  ///< local maps of b that share OverlapParams::witness_wall_m with a, each fitted alone
 };
 
