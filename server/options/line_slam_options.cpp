@@ -74,6 +74,8 @@ void describe(config::Fields& f, RelocaliseParams& params) {
   f.field("witnesses", params.claim.witnesses);
   f.field("agree_m", params.claim.agree_m);
   f.angle_deg("agree_deg", params.claim.agree_rad);
+  f.field("new_view_m", params.claim.moved_m);
+  f.angle_deg("new_view_deg", params.claim.moved_rad);
   f.field("max_tries", params.max_tries);
   f.field("joint_sigma_m", params.joint_sigma_m);
   f.angle_deg("joint_sigma_deg", params.joint_sigma_rad);

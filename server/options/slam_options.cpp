@@ -215,6 +215,7 @@ void describe(config::Fields& f, JudgeParams& params) {
   f.field("min_lead", params.min_lead);
   f.field("min_lead_cells", params.min_lead_cells);
   f.field("min_certainty", params.min_certainty);
+  f.field("weak_lead", params.weak_lead);
 }
 
 void describe(config::Fields& f, KeptPlaceParams& params) {

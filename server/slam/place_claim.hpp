@@ -10,13 +10,16 @@
 namespace seeker::slam {
 
 struct ClaimParams {
-  int witnesses = 3;     ///< answers in a row that must name the same place
-  double agree_m = 0.3;  ///< to within this
+  double witnesses = 3.0;  ///< weight of the answers in a row that must name the same place
+  double agree_m = 0.3;    ///< to within this
   double agree_rad = 0.1;
+  double moved_m = 0.3;  ///< an answer that is not clear counts when the robot has moved by this since the last one
+  double moved_rad = 0.4;
 };
 
-/// One answer may be a chance; those in a row must name the same place. A robot that stands gives the same answer each
-/// time: it has no other, and must drive by hand where the place is ambiguous.
+/// One answer may be a chance; those in a row must name the same place, and more of them where each says little
+/// (PlaceAnswer::weight). A robot that stands gives the same answer each time: it has no other where the place is
+/// clear, and must be driven on by hand where it is not.
 class PlaceClaim {
  public:
   explicit PlaceClaim(const ClaimParams& params = {}) : params_(params) {}
@@ -28,9 +31,13 @@ class PlaceClaim {
   void clear();
 
  private:
+  [[nodiscard]] bool names_claim(const Pose2& map_T_node) const;
+  [[nodiscard]] bool is_new_view(const Pose2& node_T_base) const;
+
   ClaimParams params_;
-  std::optional<Pose2> map_T_node_;  ///< by the last unique answer
-  int witnesses_ = 0;                ///< answers in a row that have said so
+  std::optional<Pose2> map_T_node_;   ///< by the last answer that counted
+  std::optional<Pose2> node_T_view_;  ///< where the robot was then
+  double witnesses_ = 0.0;            ///< weight of the answers in a row that have said so
 };
 
 }  // namespace seeker::slam

@@ -81,6 +81,19 @@ std::string_view to_string(PlaceVerdict verdict) {
   return "unknown";
 }
 
+namespace {
+
+/// Of a place that leads, but by too little for a verdict: the share of what is asked for.
+double weight_of(double fit, double lead, std::size_t cells, const JudgeParams& params) {
+  const bool explains = fit >= params.min_certainty - params.min_lead;
+  if (!explains || lead < params.weak_lead) {
+    return 0.0;
+  }
+  return std::min({1.0, lead / params.min_lead, lead * static_cast<double>(cells) / params.min_lead_cells});
+}
+
+}  // namespace
+
 PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, const JudgeParams& params) {
   PlaceAnswer answer;
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -105,18 +118,22 @@ PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, con
                            : "the points contradict even the best place";
     return answer;
   }
-  const double certainty = 0.5 * (best.fit.all + best.fit.standing) + answer.lead;
+  const double fit = 0.5 * (best.fit.all + best.fit.standing);
+  const double certainty = fit + answer.lead;
   answer.verdict = PlaceVerdict::kAmbiguous;
   if (best.match.degenerate_direction) {
     answer.reason = "the points say nothing along one direction, as in a corridor";
     answer.says_nothing = true;
   } else if (answer.lead < params.min_lead || certainty < params.min_certainty) {
     answer.reason = "another place fits nearly as well";
+    answer.weight = weight_of(fit, answer.lead, cells, params);
   } else if (answer.lead * static_cast<double>(cells) < params.min_lead_cells) {
     answer.reason = "too little was seen to tell this place from others";
     answer.says_nothing = true;
+    answer.weight = weight_of(fit, answer.lead, cells, params);
   } else {
     answer.verdict = PlaceVerdict::kUnique;
+    answer.weight = 1.0;
     answer.reason = "one place fits far better than any other";
   }
   return answer;
@@ -188,10 +205,11 @@ PlaceAnswer PlaceRecogniser::locate(const PlaceMap& map, const std::vector<SeenP
   const Query query(seen_base, params_);
   const GlobalSearchResult found = search_.search(map.pyramid(), query.points, window);
   PlaceAnswer answer = judge(refine_all(map, query, found), query.cells.size(), params_.judge);
-  if (!found.complete && answer.verdict == PlaceVerdict::kUnique) {
+  if (!found.complete && answer.weight > 0.0) {
     answer.verdict = PlaceVerdict::kAmbiguous;
     answer.reason = "a place fits, but the search was cut short before all others were excluded";
     answer.says_nothing = true;
+    answer.weight = 0.0;
   }
   return answer;
 }
@@ -210,6 +228,7 @@ void PlaceRecogniser::accept(PlaceCandidate candidate, PlaceAnswer& answer) cons
   const Matrix3 stood = Eigen::Vector3d(stood_m2, stood_m2, stood_rad2).asDiagonal();
   candidate.match.covariance = (candidate.match.covariance.inverse() + stood.inverse()).inverse();
   answer.verdict = PlaceVerdict::kUnique;
+  answer.weight = 1.0;
   answer.candidates = {std::move(candidate)};
 }
 
@@ -266,6 +285,7 @@ PlaceAnswer PlaceRecogniser::confirm(const PlaceMap& map, const std::vector<Seen
   }
   if (stands_out(about)) {
     about.verdict = PlaceVerdict::kUnique;
+    about.weight = 1.0;
     about.reason = "one place about where the robot was fits far better than any other";
     return about;
   }

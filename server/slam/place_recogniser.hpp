@@ -70,6 +70,9 @@ struct JudgeParams {
   double min_lead_cells = 15.0;  ///< lead times cells seen (GlobalSearchParams::thin_cell_m): small views prove little
   /// Sum of the lead and the mean of both fits: a poor fit, or one that people must explain, needs a large lead.
   double min_certainty = 1.05;
+  /// A place that explains nearly all (mean of both fits of min_certainty - min_lead) and leads by at least this counts
+  /// as a part of a witness, so that views which one after the other slightly prefer the same place prove it together.
+  double weak_lead = 0.08;
 };
 
 /// What is asked of a place that the robot was at when it was seen last: others need not be excluded. Half of the view
@@ -108,6 +111,8 @@ struct PlaceAnswer {
   /// kAmbiguous since the points tell too little: nothing speaks for another place, nor against any.
   bool says_nothing = false;
   bool expected = false;  ///< where the robot was known to be: no second view is needed
+  /// 0 to 1: how much this view says for the first candidate, 1 where that is unique.
+  double weight = 0.0;
 };
 
 /// Verdict and reason from the candidates, whatever order they come in, and the number of cells with points.

@@ -11,16 +11,30 @@ const Pose2 kNodeTBase{1.0, 0.5, 0.3};
 PlaceAnswer unique(const Pose2& map_T_node) {
   PlaceAnswer answer;
   answer.verdict = PlaceVerdict::kUnique;
+  answer.weight = 1.0;
   answer.candidates.resize(1);
   answer.candidates.front().match.map_T_base = map_T_node * kNodeTBase;
   return answer;
 }
+
+/// One that prefers a place, of a robot at node_T_base.
+PlaceAnswer slight(const Pose2& map_T_node, double weight, const Pose2& node_T_base) {
+  PlaceAnswer answer;
+  answer.verdict = PlaceVerdict::kAmbiguous;
+  answer.weight = weight;
+  answer.candidates.resize(1);
+  answer.candidates.front().match.map_T_base = map_T_node * node_T_base;
+  return answer;
+}
+
+Pose2 on_the_way(int views) { return kNodeTBase * Pose2{0.4 * views, 0.0, 0.0}; }
 
 PlaceAnswer none() { return {}; }
 
 PlaceAnswer ambiguous(bool says_nothing) {
   PlaceAnswer answer = unique({9.0, 9.0, 0.0});
   answer.verdict = PlaceVerdict::kAmbiguous;
+  answer.weight = 0.0;
   answer.says_nothing = says_nothing;
   return answer;
 }
@@ -81,6 +95,38 @@ TEST(PlaceClaim, WhereItWasKnownToBeOneAnswerIsEnough) {
   PlaceAnswer there = unique(kPlace);
   there.expected = true;
   EXPECT_TRUE(claim.take(there, kNodeTBase));
+}
+
+TEST(PlaceClaim, ViewsThatSlightlyPreferOnePlaceProveItTogether) {
+  PlaceClaim claim;
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_FALSE(claim.take(slight(kPlace, 0.7, on_the_way(k)), on_the_way(k))) << k;
+  }
+  EXPECT_TRUE(claim.take(slight(kBeside, 0.7, on_the_way(4)), on_the_way(4)));
+}
+
+TEST(PlaceClaim, OneViewLookedAtAgainAndAgainIsOne) {
+  PlaceClaim claim;
+  for (int k = 0; k < 50; ++k) {
+    EXPECT_FALSE(claim.take(slight(kPlace, 0.9, on_the_way(0)), on_the_way(0)));
+  }
+}
+
+TEST(PlaceClaim, AViewThatPrefersAnotherPlaceBeginsTheRowAnew) {
+  PlaceClaim claim;
+  const Pose2 other = kPlace * Pose2{2.0, 0.0, 0.0};
+  for (int k = 0; k < 30; ++k) {
+    const Pose2& place = k % 3 == 2 ? other : kPlace;
+    EXPECT_FALSE(claim.take(slight(place, 0.9, on_the_way(k)), on_the_way(k))) << k;
+  }
+}
+
+TEST(PlaceClaim, AViewThatPrefersNoneDoesNotBreakTheRowWhereTheSamePlaceFitsBest) {
+  PlaceClaim claim;
+  EXPECT_FALSE(claim.take(unique(kPlace), kNodeTBase));
+  EXPECT_FALSE(claim.take(unique(kPlace), kNodeTBase));
+  EXPECT_FALSE(claim.take(slight(kPlace, 0.0, on_the_way(1)), on_the_way(1)));
+  EXPECT_TRUE(claim.take(unique(kPlace), kNodeTBase));
 }
 
 }  // namespace

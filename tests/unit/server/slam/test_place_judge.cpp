@@ -47,5 +47,18 @@ TEST(Judge, TellsWhatSpeaksForAnotherPlaceFromWhatSaysNothing) {
   EXPECT_TRUE(judge({blind}, 200).says_nothing) << "a corridor";
 }
 
+TEST(Judge, WeighsAPlaceThatLeadsByTooLittle) {
+  const auto weight = [](double best, double next, std::size_t cells) {
+    return judge({candidate(best, 0.0), candidate(next, 0.0)}, cells).weight;
+  };
+  EXPECT_EQ(weight(0.97, 0.8, 200), 1.0) << "unique";
+  EXPECT_NEAR(weight(0.97, 0.87, 200), 0.1 / 0.12, 1e-9) << "by the lead";
+  EXPECT_NEAR(weight(0.97, 0.87, 75), 0.1 * 75.0 / 15.0, 1e-9) << "by how much of the view it rests on";
+  EXPECT_NEAR(weight(0.97, 0.8, 50), 0.17 * 50.0 / 15.0, 1e-9) << "clear, but too little was seen";
+  EXPECT_EQ(weight(0.97, 0.9, 200), 0.0) << "the other one fits as well";
+  EXPECT_EQ(weight(0.9, 0.8, 200), 0.0) << "it leaves a tenth unexplained";
+  EXPECT_EQ(judge({candidate(0.97, 0.2), candidate(0.87, 0.2)}, 200).weight, 0.0) << "the map speaks against it";
+}
+
 }  // namespace
 }  // namespace seeker::slam
