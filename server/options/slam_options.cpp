@@ -42,6 +42,7 @@ void describe(config::Fields& f, MatchParams& params) {
   f.field("covariance_inflation", params.covariance_inflation);
   f.field("search_m", params.search_m);
   f.field("kept_share", params.kept_share);
+  f.field("weighed_m", params.weighed_m);
   f.angle_deg("search_deg", params.search_rad);
   f.field("search_step_m", params.search_step_m);
   f.angle_deg("search_step_deg", params.search_step_rad);
@@ -56,6 +57,9 @@ void describe(config::Fields& f, LocalCloudParams& params) {
   f.field("keyframe_points", params.keyframe_points);
   f.field("keyframe_distance_m", params.keyframe_distance_m);
   f.angle_deg("keyframe_turn_deg", params.keyframe_turn_rad);
+  f.field("known_share", params.known_share);
+  f.field("new_view_distance_m", params.new_view_distance_m);
+  f.angle_deg("new_view_turn_deg", params.new_view_turn_rad);
   f.field("local_keyframes", params.local_keyframes);
   f.field("local_range_m", params.local_range_m);
   f.field("rebuild_m", params.rebuild_m);

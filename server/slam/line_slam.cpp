@@ -221,7 +221,7 @@ void LineSlam::follow(Scan& scan) {
     update_lines(scan.observations, lines_->associate(scan.observations));
     quality_ = LocalisationQuality::kLocalised;
     cause_.clear();
-    keep(scan);
+    keep(scan, 0.0);
     return;
   }
   const MatchResult match = match_points(scan);
@@ -238,7 +238,7 @@ void LineSlam::follow(Scan& scan) {
   matched_ = true;
   failures_ = 0;
   note_quality(match);
-  keep(scan);
+  keep(scan, match.inlier_ratio);
   if (way_since_loops_m_ >= params_.loops.every_m) {
     way_since_loops_m_ = 0.0;
     backend_.plan_loops(lines_->robot());
@@ -252,7 +252,7 @@ MatchResult LineSlam::match_points(Scan& scan) {
   const ReferenceCloud& reference = cloud_.around(scan.predicted);
   MatchResult match = matcher_.match(reference, scan.points, scan.predicted);
   if (!scan.gap && match.inlier_ratio >= params_.points.good_ratio) {
-    return match;
+    return matcher_.weighed(reference, scan.points, scan.predicted, std::move(match));
   }
   // After a gap even a fair match may be a wrong one, and a poor one may only have begun in the wrong place.
   ++counts_.searched;
@@ -366,7 +366,7 @@ void LineSlam::note_failure(const Scan& scan) {
     quality_ = LocalisationQuality::kDegraded;
     cause_ = "unseen space: the pose goes on by odometry";
     update_lines(scan.observations, lines_->associate(scan.observations));
-    keep(scan);
+    keep(scan, 0.0);
     return;
   }
   ++failures_;
@@ -375,9 +375,9 @@ void LineSlam::note_failure(const Scan& scan) {
   cause_ = lost ? std::to_string(failures_) + " scans in a row do not fit the map" : "the scan does not fit the map";
 }
 
-void LineSlam::keep(const Scan& scan) {
+void LineSlam::keep(const Scan& scan, double known) {
   const Pose2& pose = lines_->robot();
-  if (cloud_.needs_keyframe(pose)) {
+  if (cloud_.needs_keyframe(pose, known)) {
     cloud_.add(pose, scan.all_points);
   }
   std::vector<MapKeyframe>& kept = backend_.newest().keyframes;

@@ -82,7 +82,7 @@ class LineSlam final : public MapTracker {
   void use_leftover(const Scan& scan, const Association& association);
   void note_failure(const Scan& scan);
   void note_quality(const MatchResult& match);
-  void keep(const Scan& scan);
+  void keep(const Scan& scan, double known);
   /// With `carried` keyframes of the present one, by which the next scans are matched.
   void begin_next_map(RobotTime stamp, std::size_t carried);
   void store_local_map();

@@ -26,9 +26,12 @@ void LocalCloud::clear() {
   reference_.reset();
 }
 
-bool LocalCloud::needs_keyframe(const Pose2& map_T_base) const {
+bool LocalCloud::needs_keyframe(const Pose2& map_T_base, double known) const {
+  const bool shows_new = known < params_.known_share;
+  const double distance_m = shows_new ? params_.new_view_distance_m : params_.keyframe_distance_m;
+  const double turn_rad = shows_new ? params_.new_view_turn_rad : params_.keyframe_turn_rad;
   return std::none_of(keyframes_.begin(), keyframes_.end(), [&](const Keyframe& keyframe) {
-    return !moved(keyframe.map_T_base, map_T_base, params_.keyframe_distance_m, params_.keyframe_turn_rad);
+    return !moved(keyframe.map_T_base, map_T_base, distance_m, turn_rad);
   });
 }
 

@@ -14,9 +14,14 @@ struct LocalCloudParams {
   std::size_t keyframe_points = 360;  ///< points a keyframe keeps
   double keyframe_distance_m = 0.5;   ///< a new keyframe where none is nearer than this
   double keyframe_turn_rad = 0.6;     ///< or looks the same way to within this
-  std::size_t local_keyframes = 10;   ///< keyframes matched against: cost does not grow with the map
-  double local_range_m = 8.0;         ///< none of them farther away
-  double rebuild_m = 0.4;             ///< the local set is chosen anew after so much motion
+  /// Nearer than that, too, where a scan shows so much that no keyframe has: share of its points that are known. Else
+  /// what is new meets old points for as long as the robot is near a keyframe, and holds it back there.
+  double known_share = 0.75;
+  double new_view_distance_m = 0.15;
+  double new_view_turn_rad = 0.2;
+  std::size_t local_keyframes = 10;  ///< keyframes matched against: cost does not grow with the map
+  double local_range_m = 8.0;        ///< none of them farther away
+  double rebuild_m = 0.4;            ///< the local set is chosen anew after so much motion
   double rebuild_rad = 0.4;
   std::size_t max_keyframes = 4000;  ///< the oldest is forgotten beyond it
 };
@@ -32,8 +37,9 @@ class LocalCloud {
 
   [[nodiscard]] bool empty() const { return keyframes_.empty(); }
   [[nodiscard]] std::size_t size() const { return keyframes_.size(); }
-  /// True where no keyframe is near and looks the same way.
-  [[nodiscard]] bool needs_keyframe(const Pose2& map_T_base) const;
+  /// True where no keyframe is near and looks the same way, as near as is asked for where only `known` (0 to 1) of the
+  /// scan's points were found in the reference.
+  [[nodiscard]] bool needs_keyframe(const Pose2& map_T_base, double known = 1.0) const;
   void add(const Pose2& map_T_base, const std::vector<OrientedPoint>& points_base);
   /// The reference around the pose; call after motion. Not before the first add().
   [[nodiscard]] const ReferenceCloud& around(const Pose2& map_T_base);

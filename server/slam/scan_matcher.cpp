@@ -65,6 +65,21 @@ NormalEquations linearise(const ReferenceCloud& reference, const std::vector<Ori
   return sum;
 }
 
+/// Of all points, in m^2: the squared distance from the partner, Huber's beyond huber_m, and that of the last gate for
+/// a point without one.
+double cost_at(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base, const Pose2& pose,
+               const MatchParams& params) {
+  double cost = 0.0;
+  for (const OrientedPoint& point_base : points_base) {
+    const OrientedPoint point = transform(pose, point_base);
+    const OrientedPoint* partner = reference.nearest(point.p, params.last_gate_m);
+    const bool pair = partner != nullptr && point.normal.dot(partner->normal) >= params.min_normal_cosine;
+    const double size = pair ? std::abs(partner->normal.dot(point.p - partner->p)) : params.last_gate_m;
+    cost += size <= params.huber_m ? size * size : params.huber_m * (2.0 * size - params.huber_m);
+  }
+  return cost;
+}
+
 std::optional<Point2> unseen_direction(const NormalEquations& sum, double ratio) {
   const Eigen::SelfAdjointEigenSolver<Matrix2> eigen(sum.scatter);
   if (eigen.eigenvalues()[0] >= ratio * sum.weight) {
@@ -133,6 +148,11 @@ std::vector<Pose2> distinct(std::vector<SearchBest> found, const MatchParams& pa
 
 MatchResult ScanMatcher::match(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
                                const Pose2& guess) const {
+  return iterate(reference, points_base, guess, std::nullopt);
+}
+
+MatchResult ScanMatcher::iterate(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                 const Pose2& guess, const std::optional<Point2>& held) const {
   MatchResult result;
   result.map_T_base = guess;
   double gate_m = params_.first_gate_m;
@@ -141,7 +161,7 @@ MatchResult ScanMatcher::match(const ReferenceCloud& reference, const std::vecto
     if (sum.pairs < params_.min_pairs) {
       break;
     }
-    const auto unseen = unseen_direction(sum, params_.degenerate_ratio);
+    const auto unseen = held ? held : unseen_direction(sum, params_.degenerate_ratio);
     const Matrix3 hessian = sum.hessian + (unseen ? hold(*unseen) : Matrix3::Zero()) + 1e-9 * Matrix3::Identity();
     const Eigen::Vector3d step = -hessian.ldlt().solve(sum.gradient);
     Pose2& pose = result.map_T_base;
@@ -160,9 +180,36 @@ MatchResult ScanMatcher::match(const ReferenceCloud& reference, const std::vecto
     result.converged = false;
     return result;
   }
-  result.degenerate_direction = unseen_direction(sum, params_.degenerate_ratio);
+  result.degenerate_direction = held ? held : unseen_direction(sum, params_.degenerate_ratio);
   result.covariance = covariance_of(sum, result.degenerate_direction, params_);
   return result;
+}
+
+MatchResult ScanMatcher::weighed(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                 const Pose2& guess, MatchResult found) const {
+  const Point2 off = found.map_T_base.translation() - guess.translation();
+  const double off_m = off.norm();
+  if (off_m < params_.weighed_m || found.pairs < params_.min_pairs) {
+    return found;
+  }
+  const Point2 direction = off / off_m;
+  const Pose2 start{guess.x_m, guess.y_m, found.map_T_base.theta_rad};
+  MatchResult held = iterate(reference, points_base, start, direction);
+  if (held.pairs < params_.min_pairs) {
+    return found;
+  }
+  const double more_m2 = cost_at(reference, points_base, held.map_T_base, params_) -
+                         cost_at(reference, points_base, found.map_T_base, params_);
+  // As in covariance_of(): deviations squared that the points speak for the one and against the other.
+  const double floor2 = params_.sigma_floor_m * params_.sigma_floor_m;
+  const double chi2 = more_m2 / (params_.covariance_inflation * std::max(floor2, found.rms_m * found.rms_m));
+  if (chi2 < 1.0) {
+    return held;
+  }
+  const Eigen::Vector3d d(direction.x(), direction.y(), 0.0);
+  const double stated_m2 = d.dot(found.covariance * d);
+  found.covariance += std::max(0.0, off_m * off_m / chi2 - stated_m2) * d * d.transpose();
+  return found;
 }
 
 double ScanMatcher::handicap(const Expected& expected, const Pose2& pose) const {

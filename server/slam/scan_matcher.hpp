@@ -33,6 +33,7 @@ struct MatchParams {
   double max_surprise_share = 0.3;  ///< but no more than this
   std::size_t search_starts = 3;    ///< places that match_widely() looks at closely
   double kept_share = 0.9;          ///< of the inliers: see match_widely()
+  double weighed_m = 0.02;          ///< off the guess: nearer matches are not looked at by weighed()
 };
 
 /// A match that explains itself.
@@ -56,6 +57,12 @@ class ScanMatcher {
   /// guess is kept.
   [[nodiscard]] MatchResult match(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
                                   const Pose2& guess) const;
+  /// `found` with what its points really say of the way from the guess to it, by what they cost at both: a few that
+  /// meet a wrong partner, as along a corridor into new space, pull the robot back to where more is known, and the
+  /// slope at the match alone makes it look certain. Where they hardly prefer `found`, the match that keeps the guess
+  /// along there.
+  [[nodiscard]] MatchResult weighed(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                    const Pose2& guess, MatchResult found) const;
   /// After a gap of up to search_m / search_rad: the best of the match `from_guess` and of those from the places that a
   /// search of the whole window finds on the coarse grid. `covariance` of the guess, of (x, y, theta) in the frame
   /// `map`: the less a place was to be expected, the more points it must explain. Along a degenerate direction the
@@ -66,6 +73,8 @@ class ScanMatcher {
   [[nodiscard]] const MatchParams& params() const { return params_; }
 
  private:
+  [[nodiscard]] MatchResult iterate(const ReferenceCloud& reference, const std::vector<OrientedPoint>& points_base,
+                                    const Pose2& guess, const std::optional<Point2>& held) const;
   struct Expected {
     Pose2 map_T_base;
     Matrix3 information;

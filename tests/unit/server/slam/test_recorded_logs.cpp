@@ -159,11 +159,9 @@ std::map<double, Pose2> read_corrections(const std::filesystem::path& path) {
   return corrections;
 }
 
-TEST(RecordedLogs, ARealPioneerIsFollowedThroughItsBuilding) {
-  SEEKER_REQUIRE_DATA(path, "lidar/p3dx/trace0.clf.gz");
-  SEEKER_REQUIRE_DATA(scores, "lidar/p3dx/trace0_map_to_odom.csv.gz");
+std::vector<Sample> play_pioneer(const std::filesystem::path& path, const std::filesystem::path& scores,
+                                 PoseTracker& tracker) {
   const auto corrections = read_corrections(scores);
-  ASSERT_FALSE(corrections.empty());
   drivers::ReplayParams params;
   params.angle_min_rad = -2.356194;
   params.angle_step_rad = 0.00613592;
@@ -173,11 +171,32 @@ TEST(RecordedLogs, ARealPioneerIsFollowedThroughItsBuilding) {
     const auto at = corrections.lower_bound(scan.stamp_s - 0.05);
     return at == corrections.end() ? std::nullopt : std::optional<Pose2>(at->second * *scan.odom_T_base);
   };
+  return play(path, params, reference, tracker);
+}
+
+TEST(RecordedLogs, ARealPioneerIsFollowedThroughItsBuilding) {
+  SEEKER_REQUIRE_DATA(path, "lidar/p3dx/trace0.clf.gz");
+  SEEKER_REQUIRE_DATA(scores, "lidar/p3dx/trace0_map_to_odom.csv.gz");
   ScanMapTracker tracker;
-  const auto samples = play(path, params, reference, tracker);
+  const auto samples = play_pioneer(path, scores, tracker);
   ASSERT_GT(samples.size(), 900U);
   EXPECT_LT(report(samples, 50).translation_m, 0.2);
   EXPECT_LT(report(samples, 400).translation_m, 0.5);
+}
+
+TEST(RecordedLogs, WhatACorridorShowsAheadDoesNotHoldAPioneerBack) {
+  SEEKER_REQUIRE_DATA(path, "lidar/p3dx/trace1.clf.gz");
+  SEEKER_REQUIRE_DATA(scores, "lidar/p3dx/trace1_map_to_odom.csv.gz");
+  // Which points are chosen is chance, and with every second choice the robot once stood still for two seconds at its
+  // last keyframe.
+  for (const std::size_t points : {140U, 180U, 210U}) {
+    LineSlamParams params;
+    params.points.match_points = points;
+    LineSlam slam(params);
+    const auto samples = play_pioneer(path, scores, slam);
+    ASSERT_GT(samples.size(), 850U);
+    EXPECT_LT(report(samples, 50).translation_m, 0.12) << points << " points";
+  }
 }
 
 }  // namespace

@@ -154,6 +154,41 @@ TEST(ScanMatcher, OfPlacesThatLookAlikeTheExpectedOneIsTaken) {
   }
 }
 
+TEST(ScanMatcher, APlaceThatFitsNoBetterThanTheExpectedOneDoesNotMoveTheRobot) {
+  std::vector<Wall> walls = box(-10.0, 0.0, 30.0, 3.0);
+  for (double x_m = -9.0; x_m < 29.0; x_m += 0.7) {
+    const auto pillar = box(x_m, 0.0, x_m + 0.2, 0.5);
+    walls.insert(walls.end(), pillar.begin(), pillar.end());
+  }
+  Rng rng(10);
+  const Pose2 pose{10.0, 1.5, 0.0};
+  const auto reference = cloud_from(walls, pose, rng);
+  const auto points = oriented_points(scan_at(walls, pose, 1.0, rng, kPi, 6.0));
+  const ScanMatcher matcher;
+  const MatchResult beside = matcher.match(reference, points, pose * Pose2{-0.7, 0.0, 0.0});
+  ASSERT_GT(distance_m(beside.map_T_base, pose), 0.5);
+  ASSERT_LT(beside.covariance(0, 0), 0.1) << "it looks certain";
+  const MatchResult weighed = matcher.weighed(reference, points, pose, beside);
+  EXPECT_THAT(weighed.map_T_base, Pose2Near(pose, 0.05, 0.01));
+  ASSERT_TRUE(weighed.degenerate_direction);
+  EXPECT_GT(std::abs(weighed.degenerate_direction->x()), 0.99);
+}
+
+TEST(ScanMatcher, WheelsThatSlippedAreContradictedAsFirmlyAsTheMatchSays) {
+  Rng rng(11);
+  const auto reference = cloud_from(furnished_room(), {3.0, 3.0, 0.0}, rng);
+  const auto points = oriented_points(scan_at(furnished_room(), kPose, 1.0, rng));
+  const ScanMatcher matcher;
+  for (const double slip_m : {0.005, 0.05, 0.2}) {
+    const Pose2 guess = kPose * Pose2{slip_m, 0.0, 0.0};
+    const MatchResult match = matcher.match(reference, points, guess);
+    const MatchResult weighed = matcher.weighed(reference, points, guess, match);
+    EXPECT_EQ(weighed.map_T_base, match.map_T_base) << slip_m;
+    // Beyond Huber's bound points cost less than their square: a far place is contradicted a little less firmly.
+    EXPECT_LT(weighed.covariance.trace(), match.covariance.trace() + 0.25 * slip_m * slip_m) << slip_m;
+  }
+}
+
 TEST(ScanMatcher, WithoutPartnersThereIsNoMatch) {
   const ReferenceCloud empty({});
   Rng rng(6);
@@ -163,6 +198,7 @@ TEST(ScanMatcher, WithoutPartnersThereIsNoMatch) {
   EXPECT_EQ(match.pairs, 0);
   EXPECT_EQ(match.map_T_base, kPose);
   EXPECT_EQ(match_widely(empty, points, kPose).pairs, 0);
+  EXPECT_EQ(ScanMatcher().weighed(empty, points, {}, match).pairs, 0);
   EXPECT_EQ(ScanMatcher().match(empty, {}, kPose).inlier_ratio, 0.0);
 }
 
