@@ -100,7 +100,7 @@ struct LoopPolicy {
 struct RelocaliseParams {
   PlaceMapParams map;
   PlaceParams place;
-  double every_m = 0.4;              ///< looked for after so much way,
+  double every_m = 0.3;              ///< looked for after so much way,
   double every_rad = 0.5;            ///< or turn,
   int every_scans = 20;              ///< or so many scans
   std::size_t query_keyframes = 12;  ///< the newest ones together are the view

@@ -13,7 +13,7 @@ struct ClaimParams {
   double witnesses = 3.0;  ///< weight of the answers in a row that must name the same place
   double agree_m = 0.3;    ///< to within this
   double agree_rad = 0.1;
-  double moved_m = 0.3;  ///< an answer that is not clear counts when the robot has moved by this since the last one
+  double moved_m = 0.25;  ///< an answer that is not clear counts when the robot has moved by this since the last one
   double moved_rad = 0.4;
 };
 
