@@ -62,7 +62,9 @@ bool is_exploration(const api::MissionStatus& mission) { return mission.kind == 
 
 /// Only a search or an exploration is what the picture is of; after a drive or a survey it is the map that is shown.
 void add_status(image::MapScene& scene, const api::RobotStatus& status) {
-  scene.robot = status.pose.map_T_base;
+  if (is_placed(status.pose.quality)) {
+    scene.robot = status.pose.map_T_base;
+  }
   if (!status.mission || !(is_search(*status.mission) || is_exploration(*status.mission))) {
     return;
   }

@@ -66,6 +66,8 @@ void write_list(Json& json, std::string_view name, const std::vector<T>& values)
 [[nodiscard]] std::vector<std::string> lines_of(const std::vector<api::Gap>& gaps);
 /// One line: number, rule, the reason, how many alternatives there were.
 [[nodiscard]] std::string text_of(const ExploreDecision& decision);
+/// The place in the map, or that it is not known.
+[[nodiscard]] std::string place_text(const PoseEstimate& pose);
 /// One line for people about any update.
 [[nodiscard]] std::string text_of(const api::Update& update);
 /// Largest standard deviation of a position.

@@ -133,12 +133,17 @@ void write_fault(Json& json, const api::Fault& fault) {
 }
 
 void write_pose_estimate(Json& json, const PoseEstimate& pose) {
-  json.begin_object()
-      .field("x_m", pose.map_T_base.x_m)
-      .field("y_m", pose.map_T_base.y_m)
-      .field("theta_rad", pose.map_T_base.theta_rad)
-      .field("sigma_m", sigma_m(pose.covariance.topLeftCorner<2, 2>()))
-      .field("quality", to_string(pose.quality))
+  json.begin_object();
+  const bool placed = is_placed(pose.quality);
+  const auto number = [&](std::string_view key, double value) {
+    json.key(key);
+    placed ? json.value(value) : json.null();
+  };
+  number("x_m", pose.map_T_base.x_m);
+  number("y_m", pose.map_T_base.y_m);
+  number("theta_rad", pose.map_T_base.theta_rad);
+  number("sigma_m", sigma_m(pose.covariance.topLeftCorner<2, 2>()));
+  json.field("quality", to_string(pose.quality))
       .field("cause", pose.cause)
       .field("map_epoch", pose.map_epoch)
       .end_object();

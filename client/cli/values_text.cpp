@@ -22,9 +22,8 @@ std::string text_of_mission(const api::MissionStatus& mission) {
 
 struct Describe {
   std::string operator()(const api::RobotStatus& s) const {
-    return text_of(s.pose.map_T_base) + " " + std::string(to_string(s.pose.quality)) +
-           fixed("  %.2f m/s", s.velocity.v_m_s) + (s.estop ? "  ESTOP" : "") +
-           (s.faults.empty() ? "" : "  fault: " + s.faults.front().message) +
+    return place_text(s.pose) + " " + std::string(to_string(s.pose.quality)) + fixed("  %.2f m/s", s.velocity.v_m_s) +
+           (s.estop ? "  ESTOP" : "") + (s.faults.empty() ? "" : "  fault: " + s.faults.front().message) +
            (s.mission && !s.mission->end ? "  " + text_of_mission(*s.mission) : "");
   }
   std::string operator()(const LaserScan& scan) const {
@@ -92,6 +91,10 @@ std::string text_of(const Point2& p) { return "(" + fixed("%.2f, ", p.x()) + fix
 
 std::string text_of(const Pose2& pose) {
   return text_of(pose.translation()) + " m, " + fixed("%.0f deg", rad_to_deg(pose.theta_rad));
+}
+
+std::string place_text(const PoseEstimate& pose) {
+  return is_placed(pose.quality) ? text_of(pose.map_T_base) : "not known in the map";
 }
 
 double sigma_m(const Matrix2& c) {

@@ -68,15 +68,17 @@ Result<Pose2> parse_pose(const std::string& text) {
 void print_place(const Context& context, const api::RobotStatus& status, Duration waited) {
   const PoseEstimate& pose = status.pose;
   if (!context.json) {
-    *context.out << to_string(pose.quality) << " at " << text_of(pose.map_T_base)
+    *context.out << to_string(pose.quality) << (is_placed(pose.quality) ? " at " + place_text(pose) : "")
                  << (pose.cause.empty() ? "" : ": " + pose.cause) << '\n';
     return;
   }
   Json json;
   json.begin_object().field("quality", to_string(pose.quality)).field("cause", pose.cause);
   json.key("pose");
-  write_json(json, pose.map_T_base);
-  json.field("sigma_m", sigma_m(pose.covariance.topLeftCorner<2, 2>())).field("waited_s", to_seconds(waited));
+  is_placed(pose.quality) ? write_json(json, pose.map_T_base) : static_cast<void>(json.null());
+  json.key("sigma_m");
+  is_placed(pose.quality) ? json.value(sigma_m(pose.covariance.topLeftCorner<2, 2>())) : json.null();
+  json.field("waited_s", to_seconds(waited));
   *context.out << json.end_object().str() << '\n';
 }
 

@@ -31,8 +31,10 @@ void print_status(const Context& context, const api::RobotInfo& info, const api:
   row(context, "robot", info.robot_id + " (version " + info.software_version + ")");
   row(context, "time", fixed("%.1f s", to_seconds(s.stamp)));
   row(context, "pose",
-      text_of(s.pose.map_T_base) + fixed(" \xC2\xB1 %.2f m", sigma_m(s.pose.covariance.topLeftCorner<2, 2>())) + ", " +
-          std::string(to_string(s.pose.quality)) + (s.pose.cause.empty() ? "" : ": " + s.pose.cause));
+      place_text(s.pose) +
+          (is_placed(s.pose.quality) ? fixed(" \xC2\xB1 %.2f m", sigma_m(s.pose.covariance.topLeftCorner<2, 2>()))
+                                     : "") +
+          ", " + std::string(to_string(s.pose.quality)) + (s.pose.cause.empty() ? "" : ": " + s.pose.cause));
   if (s.line_map) {
     const api::LineMapStatus& map = *s.line_map;
     row(context, "map",

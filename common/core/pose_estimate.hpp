@@ -16,6 +16,12 @@ enum class LocalisationQuality : std::uint8_t { kUnknown, kLocalised, kDegraded,
 
 [[nodiscard]] std::string_view to_string(LocalisationQuality quality);
 
+/// Whether a pose is the robot's place in the map. Else it may be in any frame: that of a part which is mapped while
+/// the robot is looked for, say.
+[[nodiscard]] constexpr bool is_placed(LocalisationQuality quality) {
+  return quality == LocalisationQuality::kLocalised || quality == LocalisationQuality::kDegraded;
+}
+
 /// Result of an estimator. `covariance` is that of (x, y, theta) in m and rad, expressed in the frame `map`.
 struct PoseEstimate {
   RobotTime stamp;

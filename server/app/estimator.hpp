@@ -43,12 +43,6 @@ class Estimator {
   [[nodiscard]] virtual slam::MapTracker* map_tracker() { return nullptr; }
 };
 
-/// Whether a pose is the robot's place in the map. Else it may be in any frame: that of a part which is mapped while
-/// the robot is looked for, say.
-[[nodiscard]] constexpr bool is_placed(LocalisationQuality quality) {
-  return quality == LocalisationQuality::kLocalised || quality == LocalisationQuality::kDegraded;
-}
-
 /// Which estimator a robot uses.
 enum class EstimatorType : std::uint8_t { kOdometry, kScanMatch, kLineSlam, kLandmarks };
 

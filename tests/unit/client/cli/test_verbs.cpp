@@ -37,6 +37,24 @@ TEST_F(Verbs, ReportsAreOneJsonDocumentWithTheDocumentedKeys) {
   }
 }
 
+TEST_F(Verbs, ARobotThatIsLookedForHasNoPose) {
+  EXPECT_EQ(run({"status"}).out.find("not known"), std::string::npos);
+  for (const LocalisationQuality quality : {LocalisationQuality::kUnknown, LocalisationQuality::kLost}) {
+    host->edit([&](testing::FakeRobotValues& v) {
+      v.status.pose.quality = quality;
+      v.status.pose.cause = "nothing looks like this";
+    });
+    const std::string text = run({"status"}).out;
+    EXPECT_NE(text.find("not known in the map, " + std::string(to_string(quality)) + ": nothing looks like this"),
+              std::string::npos)
+        << text;
+    const std::string json = run({"status", "--json"}).out;
+    EXPECT_NE(json.find(R"("pose":{"x_m":null,"y_m":null,"theta_rad":null,"sigma_m":null,"quality")"),
+              std::string::npos)
+        << json;
+  }
+}
+
 TEST_F(Verbs, AMissionThatWasCutOffIsPartOfTheStatus) {
   EXPECT_EQ(run({"status"}).out.find("cut off"), std::string::npos);
   host->edit([](testing::FakeRobotValues& v) { v.status.cut_off = api::CutOffMission{"round-1", "explore"}; });

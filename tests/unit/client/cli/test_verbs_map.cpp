@@ -115,6 +115,8 @@ TEST_F(MapVerbs, RelocaliseTakesDegreesAndEndsAsTheRobotEnds) {
   const Ran lost = run({"relocalise", "--wait"});
   EXPECT_EQ(lost.code, 1);
   EXPECT_NE(lost.out.find("no place of the map looks like this"), std::string::npos) << lost.out;
+  EXPECT_EQ(lost.out.find(" at "), std::string::npos) << lost.out;
+  EXPECT_NE(run({"relocalise", "--wait", "--json"}).out.find(R"("pose":null,"sigma_m":null)"), std::string::npos);
   host->edit([](testing::FakeRobotValues& v) { v.status.line_map->relocalising = true; });
   EXPECT_EQ(run({"relocalise", "--wait", "--timeout", "0.3"}).code, 5);
 }
