@@ -68,7 +68,7 @@ Result<Pose2> parse_pose(const std::string& text) {
 void print_place(const Context& context, const api::RobotStatus& status, Duration waited) {
   const PoseEstimate& pose = status.pose;
   if (!context.json) {
-    *context.out << to_string(pose.quality) << (is_placed(pose.quality) ? " at " + place_text(pose) : "")
+    *context.out << to_string(pose.quality) << (is_placed(pose.quality) ? " at " + text_of(pose.map_T_base) : "")
                  << (pose.cause.empty() ? "" : ": " + pose.cause) << '\n';
     return;
   }

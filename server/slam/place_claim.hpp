@@ -28,16 +28,17 @@ class PlaceClaim {
   [[nodiscard]] bool take(const PlaceAnswer& answer, const Pose2& node_T_base);
   /// The node is another one from now on.
   void change_node(const Pose2& old_T_new);
-  void clear();
+  void clear() { claim_.reset(); }
 
  private:
-  [[nodiscard]] bool names_claim(const Pose2& map_T_node) const;
-  [[nodiscard]] bool is_new_view(const Pose2& node_T_base) const;
+  struct Claim {
+    Pose2 map_T_node;     ///< by the last answer that counted
+    Pose2 node_T_view;    ///< where the robot was then
+    double weight = 0.0;  ///< of the answers in a row that have said so
+  };
 
   ClaimParams params_;
-  std::optional<Pose2> map_T_node_;   ///< by the last answer that counted
-  std::optional<Pose2> node_T_view_;  ///< where the robot was then
-  double witnesses_ = 0.0;            ///< weight of the answers in a row that have said so
+  std::optional<Claim> claim_;
 };
 
 }  // namespace seeker::slam

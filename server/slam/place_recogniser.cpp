@@ -36,6 +36,15 @@ PyramidParams coarser(PyramidParams params, double max_cell_m) {
   return params;
 }
 
+/// Of a place that leads, but by too little for a verdict: the share of what is asked for.
+double weight_of(double fit, double lead, std::size_t cells, const JudgeParams& params) {
+  const bool explains = fit >= params.min_certainty - params.min_lead;
+  if (!explains || lead < params.weak_lead) {
+    return 0.0;
+  }
+  return std::min({1.0, lead / params.min_lead, lead * static_cast<double>(cells) / params.min_lead_cells});
+}
+
 }  // namespace
 
 PlaceMap::PlaceMap(LikelihoodPyramid pyramid, std::unique_ptr<ReferenceCloud> cloud, FreeSpace free_space)
@@ -80,19 +89,6 @@ std::string_view to_string(PlaceVerdict verdict) {
   }
   return "unknown";
 }
-
-namespace {
-
-/// Of a place that leads, but by too little for a verdict: the share of what is asked for.
-double weight_of(double fit, double lead, std::size_t cells, const JudgeParams& params) {
-  const bool explains = fit >= params.min_certainty - params.min_lead;
-  if (!explains || lead < params.weak_lead) {
-    return 0.0;
-  }
-  return std::min({1.0, lead / params.min_lead, lead * static_cast<double>(cells) / params.min_lead_cells});
-}
-
-}  // namespace
 
 PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, const JudgeParams& params) {
   PlaceAnswer answer;
