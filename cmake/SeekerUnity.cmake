@@ -12,7 +12,6 @@ set(SEEKER_ALONE
     server/lab/child_process.cpp server/lab/explore_picture.cpp server/lab/figures.cpp server/lab/merge_report.cpp
     server/lab/s2_figures.cpp server/lab/s5_figures.cpp server/lab/s5_reproduce.cpp server/lab/search_run.cpp
     server/lab/slam_report.cpp server/lab/solids_study.cpp
-    server/lines/scan_returns.cpp
     server/localize/tracking_matcher.cpp
     server/nav/lookout.cpp server/nav/path_follower.cpp server/nav/seen_movers.cpp
     server/search/fuzzy_planner.cpp server/search/target_visit.cpp

@@ -8,15 +8,8 @@
 namespace seeker::lines {
 namespace {
 
-/// Beams that graze the wall at a smaller cosine are not believed to know it any better.
-constexpr double kMinCosine = 0.05;
-/// ... and here, where the line itself is uncertain, not any better than this.
+/// kMinCosine where the line itself is uncertain.
 constexpr double kMinCosineOfFit = 0.3;
-
-/// Splitting ends at pieces of fewer points: any three are nearly a line.
-constexpr int kMinPiece = 4;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Array = Eigen::Map<const Eigen::ArrayXf>;
 
@@ -231,55 +224,6 @@ void FastExtractor::merge_pieces() {
   }
 }
 
-double FastExtractor::range_residual2(const LineFit& fit, int i) const {
-  const double across = fit.normal.dot(point(i));
-  const double cosine = std::max(std::abs(across) / static_cast<double>(range_[at(i)]), kMinCosine);
-  const double residual = (across - fit.r_m) / cosine;
-  return residual * residual;
-}
-
-void FastExtractor::move_corner(Piece& from, Piece& to, int i) {
-  Moments sums;
-  sums.add(point(i).x(), point(i).y(), static_cast<double>(weight_[at(i)]));
-  from.sums = from.sums - sums;
-  to.sums = to.sums + sums;
-  const int one = weight_[at(i)] > 0.0F ? 1 : 0;
-  from.points -= one;
-  to.points += one;
-}
-
-bool FastExtractor::settle_corner(Piece& a, Piece& b) {
-  const bool neighbours = a.last + 1 == b.first && !breaks_before(b.first);  // a door is no corner
-  if (!neighbours || a.points < kMinPiece || b.points < kMinPiece) {
-    return false;
-  }
-  const int corner = b.first;
-  while (a.points >= kMinPiece && range_residual2(b.fit, a.last) < range_residual2(a.fit, a.last)) {
-    move_corner(a, b, a.last--);
-    --b.first;
-  }
-  while (b.first >= corner && b.points >= kMinPiece &&
-         range_residual2(a.fit, b.first) < range_residual2(b.fit, b.first)) {
-    move_corner(b, a, b.first++);
-    ++a.last;
-  }
-  if (b.first == corner) {
-    return false;
-  }
-  a.fit = fit_line(a.sums);
-  b.fit = fit_line(b.sums);
-  return true;
-}
-
-void FastExtractor::settle_corners() {
-  for (std::size_t i = 0; i + 1 < merged_.size(); ++i) {
-    // The second time with lines that no longer bend into each other.
-    if (settle_corner(merged_[i], merged_[i + 1])) {
-      settle_corner(merged_[i], merged_[i + 1]);
-    }
-  }
-}
-
 std::size_t FastExtractor::rank_in_circle(int i) const {
   const auto rank = static_cast<std::size_t>(rank_[at(i)]);
   return rank < beams_ ? rank : rank - beams_;
@@ -304,6 +248,9 @@ NoiseSums FastExtractor::noise_of(const Piece& piece) {
   along_ -= middle;
   NoiseSums noise;
   noise.wv = static_cast<double>(weighted_.sum());
+  const float doubt = 1.0F + static_cast<float>(params_.corner_doubt);
+  weighted_.head(piece.doubtful_first) *= doubt;
+  weighted_.tail(piece.doubtful_last) *= doubt;
   weighted_ *= weight;
   noise.w2v = static_cast<double>(weighted_.sum());
   weighted_ *= along_;
@@ -374,6 +321,7 @@ void FastExtractor::extract(const LaserScan& scan, ScanLines& found) {
   split_groups();
   merge_pieces();
   settle_corners();
+  doubt_corners();
   write(scan, found);
   const Eigen::Map<const Eigen::ArrayXf> ranges(range_.data(), static_cast<Eigen::Index>(range_.size()));
   found.range_sigma_m = noise_.sigma_m(range_.empty() ? 0.0 : static_cast<double>(ranges.mean()));

@@ -25,6 +25,8 @@ struct FastParams {
   double merge_sigmas = 5.0;       ///< ... but two pieces of one line may have one so far off
   double bend_chi2 = 16.0;         ///< two parts are one line unless two lines explain them better than by this
   double max_merge_gap_m = 0.2;    ///< ends of two pieces of one line are not farther apart (spec S5.6)
+  double corner_sigmas = 3.0;      ///< nearer to the next wall's line, noise decides which of the two a point is of
+  double corner_doubt = 1.0;       ///< ... and such a point is off by this much more variance, in units of its noise
   double inflation_sigmas = 2.0;   ///< the covariance grows with a mean square that is over the noise by more than this
   int max_outliers = 3;            ///< so many points between two pieces of one line are left out
   int min_points = 8;              ///< of a line (spec S1.4 step 2d)
@@ -47,6 +49,11 @@ class FastExtractor {
   [[nodiscard]] const RangeNoise& noise() const { return noise_; }
 
  private:
+  /// Beams that graze the wall at a smaller cosine are not believed to know it any better.
+  static constexpr double kMinCosine = 0.05;
+  /// Splitting ends at pieces of fewer points: any three are nearly a line.
+  static constexpr int kMinPiece = 4;
+
   /// Returns first..last (inclusive), those left out among them not in `sums`.
   struct Piece {
     int first = 0;
@@ -55,6 +62,8 @@ class FastExtractor {
     Moments sums;
     double across_m2 = 0.0;  ///< LineFit::across_m2
     LineFit fit;             ///< of pieces that are lines; fragments have none
+    int doubtful_first = 0;  ///< so many returns at its begin may be the wall's before,
+    int doubtful_last = 0;   ///< so many at its end the next one's
   };
 
   /// How a line's points lie about it: their mean square in units of what the noise explains.
@@ -63,6 +72,7 @@ class FastExtractor {
     double excess = 0.0;
   };
 
+  [[nodiscard]] static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   void use_geometry(const LaserScan& scan);
   void load(const LaserScan& scan);
   /// load() of a scan whose beams all returned; false for others.
@@ -83,8 +93,12 @@ class FastExtractor {
   void merge_pieces();
   [[nodiscard]] bool absorb(Piece& piece, const Piece& next);
   void settle_corners();
+  [[nodiscard]] bool meet_in_corner(const Piece& a, const Piece& b) const;
   bool settle_corner(Piece& a, Piece& b);
   void move_corner(Piece& from, Piece& to, int i);
+  void doubt_corners();
+  [[nodiscard]] int doubtful_at_corner(const Piece& piece, const LineFit& other, bool at_end) const;
+  [[nodiscard]] double cosine_of(const LineFit& fit, int i) const;
   [[nodiscard]] double range_residual2(const LineFit& fit, int i) const;
   [[nodiscard]] NoiseSums noise_of(const Piece& piece);
   void finish(const LaserScan& scan, const Piece& piece, Line& line);

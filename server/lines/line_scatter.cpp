@@ -21,7 +21,8 @@ double FastExtractor::noise_factor() const {
     return 1.0;
   }
   const double least_sigma = std::min(1.0, params_.noise.min_sigma_m / noise_.floor_m);
-  return std::max(sum / dof, least_sigma * least_sigma);
+  // What is stated in units of an estimate errs like Student's t, whose variance is dof / (dof - 2).
+  return std::max(sum / std::max(dof - 2.0, 1.0), least_sigma * least_sigma);
 }
 
 void FastExtractor::settle_noise(ScanLines& found) {

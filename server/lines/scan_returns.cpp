@@ -13,8 +13,6 @@ namespace {
 /// Keeps quotients finite; no scanner has such beams.
 constexpr double kSmallestStep = 1e-9;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 void FastExtractor::use_geometry(const LaserScan& scan) {

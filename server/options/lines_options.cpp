@@ -29,6 +29,8 @@ void describe(config::Fields& f, FastParams& params) {
   f.field("merge_sigmas", params.merge_sigmas);
   f.field("bend_chi2", params.bend_chi2);
   f.field("max_merge_gap_m", params.max_merge_gap_m);
+  f.field("corner_sigmas", params.corner_sigmas);
+  f.field("corner_doubt", params.corner_doubt);
   f.field("inflation_sigmas", params.inflation_sigmas);
   f.field("max_outliers", params.max_outliers);
   f.field("min_points", params.min_points);
@@ -36,6 +38,8 @@ void describe(config::Fields& f, FastParams& params) {
   f.field("min_range_m", params.min_range_m);
   f.field("max_range_m", params.max_range_m);
   f.check("min_points", params.min_points >= 4, "a line has at least 4 points");
+  f.check("corner_sigmas", params.corner_sigmas >= 0.0, "must not be negative");
+  f.check("corner_doubt", params.corner_doubt >= 0.0, "must not be negative");
   f.check("split_sigmas", params.split_sigmas > 0.0, "must be positive");
 }
 
