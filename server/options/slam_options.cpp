@@ -89,6 +89,7 @@ void describe(config::Fields& f, ScanMapParams& params) {
 
 void describe(config::Fields& f, SpAssociationParams& params) {
   f.field("gate", params.gate);
+  f.field("nearest_gate", params.nearest_gate);
   f.field("end_gate", params.end_gate);
   f.field("near_gate", params.near_gate);
   f.field("joint_sigmas", params.joint_sigmas);

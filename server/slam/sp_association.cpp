@@ -316,7 +316,7 @@ Association associate_nearest(const SpState& state, const std::vector<SegmentObs
       continue;
     }
     match.d2 = nearest->d2;
-    if (nearest->d2 > state.params.association.gate) {
+    if (nearest->d2 > state.params.association.nearest_gate) {
       continue;  // S1.8: what has no partner is new
     }
     accept(state, *nearest, association);

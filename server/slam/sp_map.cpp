@@ -88,7 +88,7 @@ void update_in_turn(SpState& state, const std::vector<SegmentObservation>& obser
     }
     const SpPair pair = pairs[nearest];
     pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(nearest));
-    if (nearest_d2 > state.params.association.gate) {
+    if (nearest_d2 > state.params.association.nearest_gate) {
       ++report.rejected;
       continue;
     }

@@ -105,7 +105,7 @@ TEST(SpConsistency, ThePapersModeIsConsistentToo) {
   SpMapParams params;
   params.mode = SpMode::kPaper;
   params.features.real_scans = 1;
-  params.association.gate = 1e9;  // known pairs
+  params.association.nearest_gate = 1e9;  // known pairs
   const MeanNees whole = run_with_real_ends(params);
   EXPECT_NEAR(whole.robot, 3.0, kRobotBand);
   EXPECT_NEAR(whole.segment, 4.0, kSegmentBand);
