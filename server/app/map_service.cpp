@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "server/fleet/joint_map.hpp"
+
 namespace seeker::app {
 namespace {
 
@@ -135,6 +137,7 @@ void MapService::load(const std::string& name, api::MapUse use, const api::Reply
       reply(tl::unexpected<Error>(file ? listing.error() : file.error()));
       return;
     }
+    file->map = fleet::as_one_robots(std::move(file->map));  // a fleet's map, too, may be carried on by one robot
     const auto shared = std::make_shared<const store::MapFile>(std::move(*file));
     const bool posted = mailbox_.post([this, shared, name, use, summary = summary_of(*listing), reply] {
       const Status loaded = loop_.load_map(shared->map, {name, shared->origin.created_unix_s, use});

@@ -294,6 +294,40 @@ Origin origin_of_segment(std::uint64_t joint_id) {
   return {static_cast<std::uint8_t>(joint_id >> kSegmentBits), joint_id & (kMaxJointSegments - 1)};
 }
 
+LineMap as_one_robots(LineMap map) {
+  std::uint32_t next_node = 0;
+  for (const MapNode& node : map.nodes) {
+    next_node = node.id < kMaxJointNodes ? std::max(next_node, node.id + 1) : next_node;
+  }
+  std::map<std::uint32_t, std::uint32_t> renamed;
+  for (MapNode& node : map.nodes) {
+    if (node.id >= kMaxJointNodes) {
+      node.id = renamed.try_emplace(node.id, next_node + static_cast<std::uint32_t>(renamed.size())).first->second;
+    }
+  }
+  const auto rename = [&renamed](std::uint32_t& node) {
+    const auto found = renamed.find(node);
+    node = found == renamed.end() ? node : found->second;
+  };
+  for (MapEdge& edge : map.edges) {
+    rename(edge.from);
+    rename(edge.to);
+  }
+  for (MapKeyframe& keyframe : map.keyframes) {
+    rename(keyframe.node);
+  }
+  std::uint64_t next_segment = 1;
+  for (const MapSegment& segment : map.segments) {
+    next_segment = segment.id < kMaxJointSegments ? std::max(next_segment, segment.id + 1) : next_segment;
+  }
+  for (MapSegment& segment : map.segments) {
+    rename(segment.node);
+    segment.id = segment.id < kMaxJointSegments ? segment.id : next_segment++;
+  }
+  map.next_id = map.next_id > kMaxJointSegments ? next_segment : map.next_id;
+  return map;
+}
+
 Pose2 JointRobot::to_joint(const Pose2& map_T_x) const {
   const Node& node = nearest_node(*this, map_T_x, &Node::map_T_node);
   return node.joint_T_node * inverse(node.map_T_node) * map_T_x;

@@ -29,6 +29,9 @@ inline constexpr std::uint64_t kMaxJointSegments = std::uint64_t{1} << 48U;
 [[nodiscard]] std::uint64_t joint_segment_id(std::uint8_t slot, std::uint64_t segment);
 [[nodiscard]] Origin origin_of_node(std::uint32_t joint_id);
 [[nodiscard]] Origin origin_of_segment(std::uint64_t joint_id);
+/// A joint map as the map of one robot, which can be joined again: ids that hold another robot's slot become new ones
+/// above its own, in the same order. Other maps stay as they are.
+[[nodiscard]] LineMap as_one_robots(LineMap map);
 
 /// A robot's own map under the number it has in the fleet.
 struct RobotMap {

@@ -9,6 +9,7 @@
 #include "common/image/files.hpp"
 #include "common/image/png.hpp"
 #include "server/app/robot_options.hpp"
+#include "server/fleet/joint_map.hpp"
 #include "server/lab/slam_command.hpp"
 #include "server/lab/slam_estimators.hpp"
 #include "server/store/map_file.hpp"
@@ -70,7 +71,7 @@ Result<MergedLog> take_map(const MergeOptions& o, const std::filesystem::path& p
   }
   MergedLog taken;
   taken.name = path.filename().string();
-  taken.run.map = std::move(file->map);
+  taken.run.map = fleet::as_one_robots(std::move(file->map));
   return taken;
 }
 

@@ -137,6 +137,28 @@ TEST(JointMap, OneLocalMapAloneIsAMap) {
   EXPECT_EQ(joint->map.nodes, map.nodes);
 }
 
+TEST(JointMap, CanBeCarriedOnByOneRobotAndJoinedAgain) {
+  const LineMap a = chain(4, kStep);
+  const LineMap b = chain(3, kStep);
+  const auto joint = join({{0, &a}, {2, &b}}, {{0, 2, {pair_of(1, 0, kBeside)}}}, 7);
+  ASSERT_TRUE(joint) << joint.error().message;
+  EXPECT_FALSE(join({{0, &joint->map}}, {}, 8)) << "its ids name robots";
+  const LineMap one = as_one_robots(joint->map);
+  ASSERT_TRUE(validate(one)) << validate(one).error().message;
+  ASSERT_EQ(one.nodes.size(), joint->map.nodes.size());
+  for (std::size_t k = 0; k < one.nodes.size(); ++k) {
+    EXPECT_EQ(one.nodes[k].id, k);
+    EXPECT_EQ(one.nodes[k].map_T_node, joint->map.nodes[k].map_T_node);
+  }
+  ASSERT_EQ(one.segments.size(), joint->map.segments.size());
+  EXPECT_EQ(one.segments.back().node, 6U);
+  EXPECT_EQ(one.next_id, 8U);
+  const auto again = join({{0, &one}, {1, &b}}, {{0, 1, {pair_of(6, 0, kBeside)}}}, 8);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->map.nodes.size(), 10U);
+  EXPECT_EQ(as_one_robots(a), a);
+}
+
 TEST(JointMap, RefusesWhatCannotBeJoined) {
   const LineMap map = chain(2, kStep);
   const LineMap empty;
