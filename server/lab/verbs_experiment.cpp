@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <iostream>
+#include <set>
 
 #include <CLI/CLI.hpp>
 
@@ -29,11 +32,18 @@ const std::map<std::string, api::OnFound> kOnFound = {
 /// What `reproduce` regenerates, by id.
 struct Reproduction {
   Status (*run)(const ReproduceParams&, Report&);
-  const char* seeds;  ///< where the command line names none
+  const char* seeds;              ///< where the command line names none
+  std::set<std::string> takes{};  ///< of kSpecialOptions
 };
+/// What only some reproductions heed. One that is asked for anything else would show figures of other settings.
+constexpr std::array kSpecialOptions{"--set", "--robot", "--world", "--strategy", "--programs", "--no-sockets"};
 const std::map<std::string, Reproduction> kReproductions = {
-    {"r2", {&reproduce_r2, "1-50"}}, {"s1", {&reproduce_s1, "1-20"}}, {"s2", {&reproduce_s2, "1-10"}},
-    {"s3", {&reproduce_s3, "1-20"}}, {"s4", {&reproduce_s4, "1-4"}},  {"s5", {&reproduce_s5, "1-100"}},
+    {"r2", {&reproduce_r2, "1-50"}},
+    {"s1", {&reproduce_s1, "1-20", {"--set", "--world", "--strategy"}}},
+    {"s2", {&reproduce_s2, "1-10", {"--set"}}},
+    {"s3", {&reproduce_s3, "1-20", {"--set", "--programs", "--no-sockets"}}},
+    {"s4", {&reproduce_s4, "1-4", {"--set"}}},
+    {"s5", {&reproduce_s5, "1-100"}},
     {"s6", {&reproduce_s6, "1-5"}}};
 
 std::vector<std::string> reproduction_ids() {
@@ -168,9 +178,21 @@ struct ReproduceOptions {
   bool no_sockets = false;
 };
 
-int run_reproduce(const ReproduceOptions& options) {
+/// The first option given that the reproduction of `id` would not heed; empty: none.
+std::string unheeded_option(const CLI::App& verb, const std::string& id) {
+  const auto* const option = std::ranges::find_if(kSpecialOptions, [&](const char* name) {
+    return verb.count(name) > 0 && !kReproductions.at(id).takes.contains(name);
+  });
+  return option == kSpecialOptions.end() ? "" : *option;
+}
+
+int run_reproduce(const CLI::App& verb, const ReproduceOptions& options) {
   const CommonOptions& o = options.common;
   const std::string& id = options.id;
+  if (const std::string option = unheeded_option(verb, id); !option.empty()) {
+    return report_error("reproduce " + id + " takes no " + option +
+                        ": its condition fixes what that would change; leave it out");
+  }
   const Result<std::vector<std::uint64_t>> seeds = parse_seeds(o.seeds.empty() ? kReproductions.at(id).seeds : o.seeds);
   if (!seeds) {
     return report_error(seeds.error().message);
@@ -224,7 +246,7 @@ Verb add_reproduce(CLI::App& app) {
   verb->add_option("paper", o->id,
                    "r2: consistency of the line filter; s1: active exploration; s2: localisation from stereo "
                    "landmarks; s3: autonomous search; s4: one map of several robots; s5: line detection with automatic "
-                   "thresholds")
+                   "thresholds; s6: recognition of solids under water")
       ->check(CLI::IsMember(reproduction_ids()))
       ->capture_default_str();
   o->common.seeds.clear();
@@ -236,7 +258,7 @@ Verb add_reproduce(CLI::App& app) {
       ->check(CLI::IsMember(explore_strategies()));
   verb->add_option("--programs", o->programs, "Folder of seekerd and seeker (default: beside this program)");
   verb->add_flag("--no-sockets", o->no_sockets, "Leave out R12, which starts server and client as processes");
-  return [o] { return run_reproduce(*o); };
+  return [o, verb] { return run_reproduce(*verb, *o); };
 }
 
 }  // namespace seeker::lab
