@@ -65,7 +65,14 @@ Status run_slam_command(const SlamOptions& o, std::ostream& out) {
     return tl::unexpected<Error>(run.error());
   }
   out << (o.json ? slam_json(source, *run) : slam_text(source, *run));
-  return o.out.empty() ? Status{} : save_slam(o.out, source, *run);
+  if (const Status saved = o.out.empty() ? Status{} : save_slam(o.out, source, *run); !saved) {
+    return saved;
+  }
+  if (!run->log.damage.empty()) {
+    return fail(Errc::kCorrupt, "the log ends early (" + run->log.damage + "): this is what its first " +
+                                    std::to_string(run->log.scans) + " scans give");
+  }
+  return {};
 }
 
 }  // namespace seeker::lab

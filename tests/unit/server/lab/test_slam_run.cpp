@@ -11,6 +11,7 @@
 #include "server/lab/slam_final_poses.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/matchers.hpp"
+#include "tests/unit/server/drivers/replay/temporary_log.hpp"
 #include "tests/unit/server/lab/files.hpp"
 
 namespace seeker::lab {
@@ -113,6 +114,25 @@ TEST_F(SlamRunOf, TheCommandChoosesTheGeometryAndWritesItsFiles) {
   EXPECT_FALSE(std::filesystem::exists(folder() / "out" / "trajectory_online.tum"));
   options.estimator = "none";
   EXPECT_EQ(run_slam_command(options, out).error().code, Errc::kNotFound);
+}
+
+TEST_F(SlamRunOf, TheCommandTellsOfALogThatEndsEarlyAndKeepsWhatItGave) {
+  const drivers::TemporaryLog whole("whole.clf", kLog, true);
+  // A gzip file ends with 8 bytes of checksum and length.
+  std::filesystem::resize_file(whole.path(), std::filesystem::file_size(whole.path()) - 8);
+  SlamOptions options;
+  options.log = whole.path();
+  options.out = folder() / "out";
+  options.config = testing::source_file("config");
+  options.estimator = "odometry";
+  std::ostringstream out;
+  const Status done = run_slam_command(options, out);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, Errc::kCorrupt);
+  EXPECT_NE(done.error().message.find("the log ends early"), std::string::npos) << done.error().message;
+  const auto written = read_trajectory(folder() / "out" / "trajectory.tum");
+  ASSERT_TRUE(written);
+  EXPECT_EQ(written->poses.size(), 3U);
 }
 
 TEST_F(SlamRunOf, TheGeometryIsChosenByTheFirstScan) {
