@@ -20,6 +20,16 @@
 extern char** environ;  // NOLINT: POSIX asks for it
 
 namespace seeker::testing {
+namespace {
+
+/// Programs of an instrumented build take so many times as long.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr int kSlowdown = 10;
+#else
+constexpr int kSlowdown = 1;
+#endif
+
+}  // namespace
 
 ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                            std::filesystem::path output)
@@ -61,7 +71,7 @@ std::optional<int> ChildProcess::wait(std::chrono::seconds limit) {
   // A pidfd becomes readable when the process ends: no polling.
   const int handle = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
   pollfd entry{.fd = handle, .events = POLLIN, .revents = 0};
-  const int ready = poll(&entry, 1, static_cast<int>(std::chrono::milliseconds(limit).count()));
+  const int ready = poll(&entry, 1, static_cast<int>(std::chrono::milliseconds(kSlowdown * limit).count()));
   close(handle);
   if (ready <= 0) {
     return std::nullopt;
@@ -84,7 +94,7 @@ std::filesystem::path program(const std::string& name) {
 }
 
 std::optional<std::string> wait_for_file(const std::filesystem::path& path, std::chrono::seconds limit) {
-  const auto end = std::chrono::steady_clock::now() + limit;
+  const auto end = std::chrono::steady_clock::now() + kSlowdown * limit;
   while (std::chrono::steady_clock::now() < end) {
     std::string text;
     if (std::getline(std::ifstream(path), text) && !text.empty()) {

@@ -23,7 +23,8 @@ class ChildProcess {
   ~ChildProcess();
 
   void send(int signal) const;
-  /// Exit code (128 + signal where one ended it); nothing when it still runs after `limit`.
+  /// Exit code (128 + signal where one ended it); nothing when it still runs after `limit` (ten times that in a build
+  /// with sanitizers).
   [[nodiscard]] std::optional<int> wait(std::chrono::seconds limit);
   /// What it has printed so far, both streams.
   [[nodiscard]] std::string output() const;
@@ -36,7 +37,7 @@ class ChildProcess {
 
 /// A program of this build, e.g. "seekerd".
 [[nodiscard]] std::filesystem::path program(const std::string& name);
-/// The text of a file once it is there and not empty; nothing after `limit`.
+/// The text of a file once it is there and not empty; nothing after `limit` (as above).
 [[nodiscard]] std::optional<std::string> wait_for_file(const std::filesystem::path& path, std::chrono::seconds limit);
 /// A new empty folder below the test's temporary folder; removed at the end, unless a test has failed.
 [[nodiscard]] std::filesystem::path fresh_folder(const std::string& name);
