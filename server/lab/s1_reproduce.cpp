@@ -129,7 +129,7 @@ const std::vector<ExploreWorld>& explore_worlds() {
        .wall_near_m = 0.10,
        .error_limit_m = 0.10,
        .time_limit_s = 3600.0},
-      {.name = "office", .robot = "sim", .wall_near_m = 0.25, .error_limit_m = 0.20, .time_limit_s = 7200.0},
+      {.name = "office", .robot = "explore-office", .wall_near_m = 0.25, .error_limit_m = 0.20, .time_limit_s = 7200.0},
       {.name = "hospital",
        .robot = "explore-large",
        .wall_near_m = 0.25,
