@@ -44,6 +44,23 @@ TEST(SafetySupervisor, WallAheadStopsTheRobotButLetsItTurn) {
   EXPECT_EQ(supervise({.wanted = turn, .armed = true, .scan = &scan}, {}).allowed, turn);
 }
 
+TEST(SafetySupervisor, ARobotThatStillRollsDoesNotTurnIntoTheCornerThatItPasses) {
+  // A corner that the robot passes with 1 cm to spare, and a follower that has stopped the way but not the turn.
+  const Point2 corner(0.1, -0.27);
+  LaserScan scan;
+  scan.angle_min_rad = std::atan2(corner.y(), corner.x());
+  scan.angle_step_rad = 0.01;
+  scan.range_max_m = 8.0;
+  scan.ranges_m = {static_cast<float>(corner.norm())};
+  const Twist2 turn{0.0, -1.0};
+  SafetyInput input{.wanted = turn, .armed = true, .scan = &scan, .velocity = {0.2, 0.0}};
+  // At 0.2 m/s a turn of 0.25 rad/s passes the corner, one of 0.5 rad/s meets it before the robot stands.
+  EXPECT_DOUBLE_EQ(supervise(input, {}).allowed.omega_rad_s, -0.25);
+  EXPECT_FALSE(supervise(input, {}).reason.empty());
+  input.velocity = {};
+  EXPECT_EQ(supervise(input, {}).allowed, turn) << "standing it may turn";
+}
+
 TEST(SafetySupervisor, LowObstacleSeenBySonarAloneStopsTheRobot) {
   const LaserScan scan = wall_ahead(6.0);
   const SonarScan sonar = echo_ahead(0.15F);
