@@ -20,31 +20,6 @@ double lidar_range_in_cone(const Pose2& base_T_sonar, double half_angle_rad, con
   return nearest;
 }
 
-/// A base that is to slow down rolls on for a while, but turns as told at once: on a tighter arc than the one that was
-/// checked. Where it would meet something before it stands, the turn is lessened to what leaves it the most way.
-Twist2 without_turn_into_contact(const Twist2& allowed, const Twist2& velocity, const std::vector<Point2>& points_base,
-                                 const nav::ClearanceParams& params) {
-  if (std::abs(velocity.v_m_s) <= std::abs(allowed.v_m_s)) {
-    return allowed;
-  }
-  const auto free_m = [&](double share) {
-    return nav::free_arc_m({velocity.v_m_s, share * allowed.omega_rad_s}, points_base, params);
-  };
-  const double braking_m = velocity.v_m_s * velocity.v_m_s / (2.0 * params.decel_m_s2) + params.slow_margin_m;
-  double best = 1.0;
-  double best_m = free_m(best);
-  for (const double share : {0.75, 0.5, 0.25, 0.0}) {
-    if (best_m >= braking_m) {
-      break;
-    }
-    if (const double way_m = free_m(share); way_m > best_m) {
-      best = share;
-      best_m = way_m;
-    }
-  }
-  return {allowed.v_m_s, best * allowed.omega_rad_s};
-}
-
 }  // namespace
 
 std::vector<Point2> obstacle_points(const SafetyInput& input, const SafetyParams& params) {
@@ -89,7 +64,7 @@ SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params) {
                        std::clamp(input.wanted.omega_rad_s, -params.max_omega_rad_s, params.max_omega_rad_s)};
   const std::vector<Point2> points_base = obstacle_points(input, params);
   const Twist2 limited = nav::limit_for_clearance(clamped, points_base, params.clearance);
-  const Twist2 allowed = without_turn_into_contact(limited, input.velocity, points_base, params.clearance);
+  const Twist2 allowed = nav::limit_turn_while_rolling(limited, input.velocity, points_base, params.clearance);
   const Twist2 apart = nav::limit_for_movers(allowed, input.velocity, input.movers_base, params.clearance);
   if (apart != allowed) {
     return {apart, "slowed for another robot"};

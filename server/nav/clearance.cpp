@@ -1,6 +1,7 @@
 #include "server/nav/clearance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -12,6 +13,9 @@ namespace {
 /// Arcs of a larger radius are straight lines within the horizon to better than a millimetre per metre.
 constexpr double kStraightRadius_m = 1000.0;
 constexpr double kStandingSpeed_m_s = 1e-4;
+
+/// Shares of a turn that are tried where the whole of it meets something, the largest first.
+constexpr std::array kLesserTurns{0.75, 0.5, 0.25, 0.0};
 
 /// Way along +x until a disc of `radius_m` meets p; nothing when it never does.
 std::optional<double> straight_contact(const Point2& p, double radius_m) {
@@ -79,6 +83,29 @@ Twist2 limit_for_clearance(const Twist2& twist, const std::vector<Point2>& point
   const double allowed = std::sqrt(lag_v * lag_v + 2.0 * params.decel_m_s2 * room_m) - lag_v;
   const double scale = std::min(1.0, allowed / std::abs(twist.v_m_s));
   return {scale * twist.v_m_s, scale * twist.omega_rad_s};
+}
+
+Twist2 limit_turn_while_rolling(const Twist2& allowed, const Twist2& present, const std::vector<Point2>& points_base,
+                                const ClearanceParams& params) {
+  if (std::abs(present.v_m_s) <= std::abs(allowed.v_m_s)) {
+    return allowed;
+  }
+  const auto free_m = [&](double share) {
+    return free_arc_m({present.v_m_s, share * allowed.omega_rad_s}, points_base, params);
+  };
+  const double braking_m = present.v_m_s * present.v_m_s / (2.0 * params.decel_m_s2) + params.slow_margin_m;
+  double best = 1.0;
+  double best_m = free_m(best);
+  for (const double share : kLesserTurns) {
+    if (best_m >= braking_m) {
+      break;
+    }
+    if (const double way_m = free_m(share); way_m > best_m) {
+      best = share;
+      best_m = way_m;
+    }
+  }
+  return {allowed.v_m_s, best * allowed.omega_rad_s};
 }
 
 }  // namespace seeker::nav

@@ -31,4 +31,10 @@ struct ClearanceParams {
 [[nodiscard]] Twist2 limit_for_clearance(const Twist2& twist, const std::vector<Point2>& points_base,
                                          const ClearanceParams& params = {});
 
+/// What limit_for_clearance() allows a base that stands, made safe for one that rolls at `present`: told to slow down
+/// it rolls on for a while but turns as told at once, on a tighter arc than the one that was checked. Where it would
+/// meet something before it stands, omega is lessened to what leaves it the most way. v stays; never changes a sign.
+[[nodiscard]] Twist2 limit_turn_while_rolling(const Twist2& allowed, const Twist2& present,
+                                              const std::vector<Point2>& points_base, const ClearanceParams& params);
+
 }  // namespace seeker::nav
