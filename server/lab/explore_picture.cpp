@@ -9,16 +9,11 @@
 #include "common/image/plot.hpp"
 #include "server/lab/image_tools.hpp"
 #include "server/lab/table.hpp"
+#include "server/lab/world_sheet.hpp"
 
 namespace seeker::lab {
 namespace {
 
-constexpr int kLargestSide_px = 1400;
-constexpr double kMargin_m = 0.4;
-constexpr int kHeader_px = 72;
-constexpr int kFooter_px = 40;
-constexpr double kTitle_px = 14.0;
-constexpr double kText_px = 10.5;
 constexpr image::Stroke kTruth{{205, 205, 200}, 5.0};
 constexpr image::Stroke kFurniture{{226, 220, 208}, 2.0};
 constexpr image::Stroke kMissing{image::kRed, 3.0};
@@ -29,39 +24,7 @@ constexpr double kNode_px = 5.0;
 constexpr image::Stroke kFree{image::kBlue, 1.6};
 constexpr image::Stroke kAlongWall{image::kPurple, 2.2, image::LineStyle::kDashDot};
 
-/// The world on a canvas: metres of the frame `world` below a header of text.
-class Sheet {
- public:
-  explicit Sheet(const sim::World& world) : view_(view_of(world)), canvas_(blank()) {}
-
-  [[nodiscard]] Point2 px(const Point2& p_world) const { return view_.to_px(p_world) + Point2(0.0, kHeader_px); }
-  void line(const Point2& a_world, const Point2& b_world, const image::Stroke& stroke) {
-    canvas_.line(px(a_world), px(b_world), stroke);
-  }
-  [[nodiscard]] image::Canvas& canvas() { return canvas_; }
-  [[nodiscard]] double px_per_m() const { return view_.px_per_m; }
-  [[nodiscard]] double foot_px() const { return view_.height_px + kHeader_px + kFooter_px / 2.0; }
-
- private:
-  static image::MapView view_of(const sim::World& world) {
-    image::MapView view;
-    view.low = world.min_corner - Point2::Constant(kMargin_m);
-    view.high = world.max_corner + Point2::Constant(kMargin_m);
-    const Point2 side = view.high - view.low;
-    view.px_per_m = kLargestSide_px / side.maxCoeff();
-    view.width_px = static_cast<int>(std::ceil(side.x() * view.px_per_m));
-    view.height_px = static_cast<int>(std::ceil(side.y() * view.px_per_m));
-    return view;
-  }
-  [[nodiscard]] image::Canvas blank() const {
-    return {view_.width_px, view_.height_px + kHeader_px + kFooter_px, image::kWhite};
-  }
-
-  image::MapView view_;
-  image::Canvas canvas_;
-};
-
-void draw_truth(Sheet& sheet, const ExploreRecord& record) {
+void draw_truth(WorldSheet& sheet, const ExploreRecord& record) {
   for (const sim::Segment& wall : record.truth_walls.walls) {
     sheet.line(wall.a, wall.b(), kTruth);
   }
@@ -70,7 +33,7 @@ void draw_truth(Sheet& sheet, const ExploreRecord& record) {
   }
 }
 
-void draw_map(Sheet& sheet, const ExploreRecord& record) {
+void draw_map(WorldSheet& sheet, const ExploreRecord& record) {
   for (const MapSegment& segment : record.segments) {
     sheet.line(record.walls.world_T_map * segment.left(), record.walls.world_T_map * segment.right(), kMapped);
   }
@@ -86,7 +49,7 @@ void draw_map(Sheet& sheet, const ExploreRecord& record) {
 }
 
 /// Nodes, the ways between them, and goals that were left.
-void draw_topology(Sheet& sheet, const ExploreRecord& record) {
+void draw_topology(WorldSheet& sheet, const ExploreRecord& record) {
   std::map<std::uint64_t, Point2> nodes;
   for (const TopologyNode& node : record.topology.nodes) {
     nodes[node.id] = sheet.px(record.walls.world_T_map * node.map_T_base.translation());
@@ -103,7 +66,7 @@ void draw_topology(Sheet& sheet, const ExploreRecord& record) {
 }
 
 /// Stretch by stretch, since a dash pattern must not start anew at every step.
-void draw_path(Sheet& sheet, const ExploreRecord& record) {
+void draw_path(WorldSheet& sheet, const ExploreRecord& record) {
   const std::vector<PathPlace>& path = record.true_path;
   for (std::size_t begin = 0; begin < path.size();) {
     std::size_t end = begin;
@@ -126,33 +89,25 @@ void draw_path(Sheet& sheet, const ExploreRecord& record) {
   robot(record.truth.world_T_base, image::look::kRobot);
 }
 
-void draw_text(Sheet& sheet, const ExploreRecord& record, const std::string& title) {
+void draw_text(WorldSheet& sheet, const ExploreRecord& record, const std::string& title) {
   const ExploreResult& r = record.result;
-  sheet.canvas().text({16.0, 24.0}, title, {.size_px = kTitle_px});
   const std::string facts = r.outcome + " after " + fixed(r.robot_time_s, 0) + " s, path " + fixed(r.path_length_m, 1) +
                             " m, walls mapped " + fixed(100.0 * r.wall_share, 1) + " % of " +
                             fixed(r.reachable_wall_m, 1) + " m, false " + fixed(r.false_wall_m, 1) + " m";
-  sheet.canvas().text({16.0, 44.0}, facts, {.size_px = kText_px});
   const std::string errors = "position error: mean " + fixed(r.mean_error_m, 3) + " m, largest " +
                              fixed(r.max_error_m, 3) + " m; contacts " + std::to_string(r.contacts) +
                              ", least clearance " + fixed(r.min_clearance_m, 2) + " m; loops closed: epoch " +
                              std::to_string(r.map_epoch);
-  sheet.canvas().text({16.0, 62.0}, errors, {.size_px = kText_px});
-  double left = 16.0;
-  const auto entry = [&](const std::string& label, const image::Stroke& stroke) {
-    sheet.canvas().line({left, sheet.foot_px()}, {left + 26.0, sheet.foot_px()}, stroke);
-    sheet.canvas().text({left + 32.0, sheet.foot_px() + 5.0}, label, {.size_px = kText_px});
-    left += 32.0 + image::text_width_px(label, kText_px) + 22.0;
-  };
-  entry("true wall", kTruth);
-  entry("mapped", kMapped);
-  entry("not mapped", kMissing);
-  entry("path", kFree);
-  entry("path along a wall", kAlongWall);
+  sheet.head(title, {facts, errors});
+  std::vector<LegendEntry> legend = {{"true wall", kTruth},
+                                     {"mapped", kMapped},
+                                     {"not mapped", kMissing},
+                                     {"path", kFree},
+                                     {"path along a wall", kAlongWall}};
   if (!record.topology.nodes.empty()) {
-    entry("node", kEdge);
+    legend.push_back({"node", kEdge});
   }
-  entry("1 m", {image::kBlack, 3.0});
+  sheet.foot(legend);
 }
 
 using Curve = double ExploreSample::*;
@@ -177,7 +132,7 @@ image::Chart chart_of(const std::string& title, const std::string& y_label, cons
 }  // namespace
 
 Image draw_exploration(const ExploreRecord& record, const std::string& title) {
-  Sheet sheet(record.world);
+  WorldSheet sheet(record.world, {});
   draw_truth(sheet, record);
   draw_map(sheet, record);
   draw_topology(sheet, record);
