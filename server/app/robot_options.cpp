@@ -229,6 +229,7 @@ void describe(config::Fields& f, StereoSettings& settings) {
 }
 
 void describe(config::Fields& f, RobotOptions& options) {
+  f.field("base", options.base);
   f.field("robot_id", options.robot_id);
   const Status id = api::validate_robot_id(options.robot_id);
   f.check("robot_id", id.has_value(), id ? "" : id.error().message);
@@ -254,6 +255,43 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("server", options.server);
 }
 
+namespace {
+
+/// `files_left`: how many more files may lie below this one.
+Result<RobotOptions> read_over_base(const config::Document& document, const std::filesystem::path& file,
+                                    int files_left) {
+  RobotOptions alone;
+  const Status read_alone = document.read(alone);
+  if (alone.base.empty()) {
+    if (!read_alone) {
+      return tl::unexpected<Error>(read_alone.error());
+    }
+    alone.folders = {file.parent_path()};
+    return alone;
+  }
+  if (files_left == 0) {
+    return fail(Errc::kInvalidArgument, file.string() + ": base: more than " + std::to_string(kMaxRobotFiles) +
+                                            " robot files on top of one another; does one of them name itself?");
+  }
+  const std::filesystem::path base = file.parent_path() / alone.base;
+  const Result<config::Document> below = config::Document::load(base);
+  if (!below) {
+    return fail_with_context(file.string() + ": base", below.error());
+  }
+  Result<RobotOptions> options = read_over_base(*below, base, files_left - 1);
+  if (!options) {
+    return options;
+  }
+  if (const Status read = document.read(*options); !read) {
+    return tl::unexpected<Error>(read.error());
+  }
+  options->base.clear();
+  options->folders.insert(options->folders.begin(), file.parent_path());
+  return options;
+}
+
+}  // namespace
+
 Result<RobotOptions> parse_robot_options(std::string_view text, const std::string& name,
                                          const std::vector<std::string>& overrides) {
   const Result<config::Document> document = config::Document::parse(text, name, overrides);
@@ -264,19 +302,18 @@ Result<RobotOptions> parse_robot_options(std::string_view text, const std::strin
   if (const Status read = document->read(options); !read) {
     return tl::unexpected<Error>(read.error());
   }
+  if (!options.base.empty()) {
+    return fail(Errc::kInvalidArgument, name + ": base: a text that is no file has no folder to find it in");
+  }
   return options;
 }
 
 Result<RobotOptions> load_robot_options(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  const Result<std::string> text = config::read_text_file(file);
-  if (!text) {
-    return tl::unexpected<Error>(text.error());
+  const Result<config::Document> document = config::Document::load(file, overrides);
+  if (!document) {
+    return tl::unexpected<Error>(document.error());
   }
-  Result<RobotOptions> options = parse_robot_options(*text, file.string(), overrides);
-  if (options) {
-    options->folder = file.parent_path();
-  }
-  return options;
+  return read_over_base(*document, file, kMaxRobotFiles - 1);
 }
 
 std::filesystem::path resolve(const RobotOptions& options, const std::string& path) {
@@ -284,8 +321,12 @@ std::filesystem::path resolve(const RobotOptions& options, const std::string& pa
   if (written.is_absolute()) {
     return written;
   }
-  std::filesystem::path beside = options.folder / written;
-  return std::filesystem::exists(beside) ? beside : written;
+  for (const std::filesystem::path& folder : options.folders) {
+    if (std::filesystem::path beside = folder / written; std::filesystem::exists(beside)) {
+      return beside;
+    }
+  }
+  return written;
 }
 
 Result<std::shared_ptr<const vision::SolidModel>> load_solids(const RobotOptions& options) {

@@ -66,6 +66,7 @@ struct StereoSettings {
 };
 
 struct RobotOptions {
+  std::string base;  ///< the robot file that a file builds on; empty once both are read
   std::string robot_id = "seeker-1";
   DriverType driver = DriverType::kSim;
   double robot_radius_m = 0.26;
@@ -85,20 +86,25 @@ struct RobotOptions {
   fleet::TopologicalParams topology;
   StereoSettings stereo;
   server_net::ServerParams server;
-  std::filesystem::path folder;  ///< of the robot file; not a field
+  std::vector<std::filesystem::path> folders;  ///< of the robot file, then of its bases; not a field
 };
 
 void describe(config::Fields& f, RobotOptions& options);
 
-/// A robot file's text; `name` is what messages call it. Opens no file.
+/// Robot files that may lie on top of one another by `base`.
+inline constexpr int kMaxRobotFiles = 8;
+
+/// A robot file's text; `name` is what messages call it. Opens no file, so that the text cannot have a `base`.
 [[nodiscard]] Result<RobotOptions> parse_robot_options(std::string_view text, const std::string& name,
                                                        const std::vector<std::string>& overrides = {});
 
-/// Reads a robot file; `overrides` are "key.path=value".
+/// Reads a robot file over its `base`, which is named relative to the file's folder: what a file does not say is as its
+/// base says, and only then as the defaults. `overrides` are "key.path=value". Errors name the file and line.
 [[nodiscard]] Result<RobotOptions> load_robot_options(const std::filesystem::path& file,
                                                       const std::vector<std::string>& overrides = {});
 
-/// A path written in a robot file: absolute, relative to the file's folder, or relative to the working directory.
+/// A path written in a robot file: absolute, relative to the folder of the file or of a base of it (the first where it
+/// is there), or relative to the working directory.
 [[nodiscard]] std::filesystem::path resolve(const RobotOptions& options, const std::string& path);
 
 /// The model of solids that `search.solids.model` names; null when it names none. Errors of load_solid_model().

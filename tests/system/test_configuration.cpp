@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <gmock/gmock.h>
+
 #include "tests/system/simulated_robot.hpp"
 
 namespace seeker::testing {
@@ -32,6 +34,59 @@ TEST(RobotFiles, UnknownKeyIsNamedWithPlaceAndChoice) {
   EXPECT_NE(options.error().message.find("broken_robot.yaml:3: sim.sped: unknown key; allowed here: world"),
             std::string::npos)
       << options.error().message;
+}
+
+/// Files of a temporary folder, by name and text; loads the first of them.
+Result<app::RobotOptions> load_first(const std::vector<std::pair<std::string, std::string>>& files,
+                                     const std::vector<std::string>& overrides = {}) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "robot_bases";
+  std::filesystem::remove_all(folder);
+  for (const auto& [name, text] : files) {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name) << text;
+  }
+  return app::load_robot_options(folder / files.front().first, overrides);
+}
+
+TEST(RobotFiles, BaseSaysWhatAFileLeavesOut) {
+  const Result<app::RobotOptions> options =
+      load_first({{"mine.yaml", "base: shared/team.yaml\nrobot_id: mine\nsim: {speed: 2}\n"},
+                  {"shared/team.yaml", "base: ../all.yaml\nrobot_id: team\nsim: {seed: 7, speed: 1}\n"},
+                  {"all.yaml", "robot_id: all\nrobot_radius_m: 0.31\n"}},
+                 {"sim.seed=9"});
+  ASSERT_TRUE(options) << options.error().message;
+  EXPECT_EQ(options->robot_id, "mine");
+  EXPECT_EQ(options->sim.speed, 2.0);
+  EXPECT_EQ(options->sim.seed, 9U) << "the command line has the last word";
+  EXPECT_EQ(options->robot_radius_m, 0.31);
+  EXPECT_EQ(options->base, "") << "what is printed stands for itself";
+  EXPECT_EQ(options->folders.size(), 3U);
+}
+
+TEST(RobotFiles, PathOfABaseIsFoundFromItsOwnFolder) {
+  const Result<app::RobotOptions> options = load_first({{"mine/robot.yaml", "base: ../team/robot.yaml\n"},
+                                                        {"team/robot.yaml", "sim: {world: home.yaml}\n"},
+                                                        {"team/home.yaml", ""}});
+  ASSERT_TRUE(options) << options.error().message;
+  EXPECT_EQ(app::resolve(*options, options->sim.world).parent_path().filename(), "team");
+}
+
+TEST(RobotFiles, MistakesOfABaseAreNamedWhereTheyStand) {
+  const auto message = [](const std::vector<std::pair<std::string, std::string>>& files) {
+    const Result<app::RobotOptions> options = load_first(files);
+    return options ? "read" : options.error().message;
+  };
+  EXPECT_THAT(message({{"mine.yaml", "base: team.yaml\n"}, {"team.yaml", "robot_id: a\nsped: 1\n"}}),
+              ::testing::HasSubstr("team.yaml:2: sped: unknown key"));
+  EXPECT_THAT(message({{"mine.yaml", "base: team.yaml\nsped: 1\n"}, {"team.yaml", "robot_id: a\n"}}),
+              ::testing::HasSubstr("mine.yaml:2: sped: unknown key"));
+  EXPECT_THAT(
+      message({{"mine.yaml", "base: nobody.yaml\n"}}),
+      ::testing::AllOf(::testing::HasSubstr("mine.yaml: base: "), ::testing::HasSubstr("nobody.yaml: no such")));
+  EXPECT_THAT(message({{"mine.yaml", "base: mine.yaml\n"}}), ::testing::HasSubstr("does one of them name itself"));
+  const Result<app::RobotOptions> text = app::parse_robot_options("base: sim.yaml\n", "robot.yaml");
+  ASSERT_FALSE(text);
+  EXPECT_THAT(text.error().message, ::testing::HasSubstr("base: a text that is no file"));
 }
 
 TEST(RobotFiles, MissingLogOfAReplayIsNamed) {
