@@ -1,10 +1,9 @@
-#include <charconv>
-#include <cmath>
 #include <sstream>
 
 #include "client/cli/exit_code.hpp"
 #include "client/cli/targets.hpp"
 #include "common/config/yaml.hpp"
+#include "common/core/number_in.hpp"
 
 namespace seeker::cli {
 namespace {
@@ -15,15 +14,6 @@ struct PolygonFile {
 };
 
 void describe(config::Fields& f, PolygonFile& file) { f.field("corners", file.corners); }
-
-std::optional<double> number_of(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
-}
 
 Result<Polygon> read_polygon_file(const std::string& path) {
   const Result<std::string> text = config::read_text_file(path);
@@ -52,8 +42,8 @@ Result<Polygon> read_polygon_file(const std::string& path) {
 Result<Point2> parse_point(const std::string& text) {
   const std::size_t comma = text.find(',');
   if (comma != std::string::npos) {
-    const auto x = number_of(std::string_view(text).substr(0, comma));
-    const auto y = number_of(std::string_view(text).substr(comma + 1));
+    const auto x = finite_in(std::string_view(text).substr(0, comma));
+    const auto y = finite_in(std::string_view(text).substr(comma + 1));
     if (x && y) {
       return Point2(*x, *y);
     }
@@ -95,7 +85,7 @@ Result<Duration> parse_duration(const std::string& text) {
     if (!text.ends_with(unit.name)) {
       continue;
     }
-    const auto number = number_of(std::string_view(text).substr(0, text.size() - unit.name.size()));
+    const auto number = finite_in(std::string_view(text).substr(0, text.size() - unit.name.size()));
     if (number && *number > 0.0 && *number * unit.seconds <= kLongest_s) {
       return seconds(*number * unit.seconds);
     }

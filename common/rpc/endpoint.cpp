@@ -1,18 +1,18 @@
 #include "common/rpc/endpoint.hpp"
 
 #include <algorithm>
-#include <charconv>
+
+#include "common/core/number_in.hpp"
 
 namespace seeker::rpc {
 namespace {
 
 Result<std::uint16_t> parse_port(std::string_view text) {
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value == 0 || value > 65535) {
+  const std::optional<std::uint16_t> port = number_in<std::uint16_t>(text);
+  if (port.value_or(0) == 0) {
     return fail(Errc::kInvalidArgument, "'" + std::string(text) + "' is not a port; give a number from 1 to 65535");
   }
-  return static_cast<std::uint16_t>(value);
+  return *port;
 }
 
 Result<Endpoint> make(std::string_view host, std::string_view port) {

@@ -10,6 +10,7 @@
 #include "common/api/mission.hpp"
 #include "common/api/perception.hpp"
 #include "common/api/robot_state.hpp"
+#include "common/core/map_move.hpp"
 #include "common/core/pose_estimate.hpp"
 #include "common/core/scan.hpp"
 #include "common/core/topology.hpp"
@@ -87,8 +88,10 @@ class Behaviour {
   virtual void on_look(const Result<StereoLook>& /*look*/) {}
   /// Whether it can go on where the pose is lost.
   [[nodiscard]] virtual bool needs_pose() const { return true; }
-  /// A loop closure moved the map: `new_T_old` takes places of the map before to the map now, exact near the robot.
-  virtual void map_moved(const Pose2& /*new_T_old*/) {}
+  /// A loop closure moved the map: `move` takes places of the map before to the map now.
+  virtual void map_moved(const MapMove& /*move*/) {}
+  /// Why the mission is over already, while the robot still drives back to its start.
+  [[nodiscard]] virtual std::optional<api::MissionEnd> pending_end() const { return std::nullopt; }
   /// Time passes without steps while paused.
   virtual void resumed(RobotTime /*now*/) {}
   [[nodiscard]] virtual std::optional<api::GridReport> grid() const { return std::nullopt; }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "common/core/assert.hpp"
 
@@ -18,6 +19,16 @@ api::Outcome to_api(explore::EndKind kind) {
     case explore::EndKind::kTimeLimit: return api::Outcome::kTimeLimit;
   }
   return api::Outcome::kFault;
+}
+
+std::optional<api::MissionEnd> to_api(std::optional<explore::ExploreEnd> end) {
+  if (!end) {
+    return std::nullopt;
+  }
+  return api::MissionEnd{.outcome = to_api(end->kind),
+                         .cause = std::move(end->cause),
+                         .remedy = std::move(end->remedy),
+                         .unreachable = std::move(end->unreachable)};
 }
 
 api::Severity severity_of(const explore::ExploreEvent& event) {
@@ -90,10 +101,12 @@ Result<std::unique_ptr<Behaviour>> ExploreBehaviour::create(const ExploreSetting
   return std::unique_ptr<Behaviour>(new ExploreBehaviour(std::move(*core), seconds(settings.params.segments_period_s)));
 }
 
-void ExploreBehaviour::map_moved(const Pose2& new_T_old) {
-  exploration_.transform(new_T_old);
+void ExploreBehaviour::map_moved(const MapMove& move) {
+  exploration_.transform(move);
   segments_.forget();
 }
+
+std::optional<api::MissionEnd> ExploreBehaviour::pending_end() const { return to_api(exploration_.pending_end()); }
 
 Decision ExploreBehaviour::step(const Situation& situation) {
   SEEKER_ASSERT(situation.tracker != nullptr);
@@ -129,12 +142,7 @@ Decision ExploreBehaviour::step(const Situation& situation) {
     decision.events.push_back({"decision", describe(*step.decision), api::Severity::kInfo});
     decision.exploration = std::move(step.decision);
   }
-  if (step.end) {
-    decision.end = api::MissionEnd{.outcome = to_api(step.end->kind),
-                                   .cause = step.end->cause,
-                                   .remedy = step.end->remedy,
-                                   .unreachable = step.end->unreachable};
-  }
+  decision.end = to_api(std::move(step.end));
   return decision;
 }
 

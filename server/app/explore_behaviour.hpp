@@ -35,7 +35,8 @@ class ExploreBehaviour final : public Behaviour {
 
   [[nodiscard]] Decision step(const Situation& situation) override;
   void resumed(RobotTime now) override { exploration_.resume(now); }
-  void map_moved(const Pose2& new_T_old) override;
+  void map_moved(const MapMove& move) override;
+  [[nodiscard]] std::optional<api::MissionEnd> pending_end() const override;
   [[nodiscard]] const Topology* topology() const override { return exploration_.strategy().topology(); }
   [[nodiscard]] std::optional<Point2> target_map() const override { return exploration_.strategy().target_map(); }
   [[nodiscard]] std::optional<TopologyMemory> memory() const override { return exploration_.strategy().memory(); }

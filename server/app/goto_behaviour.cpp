@@ -33,9 +33,9 @@ GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission,
 
 void GotoBehaviour::resumed(RobotTime /*now*/) { drive_.interrupted(); }
 
-void GotoBehaviour::map_moved(const Pose2& new_T_old) {
-  floors_.transform(new_T_old);
-  sonar_obstacles_.transform(new_T_old);
+void GotoBehaviour::map_moved(const MapMove& move) {
+  floors_.transform(move);
+  sonar_obstacles_.transform(move);
   segments_.forget();
   drive_.interrupted();
 }

@@ -34,7 +34,7 @@ class GotoBehaviour final : public Behaviour {
   [[nodiscard]] Decision step(const Situation& situation) override;
   void resumed(RobotTime now) override;
   /// Places stay where they were asked for, in the frame `map`; the way there is planned anew.
-  void map_moved(const Pose2& new_T_old) override;
+  void map_moved(const MapMove& move) override;
 
  private:
   void next_waypoint(Decision& decision);

@@ -35,9 +35,9 @@ std::vector<Pose2> MapViewFinder::find(const Situation& situation) {
   return views;
 }
 
-void MapViewFinder::transform(const Pose2& new_T_old) {
-  openings_.transform(new_T_old);
-  floors_.transform(new_T_old);
+void MapViewFinder::transform(const MapMove& move) {
+  openings_.transform(move);
+  floors_.transform(move);
   segments_.forget();
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "server/app/behaviour.hpp"
 #include "server/app/segment_view.hpp"
 #include "server/explore/explore_params.hpp"
@@ -18,7 +19,7 @@ class MapViewFinder {
 
   /// Frame `map`, cheapest way first. Costs a plan of the whole map: for when a goal is chosen.
   [[nodiscard]] std::vector<Pose2> find(const Situation& situation);
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
 
  private:
   explore::ExploreParams params_;

@@ -1,6 +1,7 @@
 #include "server/app/mission_executor.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/core/assert.hpp"
 #include "server/app/estimator.hpp"
@@ -26,6 +27,26 @@ api::ReturnMission way_home_of(const api::MissionTask& task) {
   return home;
 }
 
+/// Whether it came to its own end, with all done that there was.
+bool is_done(api::Outcome outcome) {
+  switch (outcome) {
+    case api::Outcome::kComplete:
+    case api::Outcome::kTargetFound:
+    case api::Outcome::kNotFoundAreaCovered:
+    case api::Outcome::kBoundReached: return true;
+    case api::Outcome::kUnreachable:
+    case api::Outcome::kTimeLimit:
+    case api::Outcome::kUncertain:
+    case api::Outcome::kLost:
+    case api::Outcome::kBattery:
+    case api::Outcome::kLinkLost:
+    case api::Outcome::kOperator:
+    case api::Outcome::kFault: return false;
+  }
+  SEEKER_ASSERT(false);
+  return false;
+}
+
 /// Why the robot was sent home, and how that went.
 api::MissionEnd after_way_home(api::MissionEnd why, const api::MissionEnd& way_home) {
   if (way_home.outcome == api::Outcome::kComplete) {
@@ -34,7 +55,7 @@ api::MissionEnd after_way_home(api::MissionEnd why, const api::MissionEnd& way_h
   }
   why.cause += "; the robot is not back at its start: " + way_home.cause;
   why.remedy += way_home.remedy.empty() ? "" : "; " + way_home.remedy;
-  why.unreachable = way_home.unreachable;
+  why.unreachable.insert(why.unreachable.end(), way_home.unreachable.begin(), way_home.unreachable.end());
   return why;
 }
 
@@ -124,6 +145,8 @@ void MissionExecutor::pause(RobotTime now, const std::string& why) {
   if (running()) {
     active_->status.state = api::MissionState::kPaused;
     active_->ran_at.reset();
+    active_->blocked_since.reset();  // what the trouble is given begins anew when it goes on
+    active_->unlocalised_since.reset();
     active_->status.activity = why;
     log(now, "mission-paused", why);
     report(now);
@@ -132,8 +155,17 @@ void MissionExecutor::pause(RobotTime now, const std::string& why) {
 
 void MissionExecutor::end(api::Outcome outcome, const std::string& cause, const std::string& remedy, RobotTime now) {
   if (active_) {
-    finish({.outcome = outcome, .cause = cause, .remedy = remedy, .unreachable = {}}, now);
+    finish(as_it_counts({.outcome = outcome, .cause = cause, .remedy = remedy, .unreachable = {}}), now);
   }
+}
+
+/// What cuts a way home short is not why the robot was sent home. The operator's word is the last in any case.
+api::MissionEnd MissionExecutor::as_it_counts(api::MissionEnd end) const {
+  if (end.outcome == api::Outcome::kOperator) {
+    return end;
+  }
+  const auto why = active_->end_after ? active_->end_after : active_->behaviour->pending_end();
+  return why ? after_way_home(*why, end) : end;
 }
 
 void MissionExecutor::finish(const api::MissionEnd& end, RobotTime now) {
@@ -144,7 +176,7 @@ void MissionExecutor::finish(const api::MissionEnd& end, RobotTime now) {
   active_->status.end = end;
   active_->status.planned_path.clear();
   active_->status.activity = end.cause;
-  if (end.outcome != api::Outcome::kOperator && end.outcome != api::Outcome::kFault) {
+  if (is_done(end.outcome)) {
     active_->status.progress = 1.0;
   }
   log(now, "mission-ended", std::string(to_string(end.outcome)) + ": " + end.cause);
@@ -174,6 +206,7 @@ bool MissionExecutor::hold_for_trouble(const Situation& situation, const api::Fa
     }
     return true;
   }
+  const bool was_blocked = std::exchange(active_->blocked_since, std::nullopt).has_value();
   if (!is_placed(situation.pose.quality) && active_->behaviour->needs_pose()) {
     if (!active_->unlocalised_since) {
       active_->unlocalised_since = situation.now;
@@ -186,8 +219,7 @@ bool MissionExecutor::hold_for_trouble(const Situation& situation, const api::Fa
     }
     return true;
   }
-  if (active_->blocked_since || active_->unlocalised_since) {
-    active_->blocked_since.reset();
+  if (was_blocked || active_->unlocalised_since) {
     active_->unlocalised_since.reset();
     active_->behaviour->resumed(situation.now);
     log(situation.now, "mission-continues", "the trouble is gone");
@@ -215,10 +247,11 @@ void MissionExecutor::apply_link_policy(const Situation& situation, WallTime wal
   }
   collect();
   keep_searched();
+  api::MissionEnd why = active_->behaviour->pending_end().value_or(
+      api::MissionEnd{.outcome = api::Outcome::kLinkLost, .cause = cause, .remedy = remedy, .unreachable = {}});
   active_->behaviour = std::move(*way_back);
   active_->detection_base = highest_detection_id_;
-  active_->end_after =
-      api::MissionEnd{.outcome = api::Outcome::kLinkLost, .cause = cause, .remedy = remedy, .unreachable = {}};
+  active_->end_after = std::move(why);
   log(situation.now, "returning", cause, api::Severity::kWarning);
 }
 

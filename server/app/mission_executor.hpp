@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/api/robot_api.hpp"
+#include "common/core/map_move.hpp"
 #include "server/app/behaviour.hpp"
 
 namespace seeker::app {
@@ -35,8 +36,8 @@ struct MissionOutputs {
 };
 
 /// A correction of the map that is in use.
-struct MapMove {
-  Pose2 new_T_old;               ///< takes places in the map before to places in the map now; identity: it only grew
+struct MapCorrection {
+  MapMove move;                  ///< takes places in the map before to places in the map now; nothing: it only grew
   std::uint32_t from_epoch = 0;  ///< of the map before: only what belongs to it moves
   std::uint32_t to_epoch = 0;    ///< of the map now
 };
@@ -70,7 +71,7 @@ class MissionExecutor {
   void on_look(const Result<StereoLook>& look);
   /// What a running mission knows of places moves with the map, and so does what ended ones have found and searched in
   /// it: others are told of it as long as the map lives. Only grid() of an ended mission keeps its epoch.
-  void map_moved(const MapMove& move, RobotTime now);
+  void map_moved(const MapCorrection& correction, RobotTime now);
 
   /// What the behaviour knew when the program was cut off; before its first step.
   void remember(const TopologyMemory& memory);
@@ -125,6 +126,7 @@ class MissionExecutor {
   void apply_link_policy(const Situation& situation, WallTime wall_now);
   void take(const Decision& decision, const Situation& situation);
   void finish(const api::MissionEnd& end, RobotTime now);
+  [[nodiscard]] api::MissionEnd as_it_counts(api::MissionEnd end) const;
   void collect();
   void collect_grid();
   void collect_detections();

@@ -7,29 +7,31 @@
 
 namespace seeker::app {
 
-void MissionExecutor::map_moved(const MapMove& move, RobotTime now) {
+void MissionExecutor::map_moved(const MapCorrection& correction, RobotTime now) {
+  const auto& [move, from_epoch, to_epoch] = correction;
   if (active_) {
-    active_->behaviour->map_moved(move.new_T_old);
+    active_->behaviour->map_moved(move);
     active_->last_pose.reset();
-    active_->pose = move.new_T_old * active_->pose;
+    active_->pose = move * active_->pose;
     if (active_->so_far.start_map) {
-      active_->so_far.start_map = move.new_T_old * *active_->so_far.start_map;
+      active_->so_far.start_map = move * *active_->so_far.start_map;
     }
-    active_->map_epoch = move.to_epoch;
-    if (move.new_T_old != Pose2{}) {
+    active_->map_epoch = to_epoch;
+    if (move.moves()) {
       log(now, "map-moved", "the map was corrected; what was searched and found moved with it");
     }
     collect_detections();  // moved by the behaviour, which knows best how
   }
   for (api::Detection& detection : detections_) {
-    if (detection.map_epoch == move.from_epoch) {
-      detection = api::moved(std::move(detection), move.new_T_old);
-      detection.map_epoch = move.to_epoch;
+    if (detection.map_epoch == from_epoch) {
+      const Pose2 new_T_old = move.at(detection.map_T_base.translation());
+      detection = api::moved(std::move(detection), new_T_old);
+      detection.map_epoch = to_epoch;
     }
   }
-  if (searched_ && searched_epoch_ == move.from_epoch) {
-    searched_->map_T_grid = move.new_T_old * searched_->map_T_grid;
-    searched_epoch_ = move.to_epoch;
+  if (searched_ && searched_epoch_ == from_epoch) {
+    searched_->map_T_grid = move * searched_->map_T_grid;
+    searched_epoch_ = to_epoch;
   }
 }
 

@@ -44,9 +44,9 @@ void PictureRound::take(const Recognition& recognition) {
   }
 }
 
-void PictureRound::map_moved(const Pose2& new_T_old) {
+void PictureRound::map_moved(const MapMove& move) {
   for (Recognition& recognition : seen_) {
-    recognition.map_T_base = new_T_old * recognition.map_T_base;
+    recognition.map_T_base = move * recognition.map_T_base;
   }
 }
 

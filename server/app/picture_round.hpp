@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "server/app/behaviour.hpp"
 #include "server/app/turn_and_look.hpp"
 #include "server/search/detection_tracker.hpp"
@@ -36,7 +37,7 @@ class PictureRound {
   void step(const Situation& situation, Decision& decision);
   /// The answer to wants_image.
   void take(const Recognition& recognition);
-  void map_moved(const Pose2& new_T_old);
+  void map_moved(const MapMove& move);
   void resumed();
   /// What was seen, and the end of the round.
   [[nodiscard]] std::vector<Recognition> finish();

@@ -76,9 +76,9 @@ api::MissionEnd RecogniseBehaviour::end() const {
           .unreachable = {}};
 }
 
-void RecogniseBehaviour::map_moved(const Pose2& new_T_old) {
-  round_.map_moved(new_T_old);
-  tracker_.transform(new_T_old);
+void RecogniseBehaviour::map_moved(const MapMove& move) {
+  round_.map_moved(move);
+  tracker_.transform(move);
 }
 
 void RecogniseBehaviour::resumed(RobotTime /*now*/) { round_.resumed(); }

@@ -23,7 +23,7 @@ class RecogniseBehaviour final : public Behaviour {
   [[nodiscard]] Decision step(const Situation& situation) override;
   [[nodiscard]] std::shared_ptr<const vision::Recogniser> recogniser() const override { return recogniser_; }
   void on_recognition(const Recognition& recognition) override { round_.take(recognition); }
-  void map_moved(const Pose2& new_T_old) override;
+  void map_moved(const MapMove& move) override;
   void resumed(RobotTime now) override;
   [[nodiscard]] std::vector<api::Detection> detections() const override;
 

@@ -15,6 +15,19 @@ tl::unexpected<Error> no_map() {
               "this robot's estimator keeps no map of segments; start it with --set estimator=line_slam");
 }
 
+/// The robot's surroundings first, since they count where a piece is as near: what it does there must go on.
+MapMove move_of(const std::vector<slam::MapPiece>& before, const std::vector<slam::MapPiece>& after,
+                const Pose2& old_map_T_base, const Pose2& map_T_base) {
+  std::vector<MapMove::Piece> moved = {{old_map_T_base.translation(), map_T_base * inverse(old_map_T_base)}};
+  for (const slam::MapPiece& old : before) {
+    const auto now = std::find_if(after.begin(), after.end(), [&](const slam::MapPiece& p) { return p.id == old.id; });
+    if (now != after.end()) {
+      moved.push_back({old.map_T_piece * old.middle_piece, now->map_T_piece * inverse(old.map_T_piece)});
+    }
+  }
+  return MapMove(std::move(moved));
+}
+
 }  // namespace
 
 RobotMap::RobotMap(const RobotMapParams& params, const nav::OccupancyParams& occupancy, slam::MapTracker* tracker)
@@ -23,8 +36,11 @@ RobotMap::RobotMap(const RobotMapParams& params, const nav::OccupancyParams& occ
 PoseEstimate RobotMap::follow(const PoseEstimate& estimate, RobotTime now, const std::optional<Pose2>& old_map_T_base) {
   PoseEstimate out = estimate;
   out.map_epoch += epoch_offset_;
+  const std::vector<slam::MapPiece> before =
+      std::exchange(pieces_, tracker_ != nullptr ? tracker_->pieces() : std::vector<slam::MapPiece>{});
   if (out.map_epoch != epoch_) {
     epoch_ = out.map_epoch;
+    last_move_ = old_map_T_base ? move_of(before, pieces_, *old_map_T_base, out.map_T_base) : MapMove{};
     const bool little =
         old_map_T_base && distance_m(*old_map_T_base, out.map_T_base) < params_.calm_move_m &&
         std::abs(wrap_angle(out.map_T_base.theta_rad - old_map_T_base->theta_rad)) < params_.calm_turn_rad;

@@ -13,6 +13,7 @@
 
 #include "common/api/map.hpp"
 #include "common/api/robot_state.hpp"
+#include "common/core/map_move.hpp"
 #include "common/core/pose_estimate.hpp"
 #include "server/app/segment_log.hpp"
 #include "server/nav/occupancy_map.hpp"
@@ -63,6 +64,9 @@ class RobotMap {
   /// by how much is told by where the robot would be in the old one, `old_map_T_base`.
   [[nodiscard]] PoseEstimate follow(const PoseEstimate& estimate, RobotTime now,
                                     const std::optional<Pose2>& old_map_T_base = std::nullopt);
+  /// How the map has moved when follow() said so last and was told `old_map_T_base`: piece by piece, and around the
+  /// robot as the robot did.
+  [[nodiscard]] const MapMove& last_move() const { return last_move_; }
   [[nodiscard]] Status integrate(const LaserScan& scan, const Pose2& map_T_base);
   [[nodiscard]] Status integrate(const SonarScan& scan, const Pose2& map_T_base);
   /// Once a tick: goes on with a map that is being written anew.
@@ -123,6 +127,9 @@ class RobotMap {
   int scans_per_tick_ = 0;            ///< so many in a tick
   std::uint32_t rendered_epoch_ = 0;  ///< of the poses in waiting_
   bool moved_again_ = false;          ///< since then
+
+  std::vector<slam::MapPiece> pieces_;  ///< as of the last follow()
+  MapMove last_move_;
 
   SegmentLog segments_;
   std::optional<std::uint64_t> tracker_revision_;  ///< of the segments taken last

@@ -98,13 +98,13 @@ void RobotLoop::follow_map(const std::optional<Pose2>& old_map_T_base) {
   if (!was_placed) {
     // The pose before was in a frame of its own: it tells where the robot was looked for, not how the map has moved.
     log("robot-found", "the robot has found its place in the map, which stays where it was");
-    missions_.map_moved({.new_T_old = {}, .from_epoch = before, .to_epoch = pose_.map_epoch}, now());
+    missions_.map_moved({.move = {}, .from_epoch = before, .to_epoch = pose_.map_epoch}, now());
     return;
   }
   const Pose2 new_T_old = pose_.map_T_base * inverse(*old_map_T_base);
   const int moved_mm = static_cast<int>(1e3 * distance_m(*old_map_T_base, pose_.map_T_base));
   log("map-moved", "the map was corrected; the robot's place in it moved by " + std::to_string(moved_mm) + " mm");
-  missions_.map_moved({.new_T_old = new_T_old, .from_epoch = before, .to_epoch = pose_.map_epoch}, now());
+  missions_.map_moved({.move = map_.last_move(), .from_epoch = before, .to_epoch = pose_.map_epoch}, now());
   move_fleet(new_T_old);
 }
 

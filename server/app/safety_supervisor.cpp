@@ -64,10 +64,10 @@ SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params) {
                        std::clamp(input.wanted.omega_rad_s, -params.max_omega_rad_s, params.max_omega_rad_s)};
   const std::vector<Point2> points_base = obstacle_points(input, params);
   const Twist2 limited = nav::limit_for_clearance(clamped, points_base, params.clearance);
-  const Twist2 allowed = nav::limit_turn_while_rolling(limited, input.velocity, points_base, params.clearance);
-  const Twist2 apart = nav::limit_for_movers(allowed, input.velocity, input.movers_base, params.clearance);
-  if (apart != allowed) {
-    return {apart, "slowed for another robot"};
+  const Twist2 apart = nav::limit_for_movers(limited, input.velocity, input.movers_base, params.clearance);
+  const Twist2 allowed = nav::limit_turn_while_rolling(apart, input.velocity, points_base, params.clearance);
+  if (apart != limited) {
+    return {allowed, "slowed for another robot"};
   }
   if (allowed != clamped) {
     return {allowed, "slowed for an obstacle"};

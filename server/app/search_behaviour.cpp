@@ -165,13 +165,13 @@ void SearchBehaviour::on_recognition(const Recognition& recognition) {
                         recognition.sonar ? &*recognition.sonar : nullptr);
 }
 
-void SearchBehaviour::map_moved(const Pose2& new_T_old) {
-  mission_.transform(new_T_old);
+void SearchBehaviour::map_moved(const MapMove& move) {
+  mission_.transform(move);
   if (round_) {
-    round_->map_moved(new_T_old);
+    round_->map_moved(move);
   }
   if (views_) {
-    views_->transform(new_T_old);
+    views_->transform(move);
   }
 }
 

@@ -50,7 +50,7 @@ class SearchBehaviour final : public Behaviour {
   [[nodiscard]] std::shared_ptr<const vision::Recogniser> recogniser() const override { return recogniser_; }
   void on_recognition(const Recognition& recognition) override;
   void resumed(RobotTime now) override;
-  void map_moved(const Pose2& new_T_old) override;
+  void map_moved(const MapMove& move) override;
   [[nodiscard]] std::optional<api::GridReport> grid() const override;
   [[nodiscard]] std::optional<SearchedFloor> searched(const Point2& middle_map, int side_cells) const override;
   [[nodiscard]] std::vector<api::Detection> detections() const override;

@@ -187,17 +187,17 @@ void SurveyBehaviour::save(Decision& decision) {
   decision.end = std::move(end);
 }
 
-void SurveyBehaviour::map_moved(const Pose2& new_T_old) {
+void SurveyBehaviour::map_moved(const MapMove& move) {
   for (localize::Sighting& sighting : sightings_) {
-    sighting.map_T_eye = new_T_old * sighting.map_T_eye;
+    sighting.map_T_eye = move * sighting.map_T_eye;
   }
   if (!places_given_) {
     for (Point2& place : mission_.places) {
-      place = new_T_old * place;
+      place = move * place;
     }
   }
   sweep_.resumed();
-  way_->map_moved(new_T_old);
+  way_->map_moved(move);
 }
 
 void SurveyBehaviour::resumed(RobotTime now) {

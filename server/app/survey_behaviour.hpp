@@ -43,7 +43,7 @@ class SurveyBehaviour final : public Behaviour {
 
   [[nodiscard]] Decision step(const Situation& situation) override;
   void on_look(const Result<StereoLook>& look) override;
-  void map_moved(const Pose2& new_T_old) override;
+  void map_moved(const MapMove& move) override;
   void resumed(RobotTime now) override;
 
  private:

@@ -178,13 +178,13 @@ void ActiveStrategy::try_again(RobotTime now) {
   interrupted(now);
 }
 
-void ActiveStrategy::transform(const Pose2& new_T_old) {
-  path_.transform(new_T_old);
+void ActiveStrategy::transform(const MapMove& move) {
+  path_.transform(move);
   for (Point2& p : closed_map_) {
-    p = new_T_old * p;
+    p = move * p;
   }
   if (wall_goal_map_) {
-    wall_goal_map_ = new_T_old * *wall_goal_map_;
+    wall_goal_map_ = move * *wall_goal_map_;
   }
 }
 

@@ -21,7 +21,7 @@ class ActiveStrategy final : public ExploreStrategy {
   [[nodiscard]] StrategyStep step(const StrategyInput& input) override;
   void interrupted(RobotTime now) override;
   void try_again(RobotTime now) override;
-  void transform(const Pose2& new_T_old) override;
+  void transform(const MapMove& move) override;
 
  private:
   enum class Mode : std::uint8_t { kExplore, kWall, kPath, kDone };

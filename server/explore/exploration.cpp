@@ -40,7 +40,8 @@ Exploration::~Exploration() = default;
 
 ExploreStep Exploration::step(const ExploreInput& input) { return impl_->step(input); }
 void Exploration::resume(RobotTime now) { impl_->resume(now); }
-void Exploration::transform(const Pose2& new_T_old) { impl_->transform(new_T_old); }
+void Exploration::transform(const MapMove& move) { impl_->transform(move); }
+std::optional<ExploreEnd> Exploration::pending_end() const { return impl_->pending_end(); }
 void Exploration::remember(const TopologyMemory& memory) { impl_->remember(memory); }
 void Exploration::remember_start(const Point2& start_map) { impl_->remember_start(start_map); }
 const ExploreStrategy& Exploration::strategy() const { return impl_->strategy(); }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/pose_estimate.hpp"
 #include "common/core/result.hpp"
 #include "server/explore/explore_params.hpp"
@@ -92,8 +93,10 @@ class Exploration {
   [[nodiscard]] ExploreStep step(const ExploreInput& input);
   /// Time between this and the step before does not count; drives start anew.
   void resume(RobotTime now);
-  /// The map moved (new epoch): `new_T_old` takes old map coordinates to new ones.
-  void transform(const Pose2& new_T_old);
+  /// The map moved (new epoch): `move` takes old map coordinates to new ones.
+  void transform(const MapMove& move);
+  /// How it ended where the robot is still on its way back to the start.
+  [[nodiscard]] std::optional<ExploreEnd> pending_end() const;
   /// Before the first step: what the strategy knew when the program was cut off.
   void remember(const TopologyMemory& memory);
   /// Before the first step: where it began before the program was cut off, frame `map`.

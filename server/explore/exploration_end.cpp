@@ -27,25 +27,34 @@ void add_places(const std::vector<Point2>& from, std::vector<Point2>& to) {
   }
 }
 
-/// Whether unknown floor would be left if nothing was forbidden: then the limits are why the exploration ends.
-bool more_beyond_limits(const nav::FloorView& floor, const nav::ForbiddenAreas& areas, const Point2& robot_map,
-                        const ExploreParams& params) {
+/// The floor as if nothing was forbidden.
+struct Unlimited {
+  nav::CostMap cost;
+  nav::DistanceField costs;
+};
+
+/// Nothing where nothing is forbidden, either.
+std::optional<Unlimited> without_limits(const nav::FloorView& floor, const nav::ForbiddenAreas& areas,
+                                        const Point2& robot_map, const nav::CostMapParams& params) {
   if (areas.empty()) {
-    return false;
+    return std::nullopt;
   }
-  const auto open_map = nav::CostMap::build(floor.occupancy, params.cost);
-  if (!open_map) {
-    return false;
+  auto cost = nav::CostMap::build(floor.occupancy, params);
+  if (!cost) {
+    return std::nullopt;
   }
-  const auto costs = nav::DistanceField::build(*open_map, robot_map);
-  if (!costs) {
-    return false;
-  }
+  auto costs = nav::DistanceField::build(*cost, robot_map);
+  return costs ? std::optional(Unlimited{std::move(*cost), std::move(*costs)}) : std::nullopt;
+}
+
+/// Whether unknown floor would be left if nothing was forbidden: then the limits are why the exploration ends.
+bool more_beyond_limits(const Unlimited& unlimited, const nav::FloorView& floor, const nav::ForbiddenAreas& areas,
+                        const Point2& robot_map, const ViewpointParams& params) {
   const nav::ForbiddenAreas nothing;
   const std::vector<MapSegment> no_walls;
-  const nav::FloorView open_floor{floor.occupancy, *open_map, floor.reachable, floor.revision, floor.built};
+  const nav::FloorView open_floor{floor.occupancy, unlimited.cost, floor.reachable, floor.revision, floor.built};
   const std::vector<Opening> openings = frontier_openings(
-      {open_floor, *costs, no_walls, nothing, {robot_map.x(), robot_map.y(), 0.0}, floor.built}, params.viewpoints);
+      {open_floor, unlimited.costs, no_walls, nothing, {robot_map.x(), robot_map.y(), 0.0}, floor.built}, params);
   return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
     return !areas.allows(opening.p_map) || !areas.allows(opening.p_map + kBeyond_m * opening.outward_map);
   });
@@ -92,15 +101,19 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
     left.no_floor = Error{Errc::kUnreachable, "the robot is walled in: there is no floor around it to drive on"};
     return left;
   }
+  const auto unlimited = without_limits(**floor, request_.areas, here, params_.cost);
   for (const CutOffFloor& part : cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2)) {
-    // What only other robots have seen is theirs to look after.
-    if (nav::seen_by_itself(**floor, part.p_map)) {
+    if (unlimited && unlimited->costs.cost_to(part.p_map)) {
+      left.beyond_limits = true;  // the way there is forbidden, not blocked
+    } else if (nav::seen_by_itself(**floor, part.p_map)) {
+      // What only other robots have seen is theirs to look after.
       left.cut_off.push_back({part.p_map, was_reachable(part, (*floor)->cost.frame())});
     }
   }
   left.people = blocked_ways({**floor, *costs, input.segments, request_.areas, input.map_T_base, input.now},
                              known_floor_, floors_.obstacles_map(), params_.viewpoints);
-  left.beyond_limits = more_beyond_limits(**floor, request_.areas, here, params_);
+  left.beyond_limits = left.beyond_limits ||
+                       (unlimited && more_beyond_limits(*unlimited, **floor, request_.areas, here, params_.viewpoints));
   return left;
 }
 

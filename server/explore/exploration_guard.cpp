@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "common/core/text.hpp"
@@ -73,7 +74,7 @@ void Exploration::Impl::check_certainty(const StrategyInput& input, double sigma
 
 void Exploration::Impl::begin_regain(const StrategyInput& input, double sigma_m, ExploreStep& out) {
   fruitless_regains_ = known_floor_.present_area_m2() > floor_at_regain_m2_ + kNewFloor_m2 ? 0 : fruitless_regains_ + 1;
-  floor_at_regain_m2_ = known_floor_.present_area_m2();
+  floor_at_regain_m2_ = std::max(floor_at_regain_m2_, known_floor_.present_area_m2());  // people hide some at times
   const std::string cause = "the robot's position is uncertain by " + text(sigma_m) + " m";
   if (fruitless_regains_ > kFruitlessRegains) {
     end_ = ExploreEnd{EndKind::kUncertain,

@@ -177,26 +177,26 @@ void Exploration::Impl::resume(RobotTime now) {
   lookout_.stop();
 }
 
-void Exploration::Impl::transform(const Pose2& new_T_old) {
-  strategy_->transform(new_T_old);
-  floors_.transform(new_T_old);
-  sonar_obstacles_.transform(new_T_old);
-  trail_.transform(new_T_old);
-  known_floor_.clear();
-  turns_.transform(new_T_old);
-  home_.transform(new_T_old);
-  back_.transform(new_T_old);
+void Exploration::Impl::transform(const MapMove& move) {
+  strategy_->transform(move);
+  floors_.transform(move);
+  sonar_obstacles_.transform(move);
+  trail_.transform(move);
+  known_floor_.transform(move);
+  turns_.transform(move);
+  home_.transform(move);
+  back_.transform(move);
   lookout_.stop();
   if (start_) {
-    start_ = new_T_old * *start_;
+    start_ = move * *start_;
   }
   for (Point2& p : back_way_) {
-    p = new_T_old * p;
+    p = move * p;
   }
   for (const auto& end : {&pending_end_, &end_}) {
     if (*end) {
       for (Point2& p : (*end)->unreachable) {
-        p = new_T_old * p;
+        p = move * p;
       }
     }
   }

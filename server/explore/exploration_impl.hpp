@@ -27,7 +27,8 @@ class Exploration::Impl {
 
   [[nodiscard]] ExploreStep step(const ExploreInput& input);
   void resume(RobotTime now);
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
+  [[nodiscard]] const std::optional<ExploreEnd>& pending_end() const { return pending_end_; }
   void remember(const TopologyMemory& memory) { strategy_->remember(memory); }
   void remember_start(const Point2& start_map) { start_ = start_map; }
   [[nodiscard]] const ExploreStrategy& strategy() const { return *strategy_; }

@@ -136,6 +136,10 @@ Status validate(const ExploreParams& params) {
       return part;
     }
   }
+  if (params.guard.home_m_s > params.driver.follower.max_v_m_s) {
+    return fail(Errc::kInvalidArgument,
+                "guard.home_m_s must not be above driver.follower.max_v_m_s: no way home is faster");
+  }
   if (!(params.floor_cell_m >= kTileResolution_m)) {
     return fail(Errc::kInvalidArgument, "floor_cell_m must not be below the cells of the occupancy, 0.05 m");
   }

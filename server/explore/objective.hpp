@@ -31,7 +31,7 @@ struct PredictedSight {
 
 class PredictedBelief;
 
-/// What is known of robot and walls now. Holds no reference to where it came from.
+/// What is known of robot and walls now. Must not outlive the filter it came from, which joint() reads.
 class Belief {
  public:
   /// Robot and walls of the filter; the walls' shapes are in the frame `map`.
@@ -42,8 +42,8 @@ class Belief {
          std::size_t max_walls);
 
   [[nodiscard]] const std::vector<SightWall>& walls() const { return walls_; }
-  /// Joint covariance of the robot and these walls (indices into walls()), ready for predictions. Valid during the
-  /// filter's life; the result is a value.
+  /// Joint covariance of the robot and these walls (indices into walls()), ready for predictions. The
+  /// result is a value.
   [[nodiscard]] PredictedBelief joint(const std::vector<std::size_t>& walls) const;
 
  private:

@@ -44,6 +44,9 @@ Openings::Openings(const ViewpointParams& params) : params_(params) {}
 
 std::vector<Opening> Openings::find(const OpeningsInput& input) {
   now_ = input.now;
+  if (std::exchange(moved_, false)) {
+    moved_at_ = now_;
+  }
   std::vector<Opening> all = frontier_openings(input, params_);
   if (input.walls) {
     const std::vector<Opening> ends = wall_end_openings(input, params_);
@@ -94,8 +97,10 @@ bool Openings::is_open(Opening& opening, const OpeningsInput& input) {
   return memory.visits < params_.max_visits && memory.failures < params_.max_failures;
 }
 
+bool Openings::is_settling() const { return moved_ || to_seconds(now_ - moved_at_) < kSettle_s; }
+
 Openings::Memory& Openings::memory_of(const Opening& opening) {
-  const bool settling = to_seconds(now_ - moved_at_) < kSettle_s;
+  const bool settling = is_settling();
   Memory* nearest = nullptr;
   double nearest_m = params_.same_m + kMostSlack_m;
   for (Memory& memory : memories_) {
@@ -155,12 +160,14 @@ std::vector<Point2> Openings::given_up() const {
   return places;
 }
 
-void Openings::transform(const Pose2& new_T_old) {
-  moved_at_ = now_;
+void Openings::transform(const MapMove& move) {
+  const bool settling = is_settling();
+  moved_ = true;
   for (Memory& memory : memories_) {
+    const Pose2 new_T_old = move.at(memory.p_map);
     const Point2 p_map = new_T_old * memory.p_map;
-    memory.slack_m = std::min((p_map - memory.p_map).norm(), kMostSlack_m);
-    memory.outward_map = new_T_old * (memory.p_map + memory.outward_map) - p_map;
+    memory.slack_m = std::min((settling ? memory.slack_m : 0.0) + (p_map - memory.p_map).norm(), kMostSlack_m);
+    memory.outward_map = new_T_old * Point2(memory.p_map + memory.outward_map) - p_map;
     memory.p_map = p_map;
   }
 }

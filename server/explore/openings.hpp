@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/core/line_map.hpp"
+#include "common/core/map_move.hpp"
 #include "common/core/time.hpp"
 #include "server/explore/viewpoint_params.hpp"
 #include "server/nav/floor_view.hpp"
@@ -72,9 +73,9 @@ class Openings {
   [[nodiscard]] std::vector<Point2> given_up() const;
   /// Who stood in the way may have gone on: what was given up may be driven to once more.
   void try_again();
-  /// The map moved. A map that bends moves far places less than the robot's: for a while what is remembered is
-  /// recognised by a wider measure and takes its place from what is found.
-  void transform(const Pose2& new_T_old);
+  /// The map moved. A place between two pieces of it may go with either: for a while what is remembered is recognised
+  /// by a wider measure and takes its place from what is found.
+  void transform(const MapMove& move);
 
  private:
   struct Memory {
@@ -86,11 +87,13 @@ class Openings {
     int failures = 0;
     RobotTime looked_at;  ///< the last counted look
     RobotTime failed_at;
-    /// How far the last correction of the map moved it, or less if the map bent: it is looked for so far about.
+    /// How far corrections of the map have moved it since it was last found: it is looked for so far about.
     double slack_m = 0.0;
     bool gone = false;  ///< given up, but nothing is open there any more
   };
 
+  /// The map was corrected lately, as far as find() was called since.
+  [[nodiscard]] bool is_settling() const;
   [[nodiscard]] Memory& memory_of(const Opening& opening);
   void count_look(Memory& memory, RobotTime now) const;
   [[nodiscard]] bool is_open(Opening& opening, const OpeningsInput& input);
@@ -100,7 +103,8 @@ class Openings {
   std::vector<Memory> memories_;
   std::uint64_t next_id_ = 1;
   RobotTime now_;       ///< of the last find()
-  RobotTime moved_at_;  ///< when the map was last corrected
+  bool moved_ = false;  ///< the map was corrected since then
+  RobotTime moved_at_;  ///< of the first find() after a correction
 };
 
 /// Borders of unknown floor with viewpoints, cheapest first; ids, visits and resting not yet set.

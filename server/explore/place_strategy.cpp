@@ -12,11 +12,12 @@ namespace {
 constexpr double kTurn_rad_s = 0.6;
 constexpr double kWaitTick_s = 1.0;
 
-Opening moved(Opening opening, const Pose2& new_T_old) {
-  const Point2 ahead = new_T_old * (opening.p_map + opening.outward_map);
+Opening moved(Opening opening, const MapMove& move) {
+  const Pose2 new_T_old = move.at(opening.p_map);
+  const Point2 ahead = new_T_old * Point2(opening.p_map + opening.outward_map);
   opening.p_map = new_T_old * opening.p_map;
   opening.outward_map = ahead - opening.p_map;
-  opening.map_T_view = new_T_old * opening.map_T_view;
+  opening.map_T_view = move * opening.map_T_view;
   return opening;
 }
 
@@ -239,14 +240,14 @@ void PlaceStrategy::try_again(RobotTime now) {
   interrupted(now);
 }
 
-void PlaceStrategy::transform(const Pose2& new_T_old) {
-  openings_.transform(new_T_old);
-  driver_.transform(new_T_old);
+void PlaceStrategy::transform(const MapMove& move) {
+  openings_.transform(move);
+  driver_.transform(move);
   if (goal_) {
-    goal_ = moved(std::move(*goal_), new_T_old);
+    goal_ = moved(std::move(*goal_), move);
   }
   if (began_map_) {
-    began_map_ = new_T_old * *began_map_;
+    began_map_ = move * *began_map_;
   }
   corrected_ = true;
 }

@@ -53,7 +53,7 @@ class PlaceStrategy final : public ExploreStrategy {
   [[nodiscard]] StrategyStep step(const StrategyInput& input) override;
   void interrupted(RobotTime now) override;
   void try_again(RobotTime now) override;
-  void transform(const Pose2& new_T_old) override;
+  void transform(const MapMove& move) override;
 
  private:
   enum class State : std::uint8_t { kChoose, kDrive, kLook, kWait, kTurn, kDone };

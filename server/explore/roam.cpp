@@ -34,12 +34,17 @@ double left_is_freer(const StrategyInput& input) {
 RoamStrategy::RoamStrategy(const RoamParams& params, const nav::ClearanceParams& clearance)
     : params_(params), clearance_(clearance) {}
 
-/// From the robot's edge on a straight line, and to forbidden ground.
+/// From the robot's edge on a straight line to what stands there, and to ground that no part of it may enter.
 double RoamStrategy::free_way_m(const StrategyInput& input, const std::vector<Point2>& points_base) const {
   const double free_m = nav::free_arc_m({params_.v_m_s, 0.0}, points_base, clearance_);
-  const auto forbidden_m = nav::distance_to_forbidden(input.floors.areas(), input.map_T_base.translation(),
-                                                      input.map_T_base.theta_rad, clearance_.horizon_m);
-  return std::min(free_m, forbidden_m.value_or(clearance_.horizon_m));
+  double allowed_m = clearance_.horizon_m;
+  for (const double side : {-1.0, 0.0, 1.0}) {
+    const Point2 from_map = input.map_T_base * Point2(0.0, side * clearance_.radius_m);
+    const auto forbidden_m = nav::distance_to_forbidden(input.floors.areas(), from_map, input.map_T_base.theta_rad,
+                                                        clearance_.horizon_m + clearance_.radius_m);
+    allowed_m = std::min(allowed_m, forbidden_m.value_or(2.0 * clearance_.horizon_m) - clearance_.radius_m);
+  }
+  return std::min(free_m, allowed_m);
 }
 
 StrategyStep RoamStrategy::step(const StrategyInput& input) {
@@ -75,6 +80,6 @@ StrategyStep RoamStrategy::step(const StrategyInput& input) {
 
 void RoamStrategy::interrupted(RobotTime /*now*/) { turn_rad_s_ = 0.0; }
 
-void RoamStrategy::transform(const Pose2& /*new_T_old*/) {}  // it knows no place
+void RoamStrategy::transform(const MapMove& /*move*/) {}  // it knows no place
 
 }  // namespace seeker::explore

@@ -15,7 +15,7 @@ class RoamStrategy final : public ExploreStrategy {
 
   [[nodiscard]] StrategyStep step(const StrategyInput& input) override;
   void interrupted(RobotTime now) override;
-  void transform(const Pose2& new_T_old) override;
+  void transform(const MapMove& move) override;
 
  private:
   [[nodiscard]] double free_way_m(const StrategyInput& input, const std::vector<Point2>& points_base) const;

@@ -12,6 +12,7 @@
 
 #include "common/core/explore_decision.hpp"
 #include "common/core/line_map.hpp"
+#include "common/core/map_move.hpp"
 #include "common/core/topology.hpp"
 #include "server/nav/planned_driver.hpp"
 #include "server/slam/map_tracker.hpp"
@@ -53,8 +54,8 @@ class ExploreStrategy {
   virtual void interrupted(RobotTime now) = 0;
   /// Interrupted to give whoever stood in the way time to go on: what was given up may be tried once more.
   virtual void try_again(RobotTime now) { interrupted(now); }
-  /// The map moved: `new_T_old` takes places of the map before to the map now.
-  virtual void transform(const Pose2& new_T_old) = 0;
+  /// The map moved: `move` takes places of the map before to the map now.
+  virtual void transform(const MapMove& move) = 0;
   /// Places it has been at and still means to go to; null where the strategy keeps none.
   [[nodiscard]] virtual const Topology* topology() const { return nullptr; }
   /// What it must know again to go on after the program was cut off; nothing where all of it is seen from the map.

@@ -62,9 +62,9 @@ void Trail::cut_after(const Point2& p_map) {
   }
 }
 
-void Trail::transform(const Pose2& new_T_old) {
+void Trail::transform(const MapMove& move) {
   for (TrailPoint& point : points_) {
-    point.p_map = new_T_old * point.p_map;
+    point.p_map = move * point.p_map;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 
 namespace seeker::explore {
@@ -26,7 +27,7 @@ class Trail {
   [[nodiscard]] std::vector<Point2> way_to_certainty() const;
   /// Forgets everything after the place nearest to p: the robot went back to it.
   void cut_after(const Point2& p_map);
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
 
  private:
   std::vector<TrailPoint> points_;

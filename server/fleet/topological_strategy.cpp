@@ -320,13 +320,13 @@ void TopologicalStrategy::interrupted(RobotTime now) {
   state_ = State::kChoose;
 }
 
-void TopologicalStrategy::transform(const Pose2& new_T_old) {
-  map_.transform(new_T_old);
+void TopologicalStrategy::transform(const MapMove& move) {
+  map_.transform(move);
   for (Failure& failure : failures_) {
-    failure.p_map = new_T_old * failure.p_map;
+    failure.p_map = move * failure.p_map;
   }
   for (Point2& p_map : done_map_) {
-    p_map = new_T_old * p_map;
+    p_map = move * p_map;
   }
   driver_.stop();
   goal_.reset();

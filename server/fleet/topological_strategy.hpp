@@ -38,7 +38,7 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
 
   [[nodiscard]] explore::StrategyStep step(const explore::StrategyInput& input) override;
   void interrupted(RobotTime now) override;
-  void transform(const Pose2& new_T_old) override;
+  void transform(const MapMove& move) override;
   [[nodiscard]] const Topology* topology() const override { return &map_.topology(); }
   [[nodiscard]] std::optional<Point2> target_map() const override;
   [[nodiscard]] std::optional<TopologyMemory> memory() const override;

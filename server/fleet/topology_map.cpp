@@ -182,29 +182,29 @@ bool TopologyMap::has(std::uint64_t goal) const {
   });
 }
 
-Topology moved(Topology topology, const Pose2& new_T_old) {
+Topology moved(Topology topology, const MapMove& move) {
   for (TopologyNode& node : topology.nodes) {
-    node.map_T_base = new_T_old * node.map_T_base;
+    node.map_T_base = move * node.map_T_base;
     for (TopologyGoal& goal : node.goals) {
-      goal.p_map = new_T_old * goal.p_map;
+      goal.p_map = move * goal.p_map;
     }
   }
   return topology;
 }
 
-RobotTopology moved(RobotTopology robot, const Pose2& new_T_old) {
-  robot.map_T_base = new_T_old * robot.map_T_base;
-  robot.topology = moved(std::move(robot.topology), new_T_old);
+RobotTopology moved(RobotTopology robot, const MapMove& move) {
+  robot.map_T_base = move * robot.map_T_base;
+  robot.topology = moved(std::move(robot.topology), move);
   if (robot.target_map) {
-    robot.target_map = new_T_old * *robot.target_map;
+    robot.target_map = move * *robot.target_map;
   }
   return robot;
 }
 
-void TopologyMap::transform(const Pose2& new_T_old) {
-  map_ = moved(std::move(map_), new_T_old);
+void TopologyMap::transform(const MapMove& move) {
+  map_ = moved(std::move(map_), move);
   for (Point2& p_map : closed_map_) {
-    p_map = new_T_old * p_map;
+    p_map = move * p_map;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/topology.hpp"
 #include "server/fleet/bellman_ford.hpp"
 #include "server/fleet/space_tree.hpp"
@@ -70,8 +71,8 @@ struct RuleInput {
 [[nodiscard]] std::vector<RuledGoal> apply_rules(std::vector<RuledGoal> goals, const RuleInput& input);
 
 /// The same places in another frame.
-[[nodiscard]] Topology moved(Topology topology, const Pose2& new_T_old);
-[[nodiscard]] RobotTopology moved(RobotTopology robot, const Pose2& new_T_old);
+[[nodiscard]] Topology moved(Topology topology, const MapMove& move);
+[[nodiscard]] RobotTopology moved(RobotTopology robot, const MapMove& move);
 
 /// One robot's topology; ids count from 1. Not thread-safe.
 class TopologyMap {
@@ -105,7 +106,7 @@ class TopologyMap {
   [[nodiscard]] bool has(std::uint64_t goal) const;
   /// Goals that were given up.
   [[nodiscard]] const std::vector<Point2>& closed_map() const { return closed_map_; }
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
 
  private:
   [[nodiscard]] TopologyNode& present();

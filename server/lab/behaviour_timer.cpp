@@ -22,7 +22,8 @@ class Watched final : public app::Behaviour {
   }
   std::shared_ptr<const vision::Recogniser> recogniser() const override { return inner_->recogniser(); }
   void on_recognition(const app::Recognition& recognition) override { inner_->on_recognition(recognition); }
-  void map_moved(const Pose2& new_T_old) override { inner_->map_moved(new_T_old); }
+  void map_moved(const MapMove& move) override { inner_->map_moved(move); }
+  std::optional<api::MissionEnd> pending_end() const override { return inner_->pending_end(); }
   void resumed(RobotTime now) override { inner_->resumed(now); }
   std::optional<api::GridReport> grid() const override { return inner_->grid(); }
   std::vector<api::Detection> detections() const override { return inner_->detections(); }

@@ -1,9 +1,10 @@
 #include "server/lab/calibrate_command.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <iomanip>
 #include <set>
+
+#include "common/core/number_in.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -56,11 +57,12 @@ void print_view(const drivers::StereoCalibration& calibration, const BoardView& 
 }  // namespace
 
 Status parse_board(const std::string& text, Chessboard& board) {
-  const char* const end = text.data() + text.size();
-  const auto [cross, first] = std::from_chars(text.data(), end, board.columns);
-  if (first == std::errc() && cross != end && *cross == 'x') {
-    const auto [rest, second] = std::from_chars(cross + 1, end, board.rows);
-    if (second == std::errc() && rest == end) {
+  if (const std::size_t cross = text.find('x'); cross != std::string::npos) {
+    const std::optional<int> columns = number_in<int>(std::string_view(text).substr(0, cross));
+    const std::optional<int> rows = number_in<int>(std::string_view(text).substr(cross + 1));
+    if (columns && rows) {
+      board.columns = *columns;
+      board.rows = *rows;
       return {};
     }
   }

@@ -1,21 +1,12 @@
 #include <algorithm>
-#include <charconv>
 
+#include "common/core/number_in.hpp"
 #include "server/lab/experiment.hpp"
 
 namespace seeker::lab {
 namespace {
 
 constexpr std::size_t kMaxSeeds = 10'000;
-
-std::optional<std::uint64_t> number(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    return std::nullopt;
-  }
-  return value;
-}
 
 }  // namespace
 
@@ -26,8 +17,9 @@ Result<std::vector<std::uint64_t>> parse_seeds(const std::string& text) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string_view part = std::string_view(text).substr(begin, end - begin);
     const std::size_t dash = part.find('-');
-    const std::optional<std::uint64_t> first = number(part.substr(0, dash));
-    const std::optional<std::uint64_t> last = dash == std::string_view::npos ? first : number(part.substr(dash + 1));
+    const std::optional<std::uint64_t> first = number_in<std::uint64_t>(part.substr(0, dash));
+    const std::optional<std::uint64_t> last =
+        dash == std::string_view::npos ? first : number_in<std::uint64_t>(part.substr(dash + 1));
     if (!first || !last || *last < *first || *last - *first >= kMaxSeeds || seeds.size() >= kMaxSeeds) {
       return fail(
           Errc::kInvalidArgument,

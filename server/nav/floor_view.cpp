@@ -148,9 +148,9 @@ std::optional<Grid<std::uint8_t>> FloorSource::unrestricted_floor() const {
   return floor ? std::optional(std::move(*floor)) : std::nullopt;
 }
 
-void FloorSource::transform(const Pose2& new_T_old) {
+void FloorSource::transform(const MapMove& move) {
   for (Obstacle& one : obstacles_) {
-    one.p_map = new_T_old * one.p_map;
+    one.p_map = move * one.p_map;
   }
   stale_ = true;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/core/grid.hpp"
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
 #include "common/core/time.hpp"
@@ -60,7 +61,7 @@ class FloorSource {
   /// Floor connected to the last view's position when nothing is forbidden: what the forbidden areas cost.
   [[nodiscard]] std::optional<Grid<std::uint8_t>> unrestricted_floor() const;
   [[nodiscard]] const ForbiddenAreas& areas() const { return areas_; }
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
 
  private:
   struct Obstacle {

@@ -35,25 +35,33 @@ bool holds(const Grid<std::uint8_t>& floor, const Point2& p_map) {
 }
 
 /// The same floor in the map after it moved, its cells again on multiples of their size.
-Grid<std::uint8_t> moved(const Grid<std::uint8_t>& floor, const Pose2& new_T_old) {
+Grid<std::uint8_t> moved(const Grid<std::uint8_t>& floor, const MapMove& move) {
   if (floor.empty()) {
     return {};
   }
   const double cell_m = floor.frame().resolution_m;
-  const Point2 size = cell_m * Point2(floor.width(), floor.height());
-  Point2 low = new_T_old * floor.frame().origin;
-  Point2 high = low;
-  for (const Point2& corner : {Point2(size.x(), 0.0), Point2(0.0, size.y()), size}) {
-    const Point2 p = new_T_old * Point2(floor.frame().origin + corner);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+  const auto first =
+      std::find_if(floor.cells().begin(), floor.cells().end(), [](std::uint8_t cell) { return cell != 0; });
+  if (first == floor.cells().end()) {
+    return {};
   }
+  Point2 low = move * floor.frame().centre_of(floor.cell(static_cast<std::size_t>(first - floor.cells().begin())));
+  Point2 high = low;
+  for (std::size_t k = 0; k < floor.cells().size(); ++k) {
+    if (floor.cells()[k] != 0) {
+      const Point2 p = move * floor.frame().centre_of(floor.cell(k));
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  low -= Point2::Constant(cell_m);
+  high += Point2::Constant(cell_m);
   const GridFrame frame{cell_m * (low / cell_m).array().floor().matrix(), cell_m};
   const Point2 cells = ((high - frame.origin) / cell_m).array().ceil().matrix();
   Grid<std::uint8_t> out(frame, static_cast<int>(cells.x()), static_cast<int>(cells.y()), 0);
-  const Pose2 old_T_new = inverse(new_T_old);
+  const MapMove back = inverse(move);
   for (std::size_t k = 0; k < out.cells().size(); ++k) {
-    out.cells()[k] = holds(floor, old_T_new * frame.centre_of(out.cell(k))) ? 1 : 0;
+    out.cells()[k] = holds(floor, back * frame.centre_of(out.cell(k))) ? 1 : 0;
   }
   return out;
 }
@@ -138,14 +146,9 @@ std::vector<StandingThing> KnownFloor::occupied_now(const FloorView& view,
   return things;
 }
 
-void KnownFloor::transform(const Pose2& new_T_old) {
-  floor_ = moved(floor_, new_T_old);
-  from_afar_ = moved(from_afar_, new_T_old);
-}
-
-void KnownFloor::clear() {
-  floor_ = {};
-  from_afar_ = {};
+void KnownFloor::transform(const MapMove& move) {
+  floor_ = moved(floor_, move);
+  from_afar_ = moved(from_afar_, move);
 }
 
 }  // namespace seeker::nav

@@ -7,6 +7,7 @@
 
 #include "common/core/grid.hpp"
 #include "common/core/line_map.hpp"
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 #include "server/nav/floor_view.hpp"
 
@@ -42,8 +43,7 @@ class KnownFloor {
   /// Of the last grid added.
   [[nodiscard]] double present_area_m2() const { return present_m2_; }
   /// The map moved: takes every cell to the one its place lies in now.
-  void transform(const Pose2& new_T_old);
-  void clear();
+  void transform(const MapMove& move);
 
  private:
   Grid<std::uint8_t> floor_;

@@ -75,12 +75,12 @@ void PathFollower::set_heading(const Pose2& map_T_base, double heading_rad, Robo
   at_goal_ = true;
 }
 
-void PathFollower::transform(const Pose2& new_T_old) {
-  for (Point2& p : path_.waypoints) {
-    p = new_T_old * p;
+void PathFollower::transform(const MapMove& move) {
+  if (final_heading_rad_ && !path_.waypoints.empty()) {
+    final_heading_rad_ = wrap_angle(*final_heading_rad_ + move.at(path_.waypoints.back()).theta_rad);
   }
-  if (final_heading_rad_) {
-    final_heading_rad_ = wrap_angle(*final_heading_rad_ + new_T_old.theta_rad);
+  for (Point2& p : path_.waypoints) {
+    p = move * p;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/scan.hpp"
 #include "common/core/time.hpp"
@@ -70,7 +71,7 @@ class PathFollower {
   /// Turns in place to a heading in the frame `map`.
   void set_heading(const Pose2& map_T_base, double heading_rad, RobotTime now);
   /// The map moved: the rest of the path goes along, as does the heading at its end.
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
   void clear();
   [[nodiscard]] bool active() const { return !path_.empty(); }
   /// At the end of the path: what is left is to stop, or to turn to the final heading.

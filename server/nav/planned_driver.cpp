@@ -52,12 +52,13 @@ bool PlannedDriver::start(const DriveInput& input, const Point2& goal_map, std::
   return driving_;
 }
 
-void PlannedDriver::transform(const Pose2& new_T_old) {
+void PlannedDriver::transform(const MapMove& move) {
+  const Pose2 new_T_old = move.at(goal_);
   goal_ = new_T_old * goal_;
   if (final_heading_rad_) {
     final_heading_rad_ = wrap_angle(*final_heading_rad_ + new_T_old.theta_rad);
   }
-  follower_.transform(new_T_old);
+  follower_.transform(move);
 }
 
 void PlannedDriver::stop() {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/scan.hpp"
 #include "common/core/time.hpp"
 #include "server/nav/floor_view.hpp"
@@ -59,7 +60,7 @@ class PlannedDriver {
   bool start(const DriveInput& input, const Point2& goal_map, std::optional<double> final_heading_rad = {});
   [[nodiscard]] DriveStep step(const DriveInput& input);
   /// The map moved: the way that is left goes along with the robot.
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
   void stop();
   [[nodiscard]] const std::vector<Point2>& path() const { return follower_.path().waypoints; }
   [[nodiscard]] const Point2& goal() const { return goal_; }

@@ -21,7 +21,8 @@ void RetryDrive::interrupted() {
   driving_ = false;
 }
 
-void RetryDrive::transform(const Pose2& new_T_old) {
+void RetryDrive::transform(const MapMove& move) {
+  const Pose2 new_T_old = move.at(goal_);
   goal_ = new_T_old * goal_;
   if (final_heading_rad_) {
     final_heading_rad_ = wrap_angle(*final_heading_rad_ + new_T_old.theta_rad);

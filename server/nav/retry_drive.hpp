@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "common/core/map_move.hpp"
 #include "server/nav/planned_driver.hpp"
 #include "server/nav/progress_watch.hpp"
 
@@ -24,7 +25,7 @@ class RetryDrive {
   [[nodiscard]] DriveStep step(const DriveInput& input);
   /// Something else moved the robot: plans anew with the next step; the attempts count on.
   void interrupted();
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
   [[nodiscard]] const std::vector<Point2>& path() const { return driver_.path(); }
   /// Why the last attempt failed, while it stands before the next one; else empty.
   [[nodiscard]] const std::string& waiting_for() const { return waiting_for_; }

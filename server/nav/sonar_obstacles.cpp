@@ -64,9 +64,9 @@ void SonarObstacles::note_echo(const Point2& p_map, const DriveInput& input) {
   }
 }
 
-void SonarObstacles::transform(const Pose2& new_T_old) {
+void SonarObstacles::transform(const MapMove& move) {
   for (Echo& echo : echoes_) {
-    echo.p_map = new_T_old * echo.p_map;
+    echo.p_map = move * echo.p_map;
   }
 }
 

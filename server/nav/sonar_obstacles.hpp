@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "server/nav/planned_driver.hpp"
 
 namespace seeker::nav {
@@ -13,7 +14,7 @@ namespace seeker::nav {
 class SonarObstacles {
  public:
   void note(const DriveInput& input);
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
 
  private:
   struct Echo {

@@ -49,9 +49,9 @@ void WaitTurns::reset() {
   for_nobody_ = 0;
 }
 
-void WaitTurns::transform(const Pose2& new_T_old) {
+void WaitTurns::transform(const MapMove& move) {
   for (Waited& one : waited_) {
-    one.p_map = new_T_old * one.p_map;
+    one.p_map = move * one.p_map;
   }
 }
 

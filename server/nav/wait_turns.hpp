@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 
 namespace seeker::nav {
@@ -39,7 +40,7 @@ class WaitTurns {
   /// Waiting had a use: all have their turns again.
   void reset();
   /// The map moved.
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
 
  private:
   struct Waited {

@@ -82,10 +82,10 @@ void CoverageLists::drop_unreachable(const Point2& goal_map) {
   lists_.unreachable.push_back(goal_map);
 }
 
-void CoverageLists::transform(const Pose2& new_T_old) {
+void CoverageLists::transform(const MapMove& move) {
   for (auto* list : {&lists_.searched, &lists_.unsearched, &lists_.unreachable}) {
     for (Point2& p : *list) {
-      p = new_T_old * p;
+      p = move * p;
     }
   }
 }

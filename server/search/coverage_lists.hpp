@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 #include "server/search/search_types.hpp"
 
@@ -40,7 +41,7 @@ class CoverageLists {
   /// Step 3, no way found: dropped from unsearched and remembered as unreachable.
   void drop_unreachable(const Point2& goal_map);
 
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
   [[nodiscard]] bool searched(const Point2& p_map) const;
   [[nodiscard]] const GridLists& lists() const { return lists_; }
 

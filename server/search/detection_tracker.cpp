@@ -251,14 +251,15 @@ std::vector<Point2> DetectionTracker::places(std::uint64_t id) const {
   return {};
 }
 
-void DetectionTracker::transform(const Pose2& new_T_old) {
+void DetectionTracker::transform(const MapMove& move) {
   for (Track& track : tracks_) {
     for (Observation& o : track.observations) {
-      o.measurement.map_T_camera = new_T_old * o.measurement.map_T_camera;
+      o.measurement.map_T_camera = move * o.measurement.map_T_camera;
     }
     for (Point2& p : track.places) {
-      p = new_T_old * p;
+      p = move * p;
     }
+    const Pose2 new_T_old = move.at(track.detection.map_T_base.translation());
     track.detection.map_T_base = new_T_old * track.detection.map_T_base;
     track.detection.bearing_map_rad = wrap_angle(track.detection.bearing_map_rad + new_T_old.theta_rad);
     estimate(track);

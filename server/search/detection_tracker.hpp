@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/scan.hpp"
 #include "server/search/detection_params.hpp"
@@ -48,7 +49,7 @@ class DetectionTracker {
   [[nodiscard]] std::optional<Detection> find(std::uint64_t id) const;
   /// Where the track was seen from, one entry per place.
   [[nodiscard]] std::vector<Point2> places(std::uint64_t id) const;
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
 
  private:
   struct Observation {

@@ -186,17 +186,17 @@ Grid<std::uint8_t> EvidenceGrid::own_looks(const Point2& middle_map, int side_ce
   return looks;
 }
 
-void EvidenceGrid::transform(const Pose2& new_T_old) {
-  const Pose2 old_T_new = inverse(new_T_old);
+void EvidenceGrid::transform(const MapMove& move) {
+  const MapMove back = inverse(move);
   std::unordered_map<Key, CellEvidence> moved;
   // Every new cell takes what the old cell under its centre had, so that rotation leaves no holes.
   for (const auto& [key, evidence] : cells_) {
     const CellIndex old = cell_of(key);
-    const CellIndex about = frame().cell_of(new_T_old * frame().centre_of(old));
+    const CellIndex about = frame().cell_of(move * frame().centre_of(old));
     for (int dj = -1; dj <= 1; ++dj) {
       for (int di = -1; di <= 1; ++di) {
         const CellIndex cell{about.i + di, about.j + dj};
-        if (frame().cell_of(old_T_new * frame().centre_of(cell)) == old) {
+        if (frame().cell_of(back * frame().centre_of(cell)) == old) {
           moved[key_of(cell)] = evidence;
         }
       }
@@ -204,11 +204,11 @@ void EvidenceGrid::transform(const Pose2& new_T_old) {
   }
   cells_ = std::move(moved);
   for (Other& other : others_) {
-    other.floor.map_T_grid = new_T_old * other.floor.map_T_grid;
+    other.floor.map_T_grid = move * other.floor.map_T_grid;
     other = other_from(std::move(other.floor));
   }
   for (Point2& place : places_) {
-    place = new_T_old * place;
+    place = move * place;
   }
 }
 

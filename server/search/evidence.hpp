@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/core/grid.hpp"
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/searched_floor.hpp"
 #include "server/search/hit_rate.hpp"
@@ -54,9 +55,9 @@ class EvidenceGrid {
   /// Cells lie on multiples of cell_m, indices may be negative.
   [[nodiscard]] GridFrame frame() const { return {Point2::Zero(), params_.cell_m}; }
 
-  /// Moves everything when a map epoch moved the map, what others have searched with it: `new_T_old` takes old map
+  /// Moves everything when a map epoch moved the map, what others have searched with it: `move` takes old map
   /// coordinates to new ones.
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
   /// Forgets all looks, those of others too.
   void clear();
 

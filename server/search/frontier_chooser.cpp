@@ -13,9 +13,9 @@ std::optional<Goal> FrontierChooser::choose(const ChooseInput& input) {
 
 void FrontierChooser::visited(const Goal& goal, const Pose2& /*map_T_base*/) { seen_frontiers_.push_back(goal.p_map); }
 
-void FrontierChooser::transform(const Pose2& new_T_old) {
+void FrontierChooser::transform(const MapMove& move) {
   for (Point2& p : seen_frontiers_) {
-    p = new_T_old * p;
+    p = move * p;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "server/nav/frontiers.hpp"
 #include "server/nav/planner.hpp"
 #include "server/search/search_params.hpp"
@@ -51,7 +52,7 @@ class GoalChooser {
   /// Asked after every look on the way: false drops the goal for a better one.
   [[nodiscard]] virtual bool still_worth(const Goal& goal, const nav::FloorView& floor, const EvidenceGrid& evidence,
                                          double target_size_m) const = 0;
-  virtual void transform(const Pose2& new_T_old) = 0;
+  virtual void transform(const MapMove& move) = 0;
 };
 
 /// Gain over cost among 0.8 m cells of the reachable floor, frontiers and views for the map (the default mode).
@@ -62,7 +63,7 @@ class PlanChooser final : public GoalChooser {
   void visited(const Goal& goal, const Pose2& map_T_base) override;
   [[nodiscard]] bool still_worth(const Goal& goal, const nav::FloorView& floor, const EvidenceGrid& evidence,
                                  double target_size_m) const override;
-  void transform(const Pose2& new_T_old) override;
+  void transform(const MapMove& move) override;
 
  private:
   struct Candidate {
@@ -90,7 +91,7 @@ class SpiralChooser final : public GoalChooser {
   [[nodiscard]] bool still_worth(const Goal&, const nav::FloorView&, const EvidenceGrid&, double) const override {
     return true;
   }
-  void transform(const Pose2& new_T_old) override;
+  void transform(const MapMove& move) override;
 
  private:
   [[nodiscard]] bool open(const ChooseInput& input, CellIndex cell) const;
@@ -113,7 +114,7 @@ class FrontierChooser final : public GoalChooser {
   [[nodiscard]] bool still_worth(const Goal&, const nav::FloorView&, const EvidenceGrid&, double) const override {
     return true;
   }
-  void transform(const Pose2& new_T_old) override;
+  void transform(const MapMove& move) override;
 
  private:
   PlanParams params_;

@@ -215,24 +215,24 @@ void MapCoverage::interrupted(RobotTime /*now*/) {
   }
 }
 
-void MapCoverage::transform(const Pose2& new_T_old) {
-  chooser_->transform(new_T_old);
+void MapCoverage::transform(const MapMove& move) {
+  chooser_->transform(move);
   const GridFrame frame{Point2::Zero(), params_.cell_m};
   searched_cells_.clear();
   for (auto* list : {&lists_.searched, &lists_.unsearched, &lists_.unreachable}) {
     for (Point2& p : *list) {
-      p = new_T_old * p;
+      p = move * p;
     }
   }
   for (const Point2& p : lists_.searched) {
     searched_cells_.insert(frame.cell_of(p));
   }
   for (Failed& one : failed_) {
-    one.p_map = new_T_old * one.p_map;
+    one.p_map = move * one.p_map;
   }
-  waits_.transform(new_T_old);
+  waits_.transform(move);
   if (last_look_) {
-    last_look_ = new_T_old * *last_look_;
+    last_look_ = move * *last_look_;
   }
   driver_.stop();
   if (state_ == State::kDrive) {

@@ -26,7 +26,7 @@ class MapCoverage final : public CoverageStrategy {
   [[nodiscard]] StrategyStep step(const StrategyInput& input) override;
   void image_taken(const StrategyInput& input) override;
   void interrupted(RobotTime now) override;
-  void transform(const Pose2& new_T_old) override;
+  void transform(const MapMove& move) override;
   [[nodiscard]] const GridLists& lists() const override { return lists_; }
 
  private:

@@ -241,10 +241,10 @@ void PaperCoverage::interrupted(RobotTime now) {
   progress_.start(now);
 }
 
-void PaperCoverage::transform(const Pose2& new_T_old) {
-  lists_.transform(new_T_old);
-  cell_ = new_T_old * cell_;
-  goal_ = new_T_old * goal_;
+void PaperCoverage::transform(const MapMove& move) {
+  lists_.transform(move);
+  cell_ = move * cell_;
+  goal_ = move * goal_;
 }
 
 }  // namespace seeker::search

@@ -162,13 +162,13 @@ bool PlanChooser::still_worth(const Goal& goal, const nav::FloorView& floor, con
   return gain >= std::max(params_.min_gain_cells, kWorthShare * goal.expected_gain);
 }
 
-void PlanChooser::transform(const Pose2& new_T_old) {
+void PlanChooser::transform(const MapMove& move) {
   visits_.clear();
   for (Point2& p : seen_frontiers_) {
-    p = new_T_old * p;
+    p = move * p;
   }
   for (Pose2& view : seen_views_) {
-    view = new_T_old * view;
+    view = move * view;
   }
 }
 

@@ -45,7 +45,7 @@ void SearchMission::on_looks(std::vector<Look> looks) {
 // The clock stops with the last step; resume() makes up for what passed.
 void SearchMission::pause() { impl_->visit_.interrupted(); }
 void SearchMission::resume(RobotTime now) { impl_->resume(now); }
-void SearchMission::transform(const Pose2& new_T_old) { impl_->transform(new_T_old); }
+void SearchMission::transform(const MapMove& move) { impl_->transform(move); }
 void SearchMission::keep_evidence(EvidenceGrid evidence) {
   impl_->evidence_ = std::move(evidence);
   impl_->evidence_.set_others({});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
@@ -78,8 +79,8 @@ class SearchMission {
   void pause();
   void resume(RobotTime now);
 
-  /// The map moved (new epoch): `new_T_old` takes old map coordinates to new ones. Moves lists, evidence, detections.
-  void transform(const Pose2& new_T_old);
+  /// The map moved (new epoch): `move` takes old map coordinates to new ones. Moves lists, evidence, detections.
+  void transform(const MapMove& move);
 
   /// Evidence of an earlier search, for SearchRequest::gaps_only. Before the first step.
   void keep_evidence(EvidenceGrid evidence);

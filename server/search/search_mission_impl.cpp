@@ -220,21 +220,21 @@ void SearchMission::Impl::resume(RobotTime now) {
   standing_since_.reset();
 }
 
-void SearchMission::Impl::transform(const Pose2& new_T_old) {
-  strategy_->transform(new_T_old);
-  evidence_.transform(new_T_old);
-  tracker_.transform(new_T_old);
-  floors_.transform(new_T_old);
-  known_floor_.transform(new_T_old);
+void SearchMission::Impl::transform(const MapMove& move) {
+  strategy_->transform(move);
+  evidence_.transform(move);
+  tracker_.transform(move);
+  floors_.transform(move);
+  known_floor_.transform(move);
   noted_floor_ = floors_.last();  // made from the map before
   visit_.interrupted();
-  path_anchor_ = new_T_old * path_anchor_;
-  last_pose_ = new_T_old * last_pose_;
+  path_anchor_ = move * path_anchor_;
+  last_pose_ = move * last_pose_;
   for (PendingLook& look : looks_) {
-    look.camera_map = new_T_old * look.camera_map;
+    look.camera_map = move * look.camera_map;
   }
   for (Point2& p : refused_) {
-    p = new_T_old * p;
+    p = move * p;
   }
 }
 

@@ -24,7 +24,7 @@ class SearchMission::Impl {
   [[nodiscard]] SearchStep step(const SearchInput& input);
   void add_looks(const std::vector<Look>& looks);
   void resume(RobotTime now);
-  void transform(const Pose2& new_T_old);
+  void transform(const MapMove& move);
 
   [[nodiscard]] EvidenceReport evidence_report() const;
 

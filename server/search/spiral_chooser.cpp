@@ -75,10 +75,10 @@ void SpiralChooser::visited(const Goal& goal, const Pose2& /*map_T_base*/) {
   visited_.insert(*last_);
 }
 
-void SpiralChooser::transform(const Pose2& new_T_old) {
+void SpiralChooser::transform(const MapMove& move) {
   std::set<CellIndex> moved;
   for (const CellIndex cell : visited_) {
-    moved.insert(frame().cell_of(new_T_old * frame().centre_of(cell)));
+    moved.insert(frame().cell_of(move * frame().centre_of(cell)));
   }
   visited_ = std::move(moved);
   last_.reset();

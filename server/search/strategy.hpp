@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/map_move.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/scan.hpp"
 #include "common/core/time.hpp"
@@ -48,7 +49,7 @@ class CoverageStrategy {
   virtual void image_taken(const StrategyInput& input) = 0;
   /// Something else moved the robot meanwhile: present drives are void.
   virtual void interrupted(RobotTime now) = 0;
-  virtual void transform(const Pose2& new_T_old) = 0;
+  virtual void transform(const MapMove& move) = 0;
   [[nodiscard]] virtual const GridLists& lists() const = 0;
 };
 

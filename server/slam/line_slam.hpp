@@ -43,6 +43,7 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] std::vector<MapSegment> segments() const override;
   [[nodiscard]] std::uint64_t revision() const override { return revision_; }
   [[nodiscard]] std::optional<LocalBelief> local_belief() const override;
+  [[nodiscard]] std::vector<MapPiece> pieces() const override { return backend_.pieces(); }
   [[nodiscard]] LineMap map() const override;
   [[nodiscard]] Status load(const LineMap& map, MapUse use) override;
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base) override;

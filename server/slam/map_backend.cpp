@@ -228,6 +228,21 @@ std::vector<MapSegment> MapBackend::segments(std::uint32_t end) const {
   return all;
 }
 
+std::vector<MapPiece> MapBackend::pieces() const {
+  std::vector<MapPiece> all;
+  const std::uint32_t end = map_end();
+  for (const LocalMap& map : maps_) {
+    if (map.id >= end) {
+      break;
+    }
+    MapPiece& piece = all.emplace_back(MapPiece{.id = map.id, .map_T_piece = pose(map.id)});
+    for (const MapKeyframe& keyframe : map.keyframes) {
+      piece.middle_piece += keyframe.node_T_base.translation() / static_cast<double>(map.keyframes.size());
+    }
+  }
+  return all;
+}
+
 LineMap MapBackend::assemble(std::uint32_t end) const {
   LineMap whole;
   whole.epoch = epoch_;

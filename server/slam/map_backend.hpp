@@ -80,6 +80,8 @@ class MapBackend {
 
   /// Places and relations of the local maps below `end`, their segments and scans; the frame is `map`.
   [[nodiscard]] LineMap assemble(std::uint32_t end) const;
+  /// Local maps that are part of the map.
+  [[nodiscard]] std::vector<MapPiece> pieces() const;
   /// Their segments alone, in the frame `map`.
   [[nodiscard]] std::vector<MapSegment> segments(std::uint32_t end) const;
 

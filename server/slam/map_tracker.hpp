@@ -25,6 +25,13 @@ struct LocalBelief {
   Pose2 map_T_lines;             ///< the filter's own frame in the frame `map`
 };
 
+/// A part of the map that moves as a whole when the map is corrected.
+struct MapPiece {
+  std::uint32_t id = 0;                  ///< the same from one correction to the next
+  Pose2 map_T_piece;                     ///< of its frame
+  Point2 middle_piece = Point2::Zero();  ///< about where it lies, in its own frame
+};
+
 class MapTracker : public PoseTracker {
  public:
   /// Segments of the whole map in the frame `map`, one per piece of wall.
@@ -33,6 +40,8 @@ class MapTracker : public PoseTracker {
   [[nodiscard]] virtual std::uint64_t revision() const = 0;
   /// Robot and segments of the place around it with their joint covariance; nothing before the first scan.
   [[nodiscard]] virtual std::optional<LocalBelief> local_belief() const { return std::nullopt; }
+  /// Where the parts of the map lie now; none: it moves as a whole.
+  [[nodiscard]] virtual std::vector<MapPiece> pieces() const { return {}; }
   /// The whole map, for a file.
   [[nodiscard]] virtual LineMap map() const = 0;
   /// Replaces the map. The pose is unknown (kUnknown) until relocalise() or the scans have found it.

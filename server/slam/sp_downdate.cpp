@@ -13,20 +13,32 @@ void downdate_portable(Eigen::Ref<Eigen::MatrixXd> p, const Eigen::Ref<const Eig
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-// Eigen uses the vector unit the whole program is compiled for (SSE2); this one function takes what it finds.
-#define SEEKER_WIDE __attribute__((target("avx2,fma")))
+// Eigen uses the vector unit the whole program is compiled for (SSE2); this takes the widest that it finds.
 
-using Pack = double __attribute__((vector_size(32)));
-constexpr Index kPack = 4;
-constexpr Index kPanel = 2 * kPack;  ///< rows taken at once: 8 sums of a pack fill half of the registers
+constexpr Index kColumns = 4;  ///< taken at once
 
-/// W in panels of 8 rows, each with its columns one after the other, filled up with zeros: the kernel reads straight
-/// on, whatever the number of rows.
-void pack_panels(const Eigen::Ref<const Eigen::MatrixXd>& w, std::vector<double>& packed) {
+/// Numbers in one register. (GCC drops the attribute where its size depends on a template's argument.)
+template <Index kLanes>
+struct Wide;
+template <>
+struct Wide<4> {
+  using Pack = double __attribute__((vector_size(32)));
+  static constexpr Index kPanel = 8;
+};
+template <>
+struct Wide<8> {
+  using Pack = double __attribute__((vector_size(64)));
+  static constexpr Index kPanel = 16;
+};
+
+/// W in panels of rows, each with its columns one after the other, filled up with zeros: the kernel reads straight on,
+/// whatever the number of rows.
+template <Index kPanel>
+std::vector<double> panels_of(const Eigen::Ref<const Eigen::MatrixXd>& w) {
   const Index rows = w.rows();
   const Index width = w.cols();
   const Index panels = (rows + kPanel - 1) / kPanel;
-  packed.assign(static_cast<std::size_t>(panels * kPanel * width), 0.0);
+  std::vector<double> packed(static_cast<std::size_t>(panels * kPanel * width), 0.0);
   for (Index panel = 0; panel < panels; ++panel) {
     const Index first = panel * kPanel;
     const Index count = std::min(kPanel, rows - first);
@@ -36,83 +48,97 @@ void pack_panels(const Eigen::Ref<const Eigen::MatrixXd>& w, std::vector<double>
                   static_cast<std::size_t>(count) * sizeof(double));
     }
   }
+  return packed;
 }
 
-/// 8 rows of 4 columns: p -= rows * columns^T. `left` of the rows and `columns` of the columns are there.
-SEEKER_WIDE void tile(double* p, Index stride, const double* rows, const double* factors, Index width, Index left,
-                      Index columns) {
-  Pack low[4] = {};
-  Pack high[4] = {};
-  for (Index k = 0; k < width; ++k) {
-    Pack a;
-    Pack b;
-    std::memcpy(&a, rows + k * kPanel, sizeof a);
-    std::memcpy(&b, rows + k * kPanel + kPack, sizeof b);
-    for (Index c = 0; c < 4; ++c) {
-      const double f = factors[k * kPanel + c];
-      const Pack factor = {f, f, f, f};
-      low[c] += a * factor;
-      high[c] += b * factor;
-    }
-  }
-  for (Index c = 0; c < columns; ++c) {
-    double* target = p + c * stride;
-    double sums[kPanel];
-    std::memcpy(sums, &low[c], sizeof low[c]);
-    std::memcpy(sums + kPack, &high[c], sizeof high[c]);
-    for (Index r = 0; r < left; ++r) {
-      target[r] -= sums[r];
-    }
-  }
-}
+/// Sums of a panel of rows by 4 columns. The loop over columns is unrolled, for -O2 keeps in memory what it indexes,
+/// at a quarter of the speed (`update` in bench_spmap).
+template <Index kLanes>
+struct Sums {
+  using Pack = typename Wide<kLanes>::Pack;
+  static constexpr Index kPanel = Wide<kLanes>::kPanel;
 
-/// The same where all 8 rows and all 4 columns are there.
-SEEKER_WIDE void full_tile(double* p, Index stride, const double* rows, const double* factors, Index width) {
-  Pack low[4] = {};
-  Pack high[4] = {};
-  for (Index k = 0; k < width; ++k) {
-    Pack a;
-    Pack b;
-    std::memcpy(&a, rows + k * kPanel, sizeof a);
-    std::memcpy(&b, rows + k * kPanel + kPack, sizeof b);
-    for (Index c = 0; c < 4; ++c) {
-      const double f = factors[k * kPanel + c];
-      const Pack factor = {f, f, f, f};
-      low[c] += a * factor;
-      high[c] += b * factor;
+  Pack low[kColumns];
+  Pack high[kColumns];
+
+  [[gnu::always_inline]] inline Sums(const double* rows, const double* factors, Index width) : low{}, high{} {
+    for (Index k = 0; k < width; ++k) {
+      Pack a;
+      Pack b;
+      std::memcpy(&a, rows + k * kPanel, sizeof a);
+      std::memcpy(&b, rows + k * kPanel + kLanes, sizeof b);
+#pragma GCC unroll 4
+      for (Index c = 0; c < kColumns; ++c) {
+        const double factor = factors[k * kPanel + c];
+        low[c] += a * factor;
+        high[c] += b * factor;
+      }
     }
   }
-  for (Index c = 0; c < 4; ++c) {
+};
+
+/// p -= rows * columns^T where all rows and columns of the tile are there.
+template <Index kLanes>
+[[gnu::always_inline]] inline void full_tile(double* p, Index stride, const double* rows, const double* factors,
+                                             Index width) {
+  using Pack = typename Wide<kLanes>::Pack;
+  const Sums<kLanes> sums(rows, factors, width);
+#pragma GCC unroll 4
+  for (Index c = 0; c < kColumns; ++c) {
     double* target = p + c * stride;
     Pack a;
     Pack b;
     std::memcpy(&a, target, sizeof a);
-    std::memcpy(&b, target + kPack, sizeof b);
-    a -= low[c];
-    b -= high[c];
+    std::memcpy(&b, target + kLanes, sizeof b);
+    a -= sums.low[c];
+    b -= sums.high[c];
     std::memcpy(target, &a, sizeof a);
-    std::memcpy(target + kPack, &b, sizeof b);
+    std::memcpy(target + kLanes, &b, sizeof b);
   }
 }
 
-SEEKER_WIDE void downdate_wide(double* p, Index stride, const double* packed, Index rows, Index width) {
-  for (Index j = 0; j < rows; j += kPack) {
+/// The same at an edge: `left` of the rows and `columns` of the columns are there.
+template <Index kLanes>
+[[gnu::always_inline]] inline void edge_tile(double* p, Index stride, const double* rows, const double* factors,
+                                             Index width, Index left, Index columns) {
+  const Sums<kLanes> sums(rows, factors, width);
+  for (Index c = 0; c < columns; ++c) {
+    double column[Wide<kLanes>::kPanel];
+    std::memcpy(column, &sums.low[c], sizeof sums.low[c]);
+    std::memcpy(column + kLanes, &sums.high[c], sizeof sums.high[c]);
+    for (Index r = 0; r < left; ++r) {
+      p[c * stride + r] -= column[r];
+    }
+  }
+}
+
+template <Index kLanes>
+[[gnu::always_inline]] inline void downdate_panels(double* p, Index stride, const double* packed, Index rows,
+                                                   Index width) {
+  constexpr Index kPanel = Wide<kLanes>::kPanel;
+  for (Index j = 0; j < rows; j += kColumns) {
     const double* factors = packed + (j / kPanel) * kPanel * width + j % kPanel;
-    const Index columns = std::min(kPack, rows - j);
     // Whole panels of rows: those above the diagonal in the first one are scratch.
     for (Index i = j / kPanel * kPanel; i < rows; i += kPanel) {
       double* target = p + j * stride + i;
       const double* panel = packed + i * width;
-      if (columns == kPack && i + kPanel <= rows) {
-        full_tile(target, stride, panel, factors, width);
+      if (i + kPanel <= rows && j + kColumns <= rows) {
+        full_tile<kLanes>(target, stride, panel, factors, width);
       } else {
-        tile(target, stride, panel, factors, width, std::min(kPanel, rows - i), columns);
+        edge_tile<kLanes>(target, stride, panel, factors, width, std::min(kPanel, rows - i),
+                          std::min(kColumns, rows - j));
       }
     }
   }
 }
 
-bool has_wide_unit() { return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0; }
+[[gnu::target("avx2,fma")]] void downdate_256(double* p, Index stride, const double* packed, Index rows, Index width) {
+  downdate_panels<4>(p, stride, packed, rows, width);
+}
+
+[[gnu::target("avx512f")]] void downdate_512(double* p, Index stride, const double* packed, Index rows, Index width) {
+  downdate_panels<8>(p, stride, packed, rows, width);
+}
 
 #endif
 
@@ -120,10 +146,12 @@ bool has_wide_unit() { return __builtin_cpu_supports("avx2") != 0 && __builtin_c
 
 void downdate_lower(Eigen::Ref<Eigen::MatrixXd> p, const Eigen::Ref<const Eigen::MatrixXd>& w) {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (has_wide_unit()) {
-    std::vector<double> packed;
-    pack_panels(w, packed);
-    downdate_wide(p.data(), p.outerStride(), packed.data(), p.rows(), w.cols());
+  if (__builtin_cpu_supports("avx512f") != 0) {
+    downdate_512(p.data(), p.outerStride(), panels_of<Wide<8>::kPanel>(w).data(), p.rows(), w.cols());
+    return;
+  }
+  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
+    downdate_256(p.data(), p.outerStride(), panels_of<Wide<4>::kPanel>(w).data(), p.rows(), w.cols());
     return;
   }
 #endif

@@ -1,13 +1,12 @@
 #include "server/drivers/camera/image_folder.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <sstream>
 
 #include "common/core/angle.hpp"
 #include "common/core/natural_order.hpp"
+#include "common/core/number_in.hpp"
 #include "common/image/files.hpp"
 #include "common/image/jpeg.hpp"
 
@@ -20,11 +19,6 @@ struct NaturalLess {
   bool operator()(const std::string& a, const std::string& b) const { return natural_less(a, b); }
 };
 using PairsByName = std::map<std::string, ImagePair, NaturalLess>;
-
-bool parse_number(const std::string& text, double& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(out);
-}
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> words;
@@ -51,16 +45,16 @@ Status read_poses(const std::filesystem::path& path, PairsByName& pairs) {
     if (number == 1 || words.empty() || (words.size() == 1 && words[0].empty())) {
       continue;  // the heading, an empty line
     }
-    Pose2 pose;
-    double heading_deg = 0.0;
-    if (words.size() != 4 || !parse_number(words[1], pose.x_m) || !parse_number(words[2], pose.y_m) ||
-        !parse_number(words[3], heading_deg)) {
+    const bool whole = words.size() == 4;
+    const std::optional<double> x_m = whole ? finite_in(words[1]) : std::nullopt;
+    const std::optional<double> y_m = whole ? finite_in(words[2]) : std::nullopt;
+    const std::optional<double> heading_deg = whole ? finite_in(words[3]) : std::nullopt;
+    if (!x_m || !y_m || !heading_deg) {
       return fail(Errc::kParse, path.string() + ":" + std::to_string(number) +
                                     ": a line must be name,x_m,y_m,theta_deg with three numbers");
     }
-    pose.theta_rad = wrap_angle(deg_to_rad(heading_deg));
     if (const auto pair = pairs.find(words[0]); pair != pairs.end()) {
-      pair->second.map_T_eye = pose;
+      pair->second.map_T_eye = Pose2{*x_m, *y_m, wrap_angle(deg_to_rad(*heading_deg))};
     }
   }
   for (const auto& [name, pair] : pairs) {

@@ -1,12 +1,12 @@
 #include "server/drivers/replay/scan_csv.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "common/core/angle.hpp"
+#include "common/core/number_in.hpp"
 #include "common/core/scan.hpp"
 
 namespace seeker::drivers {
@@ -37,23 +37,6 @@ class Fields {
   bool ended_ = false;
 };
 
-std::optional<double> number_of(std::optional<std::string_view> text) {
-  double value = 0.0;
-  if (!text) {
-    return std::nullopt;
-  }
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc() || end != text->data() + text->size()) {
-    return std::nullopt;
-  }
-  return value;
-}
-
-std::optional<double> finite_number_of(std::optional<std::string_view> text) {
-  const std::optional<double> value = number_of(text);
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
-
 }  // namespace
 
 bool is_scan_csv(std::string_view line) {
@@ -66,10 +49,10 @@ bool is_scan_csv(std::string_view line) {
 
 Result<CarmenScan> parse_scan_csv_line(std::string_view line) {
   Fields fields(line);
-  const std::optional<double> stamp_s = finite_number_of(fields.next());
-  const std::optional<double> x_m = finite_number_of(fields.next());
-  const std::optional<double> y_m = finite_number_of(fields.next());
-  const std::optional<double> theta_rad = finite_number_of(fields.next());
+  const std::optional<double> stamp_s = finite_in(fields.next().value_or(""));
+  const std::optional<double> x_m = finite_in(fields.next().value_or(""));
+  const std::optional<double> y_m = finite_in(fields.next().value_or(""));
+  const std::optional<double> theta_rad = finite_in(fields.next().value_or(""));
   if (!stamp_s || !x_m || !y_m || !theta_rad) {
     return fail(Errc::kParse, "a scan line does not begin with a time and a pose");
   }
@@ -80,7 +63,7 @@ Result<CarmenScan> parse_scan_csv_line(std::string_view line) {
     if (scan.ranges_m.size() == kMaxScanBeams) {
       return fail(Errc::kTooLarge, "a scan line has an impossible number of beams");
     }
-    const std::optional<double> range_m = number_of(field);
+    const std::optional<double> range_m = number_in<double>(*field);
     if (!field->empty() && !range_m) {
       return fail(Errc::kParse, "a range of a scan line is no number");
     }

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "common/core/angle.hpp"
+#include "common/core/number_in.hpp"
 #include "common/core/pose2.hpp"
 
 namespace seeker::drivers {
@@ -64,14 +65,9 @@ class Words {
  private:
   /// The next word as a number, or as "inf" or "nan"; 0 and good() == false where it is none.
   double any_number() {
-    const std::string_view text = word();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) {
-      good_ = false;
-      return 0.0;
-    }
-    return value;
+    const std::optional<double> value = number_in<double>(word());
+    good_ = good_ && value;
+    return value.value_or(0.0);
   }
 
   std::string_view rest_;

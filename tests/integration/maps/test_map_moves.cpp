@@ -18,7 +18,7 @@ class Finder final : public app::Behaviour {
  public:
   explicit Finder(Point2& mug_map) : mug_map_(mug_map) {}
   app::Decision step(const app::Situation& /*situation*/) override { return {}; }
-  void map_moved(const Pose2& new_T_old) override { mug_map_ = new_T_old * mug_map_; }
+  void map_moved(const MapMove& move) override { mug_map_ = move * mug_map_; }
   std::vector<api::Detection> detections() const override {
     api::Detection mug;
     mug.id = 1;

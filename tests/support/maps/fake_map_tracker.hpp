@@ -16,6 +16,7 @@ namespace seeker::testing {
 struct FakeMapState {
   std::mutex mutex;
   LineMap map;
+  std::vector<slam::MapPiece> pieces;
   std::uint64_t revision = 0;
   PoseEstimate estimate;
   slam::MapUse use = slam::MapUse::kContinue;
@@ -74,6 +75,10 @@ class FakeMapTracker final : public slam::MapTracker {
     state_->estimate.cause.clear();
   }
 
+  [[nodiscard]] std::vector<slam::MapPiece> pieces() const override {
+    const std::lock_guard lock(state_->mutex);
+    return state_->pieces;
+  }
   [[nodiscard]] std::vector<MapSegment> segments() const override {
     const std::lock_guard lock(state_->mutex);
     return state_->map.segments;

@@ -26,6 +26,7 @@ struct Script {
   Point2 asked_about = Point2::Zero();  ///< for what it has searched
   std::optional<Duration> time_left;
   std::optional<Point2> start;
+  std::optional<api::MissionEnd> pending;
 };
 
 class ScriptedBehaviour final : public Behaviour {
@@ -37,7 +38,8 @@ class ScriptedBehaviour final : public Behaviour {
     return script_->next;
   }
   void resumed(RobotTime /*now*/) override { ++script_->resumed; }
-  void map_moved(const Pose2& new_T_old) override { script_->moved = new_T_old; }
+  void map_moved(const MapMove& move) override { script_->moved = move.at({}); }
+  std::optional<api::MissionEnd> pending_end() const override { return script_->pending; }
   void remember_start(const Point2& start_map) override { script_->start = start_map; }
   std::optional<api::GridReport> grid() const override { return script_->grid; }
   std::optional<SearchedFloor> searched(const Point2& middle_map, int /*side_cells*/) const override {

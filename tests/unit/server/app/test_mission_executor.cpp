@@ -99,6 +99,91 @@ TEST_F(MissionExecutorTest, PoliciesContinueFinishStepAndReturn) {
   EXPECT_EQ(end().outcome, api::Outcome::kLinkLost) << "coming home does not make the mission a success";
 }
 
+api::MissionEnd ended(api::Outcome outcome, const std::string& cause, const std::vector<Point2>& unreachable = {}) {
+  return {.outcome = outcome, .cause = cause, .remedy = "", .unreachable = unreachable};
+}
+
+TEST_F(MissionExecutorTest, AMissionThatIsOverKeepsItsEndWhenTheWayHomeIsCutShort) {
+  const auto lose_the_robot = [this] {
+    situation.pose.quality = LocalisationQuality::kLost;
+    situation.pose.cause = "the scan does not fit the map";
+    static_cast<void>(tick());
+    static_cast<void>(tick(11.0));
+    situation.pose.quality = LocalisationQuality::kLocalised;
+  };
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  script->pending = ended(api::Outcome::kUnreachable, "no way leads to what is left", {{7.0, 1.0}});
+  lose_the_robot();
+  EXPECT_EQ(end().outcome, api::Outcome::kUnreachable);
+  EXPECT_EQ(end().cause,
+            "no way leads to what is left; the robot is not back at its start: the scan does not fit the map");
+  EXPECT_EQ(end().unreachable.size(), 1U);
+
+  script->pending = ended(api::Outcome::kComplete, "nothing is left");
+  api::MissionRequest timed = request("two");
+  timed.time_limit = seeker::seconds(1.0);
+  ASSERT_TRUE(executor.start(timed, "anna", situation));
+  static_cast<void>(tick());
+  static_cast<void>(tick(2.0));
+  static_cast<void>(tick());
+  EXPECT_EQ(end().outcome, api::Outcome::kComplete);
+  EXPECT_DOUBLE_EQ(executor.last()->progress, 1.0);
+
+  ASSERT_TRUE(executor.start(request("three"), "anna", situation));
+  static_cast<void>(tick());
+  ASSERT_TRUE(executor.command(api::MissionCommand::kStop, situation.now));
+  EXPECT_EQ(end().outcome, api::Outcome::kOperator) << "his word is the last";
+}
+
+TEST_F(MissionExecutorTest, AWayHomeForAClientThatIsGoneIsToldWhateverCutsItShort) {
+  ASSERT_TRUE(executor.start(request("home", api::LinkPolicy::kReturn), "anna", situation));
+  executor.client_lost("anna", wall);
+  wall += seconds(6);
+  static_cast<void>(tick());
+  ASSERT_EQ(made.back(), "return");
+  static_cast<void>(tick(0.1, &fault));
+  static_cast<void>(tick(11.0, &fault));
+  EXPECT_EQ(end().outcome, api::Outcome::kLinkLost);
+  EXPECT_NE(end().cause.find("not back at its start: " + fault.message), std::string::npos) << end().cause;
+  EXPECT_NE(end().remedy.find("check its cable"), std::string::npos) << end().remedy;
+}
+
+TEST_F(MissionExecutorTest, AMissionThatEndsUndoneDoesNotClaimToBeDone) {
+  for (const auto& [outcome, progress] : {std::pair{api::Outcome::kComplete, 1.0},
+                                          {api::Outcome::kBoundReached, 1.0},
+                                          {api::Outcome::kBattery, 0.4},
+                                          {api::Outcome::kUnreachable, 0.4}}) {
+    script->next = {};
+    ASSERT_TRUE(executor.start(request("m" + std::to_string(static_cast<int>(outcome))), "anna", situation));
+    script->next.progress = 0.4;
+    script->next.end = ended(outcome, "because");
+    static_cast<void>(tick());
+    EXPECT_DOUBLE_EQ(executor.last()->progress, progress) << to_string(outcome);
+  }
+}
+
+TEST_F(MissionExecutorTest, APauseIsNoTimeOfTrouble) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  static_cast<void>(tick(0.1, &fault));
+  ASSERT_TRUE(executor.command(api::MissionCommand::kPause, situation.now));
+  static_cast<void>(tick(60.0, &fault));
+  ASSERT_TRUE(executor.command(api::MissionCommand::kResume, situation.now));
+  static_cast<void>(tick(0.1, &fault));
+  EXPECT_TRUE(executor.present()) << "the fault has its grace again";
+  static_cast<void>(tick(11.0, &fault));
+  EXPECT_EQ(end().outcome, api::Outcome::kFault);
+}
+
+TEST_F(MissionExecutorTest, OneTroubleAfterAnotherHasItsOwnGrace) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  static_cast<void>(tick(0.1, &fault));
+  static_cast<void>(tick(6.0, &fault));
+  situation.pose.quality = LocalisationQuality::kLost;
+  static_cast<void>(tick(6.0));
+  static_cast<void>(tick(0.1, &fault));
+  EXPECT_TRUE(executor.present()) << "that fault has only just begun";
+}
+
 TEST_F(MissionExecutorTest, BlockingFaultHoldsThenEndsTheMissionWithTheRemedy) {
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
   static_cast<void>(tick(0.1, &fault));
@@ -195,7 +280,7 @@ TEST_F(MissionExecutorTest, MissionThatWasCutOffGoesOnWithItsStartAndItsTime) {
   static_cast<void>(tick(10.0));
   EXPECT_EQ(script->time_left, Duration(seconds(20)));
   EXPECT_EQ(executor.last()->updated - executor.last()->started, Duration(seconds(80)));
-  executor.map_moved({.new_T_old = {1.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 1}, situation.now);
+  executor.map_moved({.move = Pose2{1.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 1}, situation.now);
   EXPECT_EQ(executor.so_far(), (MissionSoFar{Point2(4.0, 4.0), seconds(80)}));
 }
 

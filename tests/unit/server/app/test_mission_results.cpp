@@ -25,7 +25,7 @@ TEST_F(MissionResultsTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {
   EXPECT_EQ(executor.grid()->map_epoch, 0U);
   situation.pose.map_epoch = 3;
   situation.pose.map_T_base.x_m = 5.0;
-  executor.map_moved({.new_T_old = {5.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 3}, situation.now);
+  executor.map_moved({.move = Pose2{5.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 3}, situation.now);
   ASSERT_TRUE(script->moved);
   EXPECT_EQ(*script->moved, (Pose2{5.0, 0.0, 0.0}));
   EXPECT_EQ(events.back().kind, "map-moved");
@@ -36,9 +36,20 @@ TEST_F(MissionResultsTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {
   EXPECT_DOUBLE_EQ(executor.last()->path_length_m, 0.0) << "the robot did not drive where the map moved";
   executor.end(api::Outcome::kOperator, "test", "", situation.now);
   script->moved.reset();
-  executor.map_moved({.new_T_old = {1.0, 0.0, 0.0}, .from_epoch = 3, .to_epoch = 4}, situation.now);
+  executor.map_moved({.move = Pose2{1.0, 0.0, 0.0}, .from_epoch = 3, .to_epoch = 4}, situation.now);
   EXPECT_FALSE(script->moved);
   EXPECT_EQ(executor.grid()->map_epoch, 3U) << "the grid of an ended mission keeps its epoch";
+}
+
+TEST_F(MissionResultsTest, TheStartStaysWhereThePartOfTheMapStaysThatItLiesIn) {
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation));
+  static_cast<void>(tick());
+  situation.pose.map_T_base = {40.0, 0.0, 0.0};
+  static_cast<void>(tick());
+  const MapMove bent(std::vector<MapMove::Piece>{{{40.0, 0.0}, {0.0, 1.5, 0.1}}, {{1.0, 0.0}, {}}});
+  executor.map_moved({.move = bent, .from_epoch = 0, .to_epoch = 1}, situation.now);
+  ASSERT_TRUE(executor.so_far());
+  EXPECT_EQ(executor.so_far()->start_map, Point2(0.0, 0.0));
 }
 
 api::Detection mug_at(const Point2& p_map) {
@@ -56,7 +67,7 @@ TEST_F(MissionResultsTest, WhatAnEndedMissionHasFoundAndSearchedMovesWithTheMapI
   static_cast<void>(tick());
   executor.end(api::Outcome::kOperator, "test", "", situation.now);
   const Pose2 new_T_old{1.0, 3.0, kPi / 2.0};
-  executor.map_moved({.new_T_old = new_T_old, .from_epoch = 0, .to_epoch = 2}, situation.now);
+  executor.map_moved({.move = new_T_old, .from_epoch = 0, .to_epoch = 2}, situation.now);
   situation.pose.map_epoch = 2;
   ASSERT_EQ(executor.detections().size(), 1U);
   EXPECT_THAT(*executor.detections()[0].position, testing::Point2Near(Point2(1.0, 5.0), 1e-9));
@@ -64,7 +75,7 @@ TEST_F(MissionResultsTest, WhatAnEndedMissionHasFoundAndSearchedMovesWithTheMapI
   ASSERT_TRUE(executor.searched(situation.pose));
   EXPECT_EQ(executor.searched(situation.pose)->map_T_grid, new_T_old);
   // Another map was loaded: what is left of the one before is no part of it.
-  executor.map_moved({.new_T_old = new_T_old, .from_epoch = 3, .to_epoch = 4}, situation.now);
+  executor.map_moved({.move = new_T_old, .from_epoch = 3, .to_epoch = 4}, situation.now);
   situation.pose.map_epoch = 4;
   EXPECT_EQ(executor.detections()[0].map_epoch, 2U);
   EXPECT_FALSE(executor.searched(situation.pose));
@@ -77,7 +88,7 @@ TEST_F(MissionResultsTest, WhatARunningMissionHasFoundIsToldAsItsBehaviourHasMov
   static_cast<void>(tick(2.0));
   ASSERT_EQ(told.size(), 1U);
   script->detections = {mug_at({7.0, 0.0})};
-  executor.map_moved({.new_T_old = {5.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 1}, situation.now);
+  executor.map_moved({.move = Pose2{5.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 1}, situation.now);
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(told.back().map_epoch, 1U);
   EXPECT_EQ(*executor.detections()[0].position, Point2(7.0, 0.0)) << "moved once, not twice";

@@ -90,6 +90,22 @@ TEST_F(RobotMapTest, AMapThatMovesInEachTickIsFinishedAllTheSame) {
   EXPECT_EQ(map.tiles_since(0).map_epoch, 12U);
 }
 
+TEST_F(RobotMapTest, AMapThatBendsMovesEachPlaceAsTheLocalMapItLiesIn) {
+  state->pieces = {{0, {}, {1.0, 0.0}}, {1, {20.0, 0.0, 0.0}, {1.0, 0.0}}};
+  state->estimate.map_T_base = {40.0, 0.0, 0.0};
+  tick();
+  const Pose2 before = state->estimate.map_T_base;
+  state->pieces[1].map_T_piece = {20.0, 0.5, 0.0};
+  state->pieces.push_back({2, {39.0, 1.5, 0.0}, {}});  // begun since
+  state->estimate.map_T_base = {40.0, 1.5, 0.1};
+  ++state->estimate.map_epoch;
+  static_cast<void>(map.follow(tracker.estimate(), now, before));
+  const MapMove& move = map.last_move();
+  EXPECT_EQ(move * Point2(0.0, 3.0), Point2(0.0, 3.0)) << "the first local map is held";
+  EXPECT_EQ(move * Point2(22.0, 1.0), Point2(22.0, 1.5));
+  EXPECT_EQ(move * before, state->estimate.map_T_base) << "and around the robot all moves as it did";
+}
+
 TEST_F(RobotMapTest, ClientsGetTheNewMapWhateverRevisionTheyHad) {
   const LaserScan live = unpack_scan(state->map.keyframes.front());
   for (int k = 0; k < 20; ++k) {

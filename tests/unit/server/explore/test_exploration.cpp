@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,36 @@ TEST(Exploration, AnOpenDoorToTheOutsideOfTheBoundEndsAsBoundReached) {
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kBoundReached);
   EXPECT_LT(run.pose.x_m, 5.2);
+}
+
+TEST(Exploration, FloorThatIsSeenBehindAKeptOutDoorIsBeyondTheLimitsNotBlocked) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.areas.keep_out = {{{4.6, 1.7}, {5.6, 1.7}, {5.6, 3.3}, {4.6, 3.3}}};
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(two_rooms(), {1.5, 2.5, 0.0}, 7);
+  const ToyRun run = robot.run(exploration, 600.0);
+  print("kept out door", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kBoundReached) << run.end->cause;
+  EXPECT_LT(run.pose.x_m, 4.6);
+}
+
+TEST(Exploration, ComesBackToItsStartThoughTheMapHasBentWhereTheRobotWas) {
+  ExploreRequest request = request_of(Strategy::kFrontier);
+  request.return_to_start = true;
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 6);
+  ToyExplorer::Hooks hooks;
+  hooks.exploration = [](double t_s, Exploration& running) {
+    if (std::abs(t_s - 12.0) < 0.01) {
+      // What lies far from the start is said to have moved; the toy's map stays as it is.
+      running.transform(MapMove(std::vector<MapMove::Piece>{{{100.0, 0.0}, {0.0, 2.0, 0.2}}, {{1.0, 1.0}, {}}}));
+    }
+  };
+  const ToyRun run = robot.run(exploration, 600.0, hooks);
+  print("bent", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
 }
 
 TEST(Exploration, FloorBehindAGapTooNarrowIsListedAsUnreachable) {
@@ -142,7 +173,7 @@ TEST(Exploration, AMapThatMovesOnTheWayDoesNotChangeTheGoal) {
     hooks.exploration = [&](double t_s, Exploration& running) {
       if (moves && std::abs(t_s - 12.0) < 0.01) {
         robot.move_map({0.3, 0.0, 0.0});
-        running.transform({0.3, 0.0, 0.0});
+        running.transform(Pose2{0.3, 0.0, 0.0});
       }
     };
     return robot.run(exploration, 600.0, hooks);
@@ -181,6 +212,24 @@ TEST(Exploration, WhatOnlySonarsSeeIsAvoided) {
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kComplete);
   EXPECT_GT(run.least_clearance_m, 0.2);
+}
+
+TEST(Exploration, RoamingKeepsTheBodyOffForbiddenGroundNotOnlyItsMiddle) {
+  ExploreRequest request = request_of(Strategy::kRoam);
+  request.areas.keep_out = {{{2.0, -1.0}, {4.5, -1.0}, {4.5, 0.9}, {2.0, 0.9}}};
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(two_rooms(), {0.6, 1.0, 0.0}, 3);  // its way leads along the area, 0.1 m beside it
+  double least_m = 10.0;
+  ToyExplorer::Hooks hooks;
+  hooks.exploration = [&](double /*t_s*/, Exploration& /*running*/) {
+    const Point2 p = robot.pose().translation();
+    const Point2 nearest(std::clamp(p.x(), 2.0, 4.5), std::clamp(p.y(), -1.0, 0.9));
+    least_m = std::min(least_m, (p - nearest).norm());
+  };
+  const ToyRun run = robot.run(exploration, 60.0, hooks);
+  print("beside", run);
+  EXPECT_GT(run.path_m, 3.0);
+  EXPECT_GT(least_m, 0.24);
 }
 
 TEST(Exploration, AfterTheEndItRepeatsTheEndStandingStill) {

@@ -164,7 +164,7 @@ TEST(TopologyMap, DoesNotTakeUpAgainWhatWasGivenUp) {
 TEST(TopologyMap, MovesWithTheMap) {
   TopologyMap map({});
   (void)map.create({1.0, 2.0, 0.0}, tree_with({{5.0, 0.0}}), {}, kOpen);
-  map.transform({1.0, 0.0, kPi / 2.0});
+  map.transform(Pose2{1.0, 0.0, kPi / 2.0});
   EXPECT_THAT(map.current()->map_T_base.translation(), Point2Near(Point2(-1.0, 1.0), 1e-9));
   EXPECT_THAT(map.current()->goals.front().p_map, Point2Near(Point2(-1.0, 6.0), 1e-9));
 }

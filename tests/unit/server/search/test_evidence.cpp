@@ -192,10 +192,10 @@ TEST(Evidence, MovesWithTheMap) {
   EvidenceGrid evidence;
   (void)evidence.add_look(room(), {0.0, 0.0}, 0.4);
   const double before = evidence.probability_at({-1.1, 0.1});
-  evidence.transform({2.0, 0.0, 0.0});
+  evidence.transform(Pose2{2.0, 0.0, 0.0});
   EXPECT_NEAR(evidence.probability_at({0.9, 0.1}), before, 1e-9);
   // A turn leaves no holes.
-  evidence.transform({0.0, 0.0, 0.3});
+  evidence.transform(Pose2{0.0, 0.0, 0.3});
   EXPECT_GT(evidence.probability_at(Pose2{0, 0, 0.3} * Point2(0.9, 0.1)), before - 0.1);
 }
 
