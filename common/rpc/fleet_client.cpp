@@ -25,7 +25,9 @@ struct FleetClient::Link {
     if (!exchange) {
       Result<std::unique_ptr<net::Exchange>> connected = net::Exchange::connect(main.host, main.port, timeout);
       if (!connected) {
-        return tl::unexpected<Error>(connected.error());
+        return fail_with_context(
+            "no main robot of a fleet answers (fleet.lead: true in its robot file, --main names it)",
+            connected.error());
       }
       exchange = std::move(*connected);
     }
@@ -39,6 +41,10 @@ struct FleetClient::Link {
       return tl::unexpected<Error>(parsed.error());
     }
     if (const Status done = wire::status_of(reply.error()); !done) {
+      if (done.error().message.empty()) {  // another protocol, which reads as this one
+        return fail(Errc::kRefused, main.host + ":" + std::to_string(main.port) +
+                                        " does not answer as the main robot of a fleet; give its fleet port");
+      }
       return tl::unexpected<Error>(done.error());
     }
     return reply;

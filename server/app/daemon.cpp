@@ -104,7 +104,10 @@ int run_daemon(const DaemonArguments& arguments) {
   Result<Assembly> assembly = assemble(
       *options, {.folder = state / "landmarks", .robot_id = options->robot_id, .software_version = SEEKER_VERSION});
   if (!assembly) {
-    return config_error(assembly.error());
+    // What is not there yet may be there at the next start.
+    const Errc code = assembly.error().code;
+    const int wrong = config_error(assembly.error());
+    return code == Errc::kLinkLost || code == Errc::kTimeout ? EXIT_FAILURE : wrong;
   }
   return serve(arguments, *options, state, signals, std::move(*assembly));
 }

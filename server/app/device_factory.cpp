@@ -20,7 +20,7 @@ Result<sim::World> sim_world(const RobotOptions& options) {
   const SimSettings& settings = options.sim;
   Result<sim::World> world = options::load_world(resolve(options, settings.world));
   if (!world) {
-    return tl::unexpected<Error>(world.error());
+    return fail_with_context("sim.world", world.error());
   }
   world->people_walk = world->people_walk || settings.people;
   if (settings.random_target && !world->targets.empty()) {

@@ -5,59 +5,13 @@
 
 #include "common/core/assert.hpp"
 #include "server/app/estimator.hpp"
+#include "server/app/mission_rules.hpp"
 
 namespace seeker::app {
 namespace {
 
 /// What earlier missions have found and is still listed: more than anybody reads, and far less than a list may hold.
 constexpr std::size_t kMaxEarlierDetections = 1000;
-
-/// The way home of a mission keeps to the ground that the mission may use.
-api::ReturnMission way_home_of(const api::MissionTask& task) {
-  api::ReturnMission home;
-  const auto take_areas = [&home](const auto& mission) {
-    if constexpr (requires { mission.bound; }) {
-      home.bound = mission.bound;
-    }
-    if constexpr (requires { mission.keep_out; }) {
-      home.keep_out = mission.keep_out;
-    }
-  };
-  std::visit(take_areas, task);
-  return home;
-}
-
-/// Whether it came to its own end, with all done that there was.
-bool is_done(api::Outcome outcome) {
-  switch (outcome) {
-    case api::Outcome::kComplete:
-    case api::Outcome::kTargetFound:
-    case api::Outcome::kNotFoundAreaCovered:
-    case api::Outcome::kBoundReached: return true;
-    case api::Outcome::kUnreachable:
-    case api::Outcome::kTimeLimit:
-    case api::Outcome::kUncertain:
-    case api::Outcome::kLost:
-    case api::Outcome::kBattery:
-    case api::Outcome::kLinkLost:
-    case api::Outcome::kOperator:
-    case api::Outcome::kFault: return false;
-  }
-  SEEKER_ASSERT(false);
-  return false;
-}
-
-/// Why the robot was sent home, and how that went.
-api::MissionEnd after_way_home(api::MissionEnd why, const api::MissionEnd& way_home) {
-  if (way_home.outcome == api::Outcome::kComplete) {
-    why.cause += "; the robot is back where it was started";
-    return why;
-  }
-  why.cause += "; the robot is not back at its start: " + way_home.cause;
-  why.remedy += way_home.remedy.empty() ? "" : "; " + way_home.remedy;
-  why.unreachable.insert(why.unreachable.end(), way_home.unreachable.begin(), way_home.unreachable.end());
-  return why;
-}
 
 }  // namespace
 
@@ -78,6 +32,10 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   }
   if (last_ && last_->id == request.id) {
     return fail(Errc::kInvalidArgument, "mission id '" + request.id + "' was used before; choose a new one");
+  }
+  // One that was cut off may have been on its way back in.
+  if (const Status inside = check_start(request.task, situation.pose); !so_far.start_map && !inside) {
+    return tl::unexpected<Error>(inside.error());
   }
   Result<std::unique_ptr<Behaviour>> behaviour = factory_(request.task, situation);
   if (!behaviour) {

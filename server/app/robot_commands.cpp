@@ -80,8 +80,8 @@ void RobotLoop::set_estop(bool engaged) {
       engaged ? api::Severity::kCritical : api::Severity::kInfo);
   if (engaged) {
     missions_.pause(now(), "emergency stop; release it and resume the mission");
-    act({});
   }
+  act({});  // no tick may come to tell why the robot stands now
 }
 
 Result<api::LeaseState> RobotLoop::command_lease(const std::string& client, api::LeaseAction action) {

@@ -8,6 +8,9 @@ Status RobotLoop::may_change_map() const {
   if (missions_.present()) {
     return fail(Errc::kBusy, "a mission is running or paused; stop it first, its places belong to the present map");
   }
+  if (const Status able = within_reach(); !able) {
+    return able;  // no scan would come to find the robot's place by
+  }
   // A recording that moves cannot be told to stop.
   if (moving() && parts_.devices.base->drivable()) {
     return fail(Errc::kRefused, "the robot moves; stop it first ('seeker stop')");

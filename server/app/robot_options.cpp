@@ -228,6 +228,38 @@ void describe(config::Fields& f, StereoSettings& settings) {
   f.section("survey", settings.survey);
 }
 
+namespace {
+
+/// Plans and checks are made for a robot of that size, each with the margin that it has; the simulated one is so large.
+void grow_robot(RobotOptions& options, double by_m) {
+  for (nav::CostMapParams* cost : {&options.go.cost_map, &options.search.search.plan.cost, &options.explore.cost}) {
+    cost->robot_radius_m += by_m;
+    cost->preferred_clearance_m += by_m;
+  }
+  for (nav::ClearanceParams* clearance :
+       {&options.loop.safety.clearance, &options.go.follower.clearance, &options.search.search.plan.follower.clearance,
+        &options.search.round.look.follower.clearance, &options.explore.driver.follower.clearance,
+        &options.stereo.survey.look.follower.clearance}) {
+    clearance->radius_m += by_m;
+  }
+  options.search.search.paper.robot_radius_m += by_m;
+  options.loop.fleet.robot_radius_m += by_m;  // the others are taken to be of its kind
+  options.sim.robot.radius_m += by_m;
+}
+
+void describe_radius(config::Fields& f, RobotOptions& options) {
+  constexpr double kLargest_m = 2.0;
+  const double before_m = options.robot_radius_m;
+  f.field("robot_radius_m", options.robot_radius_m);
+  const bool valid = options.robot_radius_m > 0.0 && options.robot_radius_m <= kLargest_m;
+  f.check("robot_radius_m", valid, "must be above 0 and at most 2");
+  if (f.reading() && valid) {
+    grow_robot(options, options.robot_radius_m - before_m);
+  }
+}
+
+}  // namespace
+
 void describe(config::Fields& f, RobotOptions& options) {
   f.field("base", options.base);
   f.field("robot_id", options.robot_id);
@@ -236,7 +268,7 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.choice("driver", options.driver,
            config::Choices<DriverType>{
                {"sim", DriverType::kSim}, {"replay", DriverType::kReplay}, {"emulator", DriverType::kEmulator}});
-  f.field("robot_radius_m", options.robot_radius_m);
+  describe_radius(f, options);
   f.section("sim", options.sim);
   f.section("emulator", options.emulator);
   f.section("replay", options.replay);

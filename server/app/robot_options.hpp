@@ -69,6 +69,8 @@ struct RobotOptions {
   std::string base;  ///< the robot file that a file builds on; empty once both are read
   std::string robot_id = "seeker-1";
   DriverType driver = DriverType::kSim;
+  /// Of its body. A file that names another value means all radii that plans and checks go by, too, unless it says
+  /// them.
   double robot_radius_m = 0.26;
   SimSettings sim;
   EmulatorSettings emulator;

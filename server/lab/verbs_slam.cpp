@@ -98,17 +98,18 @@ Verb add_trajectory(CLI::App& app) {
   struct Options {
     std::filesystem::path log;
     std::filesystem::path out;
-    LogPoseSource source = LogPoseSource::kOdometry;
+    std::string source = "odometry";
   };
   auto o = std::make_shared<Options>();
-  const std::map<std::string, LogPoseSource> sources = {{"odometry", LogPoseSource::kOdometry},
-                                                        {"corrected", LogPoseSource::kCorrected}};
+  static const std::map<std::string, LogPoseSource> kSources = {{"odometry", LogPoseSource::kOdometry},
+                                                                {"corrected", LogPoseSource::kCorrected}};
   CLI::App* verb = app.add_subcommand("trajectory", "Writes the poses that a log holds as a TUM file");
   verb->add_option("log", o->log, "Log, plain or .gz")->required();
   verb->add_option("--source", o->source, "odometry, or a mapper's corrected poses")
-      ->transform(CLI::CheckedTransformer(sources));
+      ->check(CLI::IsMember(kSources))
+      ->capture_default_str();
   verb->add_option("--out", o->out, "TUM file to write")->required();
-  return [o] { return exit_code_of(write_log_trajectory(o->log, o->source, o->out, std::cerr)); };
+  return [o] { return exit_code_of(write_log_trajectory(o->log, kSources.at(o->source), o->out, std::cerr)); };
 }
 
 Verb add_score_map(CLI::App& app) {

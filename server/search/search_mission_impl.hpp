@@ -62,6 +62,7 @@ class SearchMission::Impl {
   void image_taken(const StrategyInput& input);
   void finish(EndKind kind, std::string cause, std::string remedy, SearchStep& out);
   void finish_found(std::uint64_t id, SearchStep& out);
+  [[nodiscard]] std::string not_found() const;
   void finish_covered(const StrategyStep& step, const StrategyInput& input, SearchStep& out);
   [[nodiscard]] std::string name_of(int target) const;
   [[nodiscard]] double smallest_target_m() const;

@@ -164,6 +164,21 @@ void SearchMission::Impl::finish(EndKind kind, std::string cause, std::string re
   out.events.push_back({"end", std::string(to_string(kind)) + ": " + end_->cause});
 }
 
+/// "; not found: 'ring', 'arrow'": of several targets those that nothing was seen of.
+std::string SearchMission::Impl::not_found() const {
+  std::string list;
+  for (std::size_t k = 0; k < request_.targets.size(); ++k) {
+    const bool seen = std::any_of(confirmed_.begin(), confirmed_.end(), [&](std::uint64_t id) {
+      const auto detection = tracker_.find(id);
+      return detection && detection->target == static_cast<int>(k);
+    });
+    if (!seen) {
+      list += (list.empty() ? "; not found: " : ", ") + name_of(static_cast<int>(k));
+    }
+  }
+  return list;
+}
+
 void SearchMission::Impl::finish_found(std::uint64_t id, SearchStep& out) {
   const auto detection = tracker_.find(id);
   std::string cause = "the target was found";
@@ -178,7 +193,7 @@ void SearchMission::Impl::finish_found(std::uint64_t id, SearchStep& out) {
       remedy = "no range was measured; look from a second place to get the position";
     }
   }
-  finish(EndKind::kTargetFound, std::move(cause), std::move(remedy), out);
+  finish(EndKind::kTargetFound, cause + not_found(), std::move(remedy), out);
 }
 
 void SearchMission::Impl::finish_covered(const StrategyStep& step, const StrategyInput& input, SearchStep& out) {
@@ -202,7 +217,10 @@ void SearchMission::Impl::finish_covered(const StrategyStep& step, const Strateg
   const std::size_t unreachable = strategy_->lists().unreachable.size();
   finish(EndKind::kNotFoundAreaCovered,
          step.activity + "; " + covered + "; " + std::to_string(unreachable) + " places unreachable",
-         share < 1.0 ? "search the gaps only, or look at the listed gaps by hand" : "", out);
+         share < 1.0 ? (request_.gaps_only ? "look at the listed gaps by hand"
+                                           : "search the gaps only, or look at the listed gaps by hand")
+                     : "",
+         out);
 }
 
 EvidenceReport SearchMission::Impl::evidence_report() const {

@@ -39,7 +39,9 @@ TEST(RobotFiles, UnknownKeyIsNamedWithPlaceAndChoice) {
 /// Files of a temporary folder, by name and text; loads the first of them.
 Result<app::RobotOptions> load_first(const std::vector<std::pair<std::string, std::string>>& files,
                                      const std::vector<std::string>& overrides = {}) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "robot_bases";
+  // Tests run at the same time.
+  const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / ("robots-" + test);
   std::filesystem::remove_all(folder);
   for (const auto& [name, text] : files) {
     std::filesystem::create_directories((folder / name).parent_path());
@@ -87,6 +89,30 @@ TEST(RobotFiles, MistakesOfABaseAreNamedWhereTheyStand) {
   const Result<app::RobotOptions> text = app::parse_robot_options("base: sim.yaml\n", "robot.yaml");
   ASSERT_FALSE(text);
   EXPECT_THAT(text.error().message, ::testing::HasSubstr("base: a text that is no file"));
+}
+
+TEST(RobotFiles, ALargerRobotPlansAsOneUnlessItsFileSaysOtherwise) {
+  const Result<app::RobotOptions> usual = load_first({{"robot.yaml", "robot_id: a\n"}});
+  const Result<app::RobotOptions> larger =
+      load_first({{"robot.yaml", "base: all.yaml\nrobot_radius_m: 0.36\nexplore: {cost: {robot_radius_m: 0.4}}\n"},
+                  {"all.yaml", "robot_radius_m: 0.3\n"}});
+  ASSERT_TRUE(usual && larger);
+  const double by_m = 0.36 - usual->robot_radius_m;
+  EXPECT_NEAR(larger->go.cost_map.robot_radius_m, usual->go.cost_map.robot_radius_m + by_m, 1e-9);
+  EXPECT_NEAR(larger->loop.safety.clearance.radius_m, usual->loop.safety.clearance.radius_m + by_m, 1e-9);
+  EXPECT_NEAR(larger->explore.driver.follower.clearance.radius_m,
+              usual->explore.driver.follower.clearance.radius_m + by_m, 1e-9);
+  EXPECT_NEAR(larger->sim.robot.radius_m, usual->sim.robot.radius_m + by_m, 1e-9);
+  EXPECT_EQ(larger->explore.cost.robot_radius_m, 0.4);
+}
+
+TEST(RobotFiles, ARobotOfNoSizeIsRefused) {
+  for (const char* radius : {"0", "-0.2", "50"}) {
+    const Result<app::RobotOptions> options =
+        load_first({{"robot.yaml", "robot_id: a\nrobot_radius_m: " + std::string(radius) + "\n"}});
+    ASSERT_FALSE(options) << radius;
+    EXPECT_THAT(options.error().message, ::testing::HasSubstr("robot.yaml:2: robot_radius_m: must be above 0"));
+  }
 }
 
 TEST(RobotFiles, MissingLogOfAReplayIsNamed) {

@@ -105,6 +105,7 @@ TEST(SearchSystem, EstopHoldsTheMissionUntilItIsReleasedAndResumed) {
   EXPECT_NEAR(robot.simulation->truth().velocity.v_m_s, 0.0, 1e-3);
   EXPECT_FALSE(robot.loop->command_mission(api::MissionCommand::kResume, "tester"));
   robot.loop->set_estop(false);
+  EXPECT_EQ(robot.loop->status().safety.find("emergency stop"), std::string::npos) << "told without a tick";
   robot.ticks(20);
   EXPECT_NEAR(robot.simulation->truth().velocity.v_m_s, 0.0, 1e-3) << "releasing alone must not move the robot";
   ASSERT_TRUE(robot.loop->command_mission(api::MissionCommand::kResume, "tester"));

@@ -135,6 +135,24 @@ TEST_F(MissionExecutorTest, AMissionThatIsOverKeepsItsEndWhenTheWayHomeIsCutShor
   EXPECT_EQ(end().outcome, api::Outcome::kOperator) << "his word is the last";
 }
 
+TEST_F(MissionExecutorTest, AMissionWhoseBoundTheRobotStandsFarOutsideOfIsRefused) {
+  api::MissionRequest bounded = request("bounded");
+  api::ExploreMission explore;
+  explore.bound = Polygon{{10.0, 0.0}, {12.0, 0.0}, {12.0, 2.0}, {10.0, 2.0}};
+  bounded.task = explore;
+  const Result<api::MissionId> refused = executor.start(bounded, "anna", situation);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::kRefused);
+  EXPECT_NE(refused.error().message.find("outside the bound"), std::string::npos) << refused.error().message;
+  MissionSoFar before;
+  before.start_map = Point2(11.0, 1.0);
+  EXPECT_TRUE(executor.start(bounded, "anna", situation, before)) << "one that was cut off goes on";
+  executor.end(api::Outcome::kOperator, "test", "", situation.now);
+  situation.pose.map_T_base = {9.5, 1.0, 0.0};
+  bounded.id = "near";
+  EXPECT_TRUE(executor.start(bounded, "anna", situation)) << "half a metre outside";
+}
+
 TEST_F(MissionExecutorTest, AWayHomeForAClientThatIsGoneIsToldWhateverCutsItShort) {
   ASSERT_TRUE(executor.start(request("home", api::LinkPolicy::kReturn), "anna", situation));
   executor.client_lost("anna", wall);

@@ -196,6 +196,7 @@ TEST_F(RobotReach, ALostWorldIsAFaultAtOnceAndGoneWithItsCause) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::kNotReady);
   EXPECT_NE(refused.error().message.find("the world is gone"), std::string::npos);
+  EXPECT_EQ(loop->relocalise({}).error().code, Errc::kNotReady) << "no scan would come to find the place by";
   EXPECT_FALSE(await(std::chrono::minutes(5)));
   clock->link = {};
   EXPECT_TRUE(await());

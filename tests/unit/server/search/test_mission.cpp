@@ -174,6 +174,22 @@ TEST(SearchMission, PlanFindsAndApproachesATargetInTheOtherRoom) {
   EXPECT_GT(run.least_clearance_m, 0.2);
 }
 
+TEST(SearchMission, OfSeveralTargetsTheEndNamesThoseNotFound) {
+  ToyWorld world = two_rooms();
+  world.target = Point2(4.0, 4.0);
+  SearchRequest request;
+  request.strategy = Strategy::kPlan;
+  request.targets = {{"box", 0.3}, {"ring", 0.3}};
+  auto mission = SearchMission::create(request, {}, shared_table());
+  ASSERT_TRUE(mission) << mission.error().message;
+  ToyRobot robot(world, {1.0, 1.0, 0.3}, true, 6);
+  const ToyRun run = robot.run(*mission, 600.0);
+  print("two targets", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kTargetFound);
+  EXPECT_TRUE(run.end->cause.ends_with("; not found: 'ring'")) << run.end->cause;
+}
+
 TEST(SearchMission, WhatIsNotThereFromNearIsRefusedAndTheSearchGoesOn) {
   ToyWorld world = two_rooms();
   world.target = Point2(8.9, 4.0);
