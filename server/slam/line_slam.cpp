@@ -206,12 +206,13 @@ Status LineSlam::update(const LaserScan& scan) {
     counts_.lines += step.observations.size();
     follow(step);
   }
-  const bool misplaced = failures_ >= params_.relocalise.lost_scans ||
-                         backend_.loops().contradictions >= params_.relocalise.contradictions;
-  if (misplaced && !backend_.apart()) {
-    (void)relocalise(std::nullopt);
-  } else if (backend_.apart()) {
+  if (backend_.apart()) {
     look_for_robot();
+  } else if (failures_ >= params_.relocalise.lost_scans) {
+    // The odometry says about where it is: of places that look alike it is the one there, if any of them is.
+    (void)look_where_it_stood(estimate().map_T_base);
+  } else if (backend_.loops().contradictions >= params_.relocalise.contradictions) {
+    (void)relocalise(std::nullopt);
   }
   return outcome;
 }

@@ -5,6 +5,7 @@
 
 #include "common/core/angle.hpp"
 #include "ring_trip.hpp"
+#include "rooms.hpp"
 #include "server/slam/line_slam.hpp"
 
 namespace seeker::slam {
@@ -37,6 +38,33 @@ TEST(LineSlam, IsFoundAtThePlaceThatIsNamedInAMapThatTellsNoPlaceFromAnother) {
   ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 0.3));
   ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
   EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.1);
+}
+
+/// Half a turn shows the same room: only the odometry says on which side the robot is.
+TEST(LineSlam, IsFoundWhereTheOdometrySaysOfPlacesThatLookAlike) {
+  const std::vector<Wall> room = box(0.0, 0.0, 10.0, 6.0);
+  Rng rng(21);
+  Pose2 truth{2.5, 1.5, 0.0};
+  double time_s = 0.0;
+  LineSlam slam({}, truth);
+  const auto see = [&](double sigma_m) {
+    time_s += 0.1;
+    ASSERT_TRUE(slam.predict(truth, robot_time_s(time_s)));
+    (void)slam.update(scan_at(room, truth, time_s, rng, kPi, 12.0, sigma_m));
+  };
+  for (int k = 0; k < 200; ++k) {
+    truth = truth * integrate({0.3, 0.2}, 0.1);
+    ASSERT_NO_FATAL_FAILURE(see(0.01));
+  }
+  for (int k = 0; k < 60 && slam.estimate().quality != LocalisationQuality::kUnknown; ++k) {
+    ASSERT_NO_FATAL_FAILURE(see(0.3));  // something is wrong with the scanner
+  }
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown);
+  for (int k = 0; k < 60; ++k) {
+    ASSERT_NO_FATAL_FAILURE(see(0.01));
+  }
+  ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kLocalised) << slam.estimate().cause;
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, truth), 0.1);
 }
 
 TEST(LineSlam, IsFoundElsewhereWhenItDoesNotStandWhereItStood) {
