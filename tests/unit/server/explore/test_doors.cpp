@@ -98,6 +98,28 @@ TEST(Doors, WhoStaysInTheDoorMakesWhatLiesBehindUnreachable) {
   EXPECT_LT(run.seconds, 400.0);
 }
 
+TEST(Doors, ARobotThatIsHemmedInForAMinuteWaitsUntilItIsFree) {
+  auto exploration = frontier_exploration();
+  ToyExplorer robot(two_rooms(), {2.0, 2.5, 0.0}, 19);
+  ToyExplorer::Hooks hooks;
+  constexpr double kRoom_m = 0.33;
+  std::optional<Point2> hemmed;
+  hooks.world = [&, walls = robot.world().walls.size()](double t_s, ToyWorld& world) {
+    world.walls.resize(walls);
+    if (t_s > 6.0 && t_s < 66.0) {
+      hemmed = hemmed.value_or(robot.pose().translation());
+      world.walls = joined(
+          world.walls, box(hemmed->x() - kRoom_m, hemmed->y() - kRoom_m, hemmed->x() + kRoom_m, hemmed->y() + kRoom_m));
+    }
+  };
+  const ToyRun run = robot.run(exploration, 600.0, hooks);
+  print("hemmed in", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
+  EXPECT_GT(run.wall_share, 0.9);
+  EXPECT_GT(run.seconds, 66.0);
+}
+
 TEST(Doors, WhoStepsIntoTheDoorOnTheWayHomeForAMomentDoesNotEndIt) {
   ExploreRequest request;
   request.strategy = maker_of(Strategy::kFrontier);
