@@ -42,8 +42,8 @@ std::filesystem::path robot_file(const CommonOptions& options) {
 }
 
 std::filesystem::path world_file(const CommonOptions& options, const std::string& name) {
-  return std::filesystem::exists(name) ? std::filesystem::path(name)
-                                       : config_folder(options) / "worlds" / (name + ".yaml");
+  return std::filesystem::is_regular_file(name) ? std::filesystem::path(name)
+                                                : config_folder(options) / "worlds" / (name + ".yaml");
 }
 
 bool show_progress() { return isatty(STDERR_FILENO) != 0; }
