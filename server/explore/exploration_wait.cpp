@@ -58,7 +58,7 @@ void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyIn
   for (const Point2& p_map : left.people.at_map) {
     places.push_back({p_map, true});
   }
-  // What sonars alone saw before the robot closes a gap behind it until it is forgotten.
+  // Who closes in on it may go on, and what sonars alone have seen is forgotten after a while.
   if (const Point2 here = input.map_T_base.translation(); left.no_floor && known_floor_.was_reachable(here)) {
     places.push_back({here, true});
   }
