@@ -23,14 +23,7 @@ api::ReturnMission way_home_of(const api::MissionTask& task) {
 
 Status check_start(const api::MissionTask& task, const PoseEstimate& pose) {
   constexpr double kNear_m = 1.0;  // so near it is led in by the first plan
-  const std::optional<Polygon> bound = std::visit(
-      [](const auto& mission) -> std::optional<Polygon> {
-        if constexpr (requires { mission.bound; }) {
-          return mission.bound;
-        }
-        return std::nullopt;
-      },
-      task);
+  const std::optional<Polygon> bound = way_home_of(task).bound;
   const Point2 here_map = pose.map_T_base.translation();
   if (!bound || !is_placed(pose.quality) || contains(*bound, here_map)) {
     return {};

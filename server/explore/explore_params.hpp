@@ -18,11 +18,10 @@ struct GuardParams {
   double regain_position_sigma_m = 0.5;  ///< and explores on below this
   /// On the way back no place reached in so long, or not regained so long after the last: it ends as uncertain.
   double regain_time_s = 180.0;
-  double battery_reserve_v =
-      11.5;  ///< below it the exploration ends, and goes home first where it is to; Pioneer 3-DX: 12 V lead
-  double home_m_s = 0.3;         ///< it drives home so fast, turns and stops counted in,
-  double home_margin = 1.5;      ///< and sets out with so many times the time that this takes,
-  double home_reserve_s = 20.0;  ///< and so much more: to brake, turn round, and for what it drives meanwhile
+  double battery_reserve_v = 11.5;  ///< below it the exploration ends; Pioneer 3-DX: 12 V lead accumulators
+  double home_m_s = 0.3;            ///< it drives home so fast, turns and stops counted in,
+  double home_margin = 1.5;         ///< and sets out with so many times the time that this takes,
+  double home_reserve_s = 20.0;     ///< and so much more: to brake, turn round, and for what it drives meanwhile
 };
 
 struct ExploreParams {
