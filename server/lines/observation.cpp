@@ -10,6 +10,9 @@
 namespace seeker::lines {
 namespace {
 
+/// Beams beyond an end that say whether it is one: most of them must.
+constexpr int kVotes = 3;
+
 /// What the observations of one scan share.
 struct Context {
   const LaserScan& scan;
@@ -45,18 +48,18 @@ std::optional<std::size_t> beam_beyond(const Context& context, const End& end, i
   return beam >= 0 && beam < n ? std::optional(static_cast<std::size_t>(beam)) : std::nullopt;
 }
 
-/// Another line begins at this end and turns away: a corner.
-bool is_corner(const Context& context, std::size_t index, const Point2& end) {
+/// Another line that begins at this end and turns away, as at a corner; null where there is none.
+const Line* line_around_corner(const Context& context, std::size_t index, const Point2& end) {
   const Line& line = context.found.lines[index];
   for (std::size_t k = 0; k < context.found.lines.size(); ++k) {
     const Line& other = context.found.lines[k];
     const double turn_rad = std::abs(wrap_angle(2.0 * (other.alpha_rad - line.alpha_rad))) / 2.0;
     const double gap_m = std::min((other.start - end).norm(), (other.end - end).norm());
     if (k != index && gap_m <= context.params.corner_gap_m && turn_rad > context.params.corner_angle_rad) {
-      return true;
+      return &other;
     }
   }
-  return false;
+  return nullptr;
 }
 
 Vote vote_of_beam(const Context& context, const Line& line, bool corner, std::size_t beam) {
@@ -91,20 +94,19 @@ double spacing_m(const Context& context, const Line& line, const End& end) {
 }
 
 bool is_real(const Context& context, std::size_t index, const End& end) {
-  constexpr int kBeams = 3;
   // Where one beam more or less on the wall moves its end by more than that, the end would creep on with the robot.
   if (spacing_m(context, context.found.lines[index], end) > context.params.end_spacing_m) {
     return false;
   }
-  const bool corner = is_corner(context, index, end.point);
+  const bool corner = line_around_corner(context, index, end.point) != nullptr;
   int real = 0;
-  for (int step = 1; step <= kBeams; ++step) {
+  for (int step = 1; step <= kVotes; ++step) {
     const std::optional<std::size_t> beam = beam_beyond(context, end, step);
     if (beam && vote_of_beam(context, context.found.lines[index], corner, *beam) == Vote::kReal) {
       ++real;
     }
   }
-  return 2 * real > kBeams;
+  return 2 * real > kVotes;
 }
 
 /// How far beyond the line's last point the wall ends.
@@ -113,20 +115,37 @@ struct Beyond {
   double sigma_m = 0.0;
 };
 
-/// The wall ends somewhere between its last beam and the next; exactly there where the next one hits what leads around
-/// the corner, such as the inner side of a door post.
-Beyond beyond_last_point(const Context& context, const Line& line, const End& end) {
-  const double next_m = spacing_m(context, line, end);
-  const double range_sigma_m = context.found.range_sigma_m;
+/// Where the beam next to the end hits what leads around the corner, such as the inner side of a door post, along
+/// `outward` from the end. Nothing where it goes on to what is farther off.
+std::optional<double> hit_around_corner_m(const Context& context, const End& end, const Point2& outward,
+                                          double spacing_m) {
+  constexpr double kSigmas = 3.0;  // a narrower gate would take those that are read long for misses
   const std::optional<std::size_t> beam = beam_beyond(context, end, 1);
-  if (beam && std::isfinite(context.scan.ranges_m[*beam])) {
-    const double angle_rad = context.scan.angle_rad(*beam);
-    const Point2 hit = context.scan.ranges_m[*beam] * Point2(std::cos(angle_rad), std::sin(angle_rad));
-    const Point2 outward = (end.point - 0.5 * (line.start + line.end)).normalized();
-    const double hit_m = outward.dot(hit - end.point);
-    if (hit_m > -range_sigma_m && hit_m < std::max(next_m, range_sigma_m)) {
-      return {std::max(0.0, hit_m), range_sigma_m};
-    }
+  if (!beam || !std::isfinite(context.scan.ranges_m[*beam])) {
+    return std::nullopt;
+  }
+  const double angle_rad = context.scan.angle_rad(*beam);
+  const Point2 hit = context.scan.ranges_m[*beam] * Point2(std::cos(angle_rad), std::sin(angle_rad)) - end.point;
+  const double along_m = outward.dot(hit);
+  const double across_m = outward.x() * hit.y() - outward.y() * hit.x();
+  const double slack_m = kSigmas * context.found.range_sigma_m;
+  const bool meets = along_m > -slack_m && along_m < spacing_m + slack_m;
+  return meets && std::abs(across_m) <= context.params.corner_gap_m ? std::optional(along_m) : std::nullopt;
+}
+
+/// The wall ends at its corner, where one is seen; else somewhere between its last beam and the next.
+Beyond beyond_last_point(const Context& context, std::size_t index, const End& end) {
+  const Line& line = context.found.lines[index];
+  const double range_sigma_m = context.found.range_sigma_m;
+  const Point2 outward = (end.point - 0.5 * (line.start + line.end)).normalized();
+  if (const Line* other = line_around_corner(context, index, end.point)) {
+    const Point2 normal(std::cos(other->alpha_rad), std::sin(other->alpha_rad));
+    const double crossing_m = (other->r_m - normal.dot(end.point)) / normal.dot(outward);
+    return {std::clamp(crossing_m, -context.params.corner_gap_m, context.params.corner_gap_m), range_sigma_m};
+  }
+  const double next_m = spacing_m(context, line, end);
+  if (const std::optional<double> hit_m = hit_around_corner_m(context, end, outward, next_m)) {
+    return {*hit_m, range_sigma_m};
   }
   return {0.5 * next_m, next_m / std::sqrt(12.0)};
 }
@@ -136,6 +155,21 @@ double end_sigma_m(const Context& context, const Line& line, const End& end, con
   const double sine = std::min(1.0, line.r_m / std::max(end.point.norm(), std::numeric_limits<double>::min()));
   const double along_m = context.found.range_sigma_m * std::sqrt(1.0 - sine * sine);
   return std::hypot(along_m, beyond.sigma_m);
+}
+
+/// SegmentObservation::clear_m of a line at `r_m`: how far from its foot it may end for is_real() to say the same
+/// wherever the beams fall. The last beam on the wall and those that vote are within kVotes steps of the end.
+double clear_m(const Context& context, double r_m) {
+  const ObservationParams& params = context.params;
+  const double step_rad = std::abs(context.scan.angle_step_rad);
+  const double seen_m = context.range_limit_m - params.range_margin_m;
+  const double flattest_rad = kPi / 2.0 - std::max(params.grazing_rad, params.lost_rad);
+  const double farthest_rad = std::acos(std::clamp(r_m / seen_m, 0.0, 1.0));
+  const double votes_rad = std::min(flattest_rad, farthest_rad) - kVotes * step_rad;
+  // r (tan(b + step) - tan(b)) grows with b: at most what is_real() allows, one beam on.
+  const double sparsest_rad = std::acos(std::sqrt(std::clamp(r_m * step_rad / params.end_spacing_m, 0.0, 1.0)));
+  const double most_rad = std::min(votes_rad, sparsest_rad - 2.0 * step_rad);
+  return r_m * std::tan(std::max(0.0, most_rad));
 }
 
 bool is_grazed(const Line& line, double grazing_rad) {
@@ -153,7 +187,7 @@ SegmentObservation observe_line(const Context& context, std::size_t index) {
   for (const Side side : {kLeft, kRight}) {
     const End end = end_of(line, side == kLeft, context.scan);
     seen.real[side] = is_real(context, index, end);
-    const Beyond beyond = beyond_last_point(context, line, end);
+    const Beyond beyond = beyond_last_point(context, index, end);
     seen.end_sigma_m[side] = end_sigma_m(context, line, end, beyond);
     const double beyond_m = seen.real[side] ? beyond.expected_m : 0.0;
     s[side] += side == kLeft ? -beyond_m : beyond_m;
@@ -170,6 +204,8 @@ SegmentObservation observe_line(const Context& context, std::size_t index) {
   seen.covariance(0, 0) += context.params.wall_sigma_m * context.params.wall_sigma_m;
   seen.covariance(1, 1) += context.params.wall_sigma_rad * context.params.wall_sigma_rad;
   seen.beam_step_rad = std::abs(context.scan.angle_step_rad);
+  seen.clear_m = clear_m(context, line.r_m);
+  seen.foot_x_m = -s_m;
   seen.points = line.points;
   seen.line = index;
   return seen;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "server/lines/line.hpp"
@@ -21,6 +22,10 @@ struct SegmentObservation {
   Matrix2 covariance = Matrix2::Identity();     ///< of (p_y, p_theta): across the segment and its direction
   std::array<double, 2> end_sigma_m{0.0, 0.0};  ///< by Side: of p_e, independent of (p_y, p_theta)
   double beam_step_rad = 0.0;                   ///< between neighbouring beams; 0: ends do not depend on the beams
+  /// A wall that ends within so far of foot_x_m, to either side, is seen to end there whichever beams meet it. Farther
+  /// off only ends that happen to be read short of where they are count as real, and all of them would be short.
+  double clear_m = std::numeric_limits<double>::infinity();
+  double foot_x_m = 0.0;  ///< of the point of the line that is nearest to the laser, in the segment's frame
   int points = 0;
   std::size_t line = 0;  ///< index in ScanLines::lines
 };

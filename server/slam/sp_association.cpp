@@ -140,11 +140,20 @@ struct EndCandidate {
   RowGroup group;
 };
 
+/// Whether the scan shows the segment's end wherever its beams fall. Asked of where the map has the end: asked of the
+/// observed one, those that are read too long would be left out, and the others pull the robot along.
+bool is_end_clear(const SpSegment& segment, const PairCandidate& pair, const SegmentObservation& observation,
+                  std::size_t side) {
+  const double end_x_m = (side == lines::kLeft ? -0.5 : 0.5) * segment.length_m;
+  return std::abs(end_x_m - pair.geometry.x_m - observation.foot_x_m) <= observation.clear_m;
+}
+
 std::vector<EndCandidate> end_candidates(const SpState& state, const PairCandidate& pair,
                                          const SegmentObservation& observation) {
   std::vector<EndCandidate> ends;
   for (std::size_t side = 0; side < 2; ++side) {
-    if (!observation.real[side] || !state.segments[pair.segment].real[side] ||
+    const SpSegment& segment = state.segments[pair.segment];
+    if (!observation.real[side] || !segment.real[side] || !is_end_clear(segment, pair, observation, side) ||
         !state.is_end_news(pair.segment, side, observation.beam_step_rad)) {
       continue;
     }

@@ -171,6 +171,50 @@ TEST(Observation, EndsAreLessSureWhereTheWallIsSeenFlatly) {
   EXPECT_GT(seen[0].end_sigma_m[kLeft], 4.0 * seen[0].end_sigma_m[kRight]);
 }
 
+/// A wall 1 m to the left that ends free after `end_m`, by a scanner of 1 degree whose beams begin at `phase_rad`: what
+/// it reads of that end, where it takes it for one.
+struct EndSeen {
+  std::optional<double> off_m;  ///< read beyond the end
+  double clear_m = 0.0;         ///< along the wall, from the scanner on
+};
+
+EndSeen end_seen(double end_m, double phase_rad) {
+  ScannerModel model = ScannerModel::half_circle(181, 0.0);
+  model.first_rad += phase_rad;
+  const auto seen = observed(scan_of({{{-1.0, 1.0}, {end_m, 1.0}}}, model));
+  EXPECT_EQ(seen.size(), 1U);
+  const SegmentObservation& wall = seen.front();
+  const double end_x_m = (wall.base_T_segment * Point2(0.5 * wall.length_m, 0.0)).x();
+  return {wall.real[kRight] ? std::optional(end_x_m - end_m) : std::nullopt, wall.clear_m};
+}
+
+TEST(Observation, AnEndThatIsClearIsReadRightOnAverageWhereverTheBeamsFall) {
+  constexpr int kPhases = 24;
+  int clear = 0;
+  int short_read = 0;
+  for (double end_m = 0.5; end_m < 5.0; end_m += 0.05) {
+    double sum_m = 0.0;
+    int real = 0;
+    double clear_m = 0.0;
+    for (int k = 0; k < kPhases; ++k) {
+      const EndSeen seen = end_seen(end_m, deg_to_rad(1.0) * k / kPhases);
+      clear_m = seen.clear_m;
+      sum_m += seen.off_m.value_or(0.0);
+      real += seen.off_m ? 1 : 0;
+    }
+    const double spacing_m = deg_to_rad(1.0) * (1.0 + end_m * end_m);
+    if (end_m <= clear_m) {
+      ++clear;
+      EXPECT_EQ(real, kPhases) << end_m;
+      EXPECT_LT(std::abs(sum_m / kPhases), 0.15 * spacing_m) << end_m;
+    } else if (real > 0 && real < kPhases) {
+      short_read += sum_m / real < -0.15 * spacing_m ? 1 : 0;
+    }
+  }
+  EXPECT_GT(clear, 20) << "most of what is near";
+  EXPECT_GT(short_read, 0) << "the limit keeps something out";
+}
+
 TEST(Observation, AClockwiseScannerSeesTheSame) {
   const testing::Room room{{{3.0, -1.0}, {3.0, 2.0}}, {{3.0, 2.0}, {0.5, 2.0}}};
   const LaserScan scan = scan_of(room, ScannerModel::half_circle(721, 0.0), 0.005);

@@ -131,6 +131,18 @@ TEST(SpAssociation, LeavesOutAnEndThatDisagrees) {
   EXPECT_FALSE(association.matches[0].ends[lines::kRight]);
 }
 
+TEST(SpAssociation, LeavesOutAnEndThatOnlySomeBeamsWouldShow) {
+  const TrueWall wall = test::wall_between({-2.0, 1.0}, {2.0, 1.0});
+  const SpMap map = map_of({wall}, {});
+  SegmentObservation seen = whole({}, wall);
+  seen.foot_x_m = -1.0;
+  seen.clear_m = 2.5;
+  const Association association = map.associate({seen});
+  ASSERT_EQ(association.matches[0].verdict, SpVerdict::kPaired);
+  EXPECT_TRUE(association.matches[0].ends[lines::kLeft]) << "1 m from the foot";
+  EXPECT_FALSE(association.matches[0].ends[lines::kRight]) << "3 m from it";
+}
+
 /// Two parallel walls 0.4 m apart (a door niche) and a cross wall. The robot slipped sideways by more than half
 /// of that: the nearest wall is the wrong one, but then the two do not keep their distance.
 struct Niche {
