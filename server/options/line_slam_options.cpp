@@ -22,6 +22,9 @@ void describe(config::Fields& f, PointNetParams& params) {
   f.field("gap_m", params.gap_m);
   f.angle_deg("gap_deg", params.gap_rad);
   f.field("new_space_ratio", params.new_space_ratio);
+  f.field("through_margin_m", params.through.margin_m);
+  f.angle_deg("through_grazing_deg", params.through.grazing_rad);
+  f.field("denied_ratio", params.denied_ratio);
   f.field("max_correction_m", params.max_correction_m);
   f.angle_deg("max_correction_deg", params.max_correction_rad);
   f.field("sure_ratio", params.sure_ratio);

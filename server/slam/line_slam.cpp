@@ -358,7 +358,9 @@ void LineSlam::note_failure(const Scan& scan) {
   const auto known = std::count_if(scan.points.begin(), scan.points.end(), [&](const OrientedPoint& point) {
     return reference.nearest(pose * point.p, params_.points.match.first_gate_m) != nullptr;
   });
-  if (static_cast<double>(known) < params_.points.new_space_ratio * static_cast<double>(scan.points.size())) {
+  const bool elsewhere =
+      static_cast<double>(known) < params_.points.new_space_ratio * static_cast<double>(scan.points.size());
+  if (elsewhere || seen_through(reference, scan.scan, pose, params_.points.through) < params_.points.denied_ratio) {
     if (failures_ > 0) {
       // Where the robot went meanwhile is known badly: a map of its own, which a loop can move, takes what it sees now.
       begin_next_map(scan.scan.stamp, 0);

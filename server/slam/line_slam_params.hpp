@@ -13,6 +13,7 @@
 #include "server/slam/place_claim.hpp"
 #include "server/slam/place_recogniser.hpp"
 #include "server/slam/scan_matcher.hpp"
+#include "server/slam/seen_through.hpp"
 #include "server/slam/segment_fusion.hpp"
 #include "server/slam/sp_params.hpp"
 #include "server/slam/turn_sense.hpp"
@@ -44,7 +45,9 @@ struct PointNetParams {
   double accept_ratio = 0.25;  ///< below it the match is not believed
   double gap_m = 0.3;          ///< way since the last scan beyond which a poor match is searched for
   double gap_rad = 0.2;
-  double new_space_ratio = 0.5;   ///< fewer points than this near known ones: unseen space, not a contradiction
+  double new_space_ratio = 0.5;  ///< fewer points than this near known ones: unseen space, not a contradiction
+  SeenThroughParams through;
+  double denied_ratio = 0.1;      ///< a scan that goes through less of what is known contradicts nothing either
   double max_correction_m = 1.2;  ///< a match farther from the prediction is not believed
   double max_correction_rad = 0.6;
   double sure_ratio = 0.6;  ///< ... unless it explains so many points

@@ -80,6 +80,32 @@ TEST(LineSlamPlaces, ANamedPlaceThatTheMapDoesNotShowIsSaidToBeNone) {
   EXPECT_NE(slam.estimate().cause.find("shows nothing about the place"), std::string::npos) << slam.estimate().cause;
 }
 
+/// A robot in the open that has seen one face of a pillar, goes round it by its wheels and meets the other.
+TEST(LineSlamPlaces, TheBackOfAPillarDoesNotContradictItsFront) {
+  const std::vector<Wall> pillar = box(3.0, -0.2, 3.4, 0.2);
+  Rng rng(5);
+  LineSlam slam;
+  double time_s = 0.0;
+  const auto go = [&](const Pose2& from, const Pose2& to) {
+    constexpr int kSteps = 40;
+    for (int k = 1; k <= kSteps; ++k, time_s += 0.1) {
+      const double share = static_cast<double>(k) / kSteps;
+      const Pose2 truth{from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m),
+                        from.theta_rad + share * (to.theta_rad - from.theta_rad)};
+      ASSERT_TRUE(slam.predict(truth, robot_time_s(time_s)));
+      (void)slam.update(scan_at(pillar, truth, time_s, rng));
+      EXPECT_NE(slam.estimate().quality, LocalisationQuality::kLost) << time_s << ": " << slam.estimate().cause;
+    }
+  };
+  const std::vector<Pose2> way{{0.0, 0.0, 0.0},       {1.0, 0.0, 0.0},       {1.0, 0.0, kPi / 2.0},
+                               {1.0, 3.0, kPi / 2.0}, {6.0, 3.0, kPi / 2.0}, {6.0, 0.0, kPi / 2.0},
+                               {6.0, 0.0, kPi},       {5.5, 0.0, kPi}};
+  for (std::size_t k = 1; k < way.size(); ++k) {
+    ASSERT_NO_FATAL_FAILURE(go(way[k - 1], way[k]));
+  }
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, way.back()), 0.3) << "what the wheels may be off by";
+}
+
 /// Takes at its word whoever says where the robot stood, whatever the scans say; asked so seldom that no right answers
 /// come before the wrong one.
 RelocaliseParams gullible() {
