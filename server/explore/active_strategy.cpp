@@ -19,6 +19,7 @@ ActiveStrategy::ActiveStrategy(const ExploreParams& params)
     : params_(params),
       hold_(params.one_step, params.driver.follower.clearance),
       watch_(params.one_step),
+      look_round_(params.one_step),
       follower_(params.one_step, params.wall),
       path_(params, make_opening_chooser()) {}
 
@@ -68,6 +69,11 @@ std::vector<MapSegment> ActiveStrategy::believed(const std::vector<MapSegment>& 
 }
 
 void ActiveStrategy::decide(const StrategyInput& input, StrategyStep& out) {
+  if (const std::optional<Twist2> turn = look_round_.next(input.covariance)) {
+    why_ = "turning round: what lies behind ties down what lies ahead";
+    hold_.start(*turn, input.now);
+    return;
+  }
   const auto view = input.floors.view();
   const MapSize size = size_of(input.segments, view ? view->get() : nullptr);
   out.step_done = true;
@@ -167,6 +173,7 @@ void ActiveStrategy::follow_path(const StrategyInput& input, StrategyStep& out) 
 }
 
 void ActiveStrategy::interrupted(RobotTime now) {
+  look_round_.cancel();
   hold_.cancel(now);
   path_.interrupted(now);
   watch_.reset();

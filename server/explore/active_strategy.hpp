@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/explore/control_hold.hpp"
+#include "server/explore/look_round.hpp"
 #include "server/explore/one_step.hpp"
 #include "server/explore/place_strategy.hpp"
 #include "server/explore/trap_watch.hpp"
@@ -41,6 +42,7 @@ class ActiveStrategy final : public ExploreStrategy {
   ExploreParams params_;
   ControlHold hold_;
   TrapWatch watch_;
+  LookRound look_round_;
   WallFollower follower_;
   PlaceStrategy path_;
   std::optional<RobotTime> began_;

@@ -58,6 +58,7 @@ Status check_one_step(const OneStepParams& p) {
   }
   if (const Status weights = none_negative({{"one_step.settle_s", p.settle_s},
                                             {"one_step.first_look_s", p.first_look_s},
+                                            {"one_step.look_round_m", p.look_round_m},
                                             {"one_step.weight_certainty", p.weight_certainty},
                                             {"one_step.weight_extension", p.weight_extension},
                                             {"one_step.weight_ends", p.weight_ends},

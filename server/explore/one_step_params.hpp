@@ -30,6 +30,9 @@ struct OneStepParams {
   /// Standing before the first decision: nowhere is the pose known better than at the start, and the walls seen from
   /// there give the whole map its direction.
   double first_look_s = 5.0;
+  /// The robot turns round once where its position has become less certain by this: the square root of what its largest
+  /// variance has grown by since the last turn. 0: never.
+  double look_round_m = 0.0;
   double weight_certainty = 1.0;  ///< omega_1
   double weight_extension = 0.5;  ///< omega_21
   double weight_ends = 0.5;       ///< omega_22

@@ -20,6 +20,7 @@ void describe(config::Fields& f, OneStepParams& params) {
   f.field("stop_and_go", params.stop_and_go);
   f.field("settle_s", params.settle_s);
   f.field("first_look_s", params.first_look_s);
+  f.field("look_round_m", params.look_round_m);
   f.field("weight_certainty", params.weight_certainty);
   f.field("weight_extension", params.weight_extension);
   f.field("weight_ends", params.weight_ends);
