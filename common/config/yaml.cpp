@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -54,12 +53,15 @@ Status apply_override(const YAML::Node& root, const std::string& assignment) {
 struct Document::Impl {
   YAML::Node root;
   std::string name;
+  std::vector<std::string> overrides;
 };
 
 /// Walks the tree along a description, remembers which keys were asked for and the first error.
 class Document::Reader final : public Fields {
  public:
-  Reader(const YAML::Node& root, std::string name) : name_(std::move(name)) { push(root, ""); }
+  explicit Reader(const Impl& document) : name_(document.name), overrides_(document.overrides) {
+    push(document.root, "");
+  }
 
   void field(std::string_view key, double& value) override { scalar(key, value, "a number"); }
   void field(std::string_view key, int& value) override { scalar(key, value, "a whole number"); }
@@ -317,18 +319,31 @@ class Document::Reader final : public Fields {
     }
     path += (path.empty() || key.starts_with('[') ? "" : ".") + std::string(key);
     const int line = node.IsDefined() ? node.Mark().line : -1;
-    const std::string place = line >= 0 ? name_ + ":" + std::to_string(line + 1) : name_;
+    const std::string place =
+        set_by(path, line >= 0).value_or(line >= 0 ? name_ + ":" + std::to_string(line + 1) : name_);
     return {Errc::kParse, place + ": " + path + ": " + std::string(message)};
   }
 
+  /// The override that says what is at `path`, or made a section of it that is not in the file.
+  [[nodiscard]] std::optional<std::string> set_by(const std::string& path, bool in_file) const {
+    for (const std::string& assignment : overrides_) {
+      const std::string key = assignment.substr(0, assignment.find('='));
+      if (path == key || path.starts_with(key + '.') || path.starts_with(key + '[') ||
+          (!in_file && key.starts_with(path + '.'))) {
+        return "--set " + assignment;
+      }
+    }
+    return std::nullopt;
+  }
+
   std::string name_;
+  std::vector<std::string> overrides_;
   std::vector<Frame> stack_;
   bool failed_ = false;
   Error error_;
 };
 
-Document::Session::Session(const Document& document)
-    : reader_(std::make_unique<Reader>(document.impl_->root, document.impl_->name)) {}
+Document::Session::Session(const Document& document) : reader_(std::make_unique<Reader>(*document.impl_)) {}
 Document::Session::~Session() = default;
 Fields& Document::Session::fields() { return *reader_; }
 Status Document::Session::finish() { return reader_->finish(); }
@@ -363,32 +378,8 @@ Result<Document> Document::parse(std::string_view text, std::string name, const 
       return tl::unexpected<Error>(ok.error());
     }
   }
+  impl->overrides = overrides;
   return Document(std::move(impl));
-}
-
-Result<std::string> read_text_file(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    return fail(Errc::kNotFound, path.string() + ": no such file");
-  }
-  if (std::filesystem::file_size(path, code) > kMaxFileBytes || code) {
-    return fail(Errc::kTooLarge, path.string() + ": larger than 4 MiB");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    return fail(Errc::kIo, path.string() + ": cannot be read; check its permissions");
-  }
-  return text.str();
-}
-
-Result<Document> Document::load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const Result<std::string> text = read_text_file(path);
-  if (!text) {
-    return tl::unexpected<Error>(text.error());
-  }
-  return parse(*text, path.string(), overrides);
 }
 
 }  // namespace seeker::config

@@ -121,6 +121,15 @@ TEST(Yaml, OverridesWinAndAreCheckedToo) {
   EXPECT_NE(error_of("", {"nonsense"}).find("key.path=value"), std::string::npos);
 }
 
+TEST(Yaml, AMistakeInAnOverrideIsToldAsOne) {
+  EXPECT_EQ(error_of("doors: 2\n", {"fast=true", "doors=two"}),
+            "--set doors=two: doors: expected a whole number, got 'two'");
+  EXPECT_EQ(error_of("", {"spare.radius_m=-1"}), "--set spare.radius_m=-1: spare.radius_m: must be above 0");
+  EXPECT_EQ(error_of("", {"spare.nme=x"}).find("--set spare.nme=x: spare.nme: unknown key"), 0U);
+  EXPECT_EQ(error_of("", {"spra.name=x"}).find("--set spra.name=x: spra: unknown key"), 0U);
+  EXPECT_EQ(error_of("doors: two\n", {"spare.name=x"}).find("car.yaml:1: doors"), 0U);
+}
+
 TEST(Yaml, PrintedValuesReadBackTheSame) {
   const Result<Car> car = read("speed_m_s: 0.1\nstart: [0.3, 2, 33.3]\nwheels: [{name: 'a\"b'}, {radius_m: 3}]\n");
   ASSERT_TRUE(car);
