@@ -115,6 +115,7 @@ void describe(config::Fields& f, SpFeatureParams& params) {
   f.angle_deg("merge_angle_deg", params.merge_angle_rad);
   f.field("merge_gap_m", params.merge_gap_m);
   f.field("merge_offset_m", params.merge_offset_m);
+  f.field("merge_sigma_m", params.merge_sigma_m);
   f.field("doorway_m", params.doorway_m);
 }
 

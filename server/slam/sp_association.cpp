@@ -87,6 +87,12 @@ JointItem::Option option_of(const SpState& state, const PairCandidate& pair, con
   return option;
 }
 
+/// Whether what lies beside the segment may be more of it: SpFeatureParams::merge_sigma_m.
+bool may_go_on(const PairCandidate& pair, const SpFeatureParams& params) {
+  const bool beside = pair.apart > 0.5 && params.merge_sigma_m > 0.0;
+  return !beside || (pair.sigma_m <= params.merge_sigma_m && pair.d2 <= params.merge_gate);
+}
+
 /// Everything the joint search decides on, the clear ones first.
 struct Problem {
   std::vector<JointItem> items;
@@ -108,7 +114,8 @@ Problem make_problem(const SpState& state, const std::vector<SegmentObservation>
     }
     match.verdict = SpVerdict::kRejected;
     match.d2 = candidates.front().d2;
-    std::erase_if(candidates, [&](const PairCandidate& c) { return c.d2 > gate; });
+    std::erase_if(candidates,
+                  [&](const PairCandidate& c) { return c.d2 > gate || !may_go_on(c, state.params.features); });
     if (std::any_of(candidates.begin(), candidates.end(), [](const PairCandidate& c) { return c.apart < 0.5; })) {
       std::erase_if(candidates, [](const PairCandidate& c) { return c.beside; });
     }
@@ -275,7 +282,9 @@ std::vector<PairCandidate> candidates_of(const SpState& state, std::size_t index
     if (!lies_on(state, pair, observation)) {
       continue;
     }
-    pair.d2 = group_d2(state.p, rows_of_pair(state, pair, observation, {}));
+    const RowGroup group = rows_of_pair(state, pair, observation, {});
+    pair.d2 = group_d2(state.p, group);
+    pair.sigma_m = std::sqrt(std::max(0.0, innovation_covariance(state.p, group, group)(0, 0)));
     if (pair.d2 <= params.near_gate) {
       found.push_back(pair);
     }

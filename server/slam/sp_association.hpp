@@ -11,10 +11,11 @@ struct PairCandidate {
   std::size_t observation = 0;
   std::size_t segment = 0;
   PairGeometry geometry;
-  double d2 = 0.0;      ///< of (y, theta), eq (13)
-  double apart = 0.0;   ///< share of the shorter one that does not overlap, 0..1
-  bool beside = false;  ///< surely no overlap: the gap is larger than the robot is uncertain along the segment
-  double low_m = 0.0;   ///< interval of the observation on the segment's x axis
+  double d2 = 0.0;       ///< of (y, theta), eq (13)
+  double sigma_m = 0.0;  ///< of y
+  double apart = 0.0;    ///< share of the shorter one that does not overlap, 0..1
+  bool beside = false;   ///< surely no overlap: the gap is larger than the robot is uncertain along the segment
+  double low_m = 0.0;    ///< interval of the observation on the segment's x axis
   double high_m = 0.0;
 };
 

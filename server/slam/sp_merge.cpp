@@ -39,7 +39,8 @@ Matrix2 cross_block(const SpCovariance& p, Index a, Index b) {
   return block;
 }
 
-double constraint_d2(const SpState& state, std::size_t first, std::size_t second) {
+/// Whether two segments are one line: they agree, and well enough is known of them for that to mean something.
+bool are_one_line(const SpState& state, std::size_t first, std::size_t second) {
   const MergeRows rows = merge_rows(state.segments[first].map_T_segment, state.segments[second].map_T_segment);
   const Index a = state.records[first].at;
   const Index b = state.records[second].at;
@@ -47,7 +48,9 @@ double constraint_d2(const SpState& state, std::size_t first, std::size_t second
   const Matrix2 s = rows.first * cross_block(state.p, a, a) * rows.first.transpose() + cross + cross.transpose() +
                     rows.second * cross_block(state.p, b, b) * rows.second.transpose() +
                     kConstraintVariance * Matrix2::Identity();
-  return rows.f.dot(s.ldlt().solve(rows.f));
+  const SpFeatureParams& params = state.params.features;
+  const bool known = params.merge_sigma_m <= 0.0 || s(0, 0) <= params.merge_sigma_m * params.merge_sigma_m;
+  return known && rows.f.dot(s.ldlt().solve(rows.f)) <= params.merge_gate;
 }
 
 bool constrain(SpState& state, std::size_t first, std::size_t second) {
@@ -138,8 +141,7 @@ std::optional<std::size_t> partner_of(const SpState& state, std::size_t segment)
       continue;
     }
     const auto [first, second] = std::minmax(segment, other);
-    if (are_neighbours(state, first, second) &&
-        constraint_d2(state, first, second) <= state.params.features.merge_gate) {
+    if (are_neighbours(state, first, second) && are_one_line(state, first, second)) {
       return other;
     }
   }

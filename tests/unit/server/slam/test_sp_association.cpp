@@ -112,6 +112,21 @@ TEST(SpAssociation, AsksForOverlapOrASmallGapAtAVirtualEnd) {
   EXPECT_EQ(verdict(closed, -3.0, -1.4), SpVerdict::kNew);
 }
 
+TEST(SpAssociation, WhatLiesBesideASegmentIsPartOfItOnlyWhereTheirOffsetIsKnownWell) {
+  const TrueWall wall = test::wall_between({-10.0, 1.0}, {10.0, 1.0});
+  const TrueWall part = test::wall_between({-1.0, 1.0}, {1.0, 1.0});
+  const auto verdict = [&](double merge_sigma_m, double from_m, double to_m) {
+    SpMapParams params;
+    params.features.merge_sigma_m = merge_sigma_m;
+    const SpMap map = map_of({part}, {}, {false, false}, params);
+    return map.associate({part_of({}, wall, from_m, to_m)}).matches[0].verdict;
+  };
+  EXPECT_EQ(verdict(0.0, 1.4, 3.0), SpVerdict::kPaired);
+  EXPECT_EQ(verdict(0.02, 1.4, 3.0), SpVerdict::kPaired);
+  EXPECT_EQ(verdict(0.003, 1.4, 3.0), SpVerdict::kRejected) << "known to 5 mm: neither part of it nor another";
+  EXPECT_EQ(verdict(0.003, -1.0, 1.2), SpVerdict::kPaired) << "the segment itself";
+}
+
 TEST(SpAssociation, LetsAWallBeSeenInPiecesButNotTwice) {
   const TrueWall wall = test::wall_between({-3.0, 1.0}, {3.0, 1.0});
   const SpMap map = map_of({wall}, {});

@@ -137,6 +137,19 @@ TEST(SpMap, MergesThePiecesOfAWallButNotOverADoorway) {
   EXPECT_EQ(doorway.segments().size(), 2U);
 }
 
+TEST(SpMap, MergesOnlyPiecesWhoseOffsetIsKnownWell) {
+  const auto merged = [](double merge_sigma_m) {
+    SpMapParams params;
+    params.features.merge_sigma_m = merge_sigma_m;
+    SpMap map({}, kStart, params);
+    feed(map, {part(-2.0, -0.5), part(0.5, 2.0)});
+    return feed(map, {part(-2.0, -0.1, {true, false}), part(0.1, 2.0, {false, true})}).merged.size();
+  };
+  EXPECT_EQ(merged(0.0), 1U);
+  EXPECT_EQ(merged(0.1), 1U);
+  EXPECT_EQ(merged(1e-4), 0U);
+}
+
 TEST(SpMap, TakesTheRealEndOfThePieceThatGoes) {
   SpMapParams params;
   params.features.real_scans = 1;
