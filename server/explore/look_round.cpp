@@ -6,9 +6,23 @@
 #include <Eigen/Eigenvalues>
 
 namespace seeker::explore {
+namespace {
+
+/// The fastest turn that the robot may choose, to the left where both ways are as fast.
+double fastest_turn_rad_s(const OneStepParams& params) {
+  double fastest_rad_s = 0.0;
+  for (const double omega_rad_s : params.omega_rad_s) {
+    const double gain_rad_s = std::abs(omega_rad_s) - std::abs(fastest_rad_s);
+    fastest_rad_s = gain_rad_s > 0.0 || (gain_rad_s == 0.0 && omega_rad_s > 0.0) ? omega_rad_s : fastest_rad_s;
+  }
+  return fastest_rad_s;
+}
+
+}  // namespace
 
 std::optional<Twist2> LookRound::next(const Matrix3& covariance) {
-  if (params_.look_round_m <= 0.0) {
+  const double omega_rad_s = fastest_turn_rad_s(params_);
+  if (params_.look_round_m <= 0.0 || omega_rad_s == 0.0) {
     return std::nullopt;
   }
   const Matrix2 position = covariance.topLeftCorner<2, 2>();
@@ -21,8 +35,7 @@ std::optional<Twist2> LookRound::next(const Matrix3& covariance) {
     }
     left_rad_ = 2.0 * kPi;
   }
-  const double omega_rad_s = *std::max_element(params_.omega_rad_s.begin(), params_.omega_rad_s.end());
-  left_rad_ -= omega_rad_s * params_.observation_period_s;
+  left_rad_ -= std::abs(omega_rad_s) * params_.observation_period_s;
   after_turn_ = left_rad_ <= 0.0;
   return Twist2{0.0, omega_rad_s};
 }

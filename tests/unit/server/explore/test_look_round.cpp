@@ -53,6 +53,17 @@ TEST(LookRound, ATurnThatIsCutOffBeginsAnew) {
   EXPECT_TRUE(look.next(known_to(0.02)));
 }
 
+TEST(LookRound, TurnsTheWayThatTheRobotCan) {
+  OneStepParams right = looking();
+  right.omega_rad_s = {-0.3, 0.0, 0.1};
+  LookRound look(right);
+  EXPECT_LE(turned_rad(look, right, 0.02), -2.0 * kPi);
+  OneStepParams straight = looking();
+  straight.omega_rad_s = {0.0};
+  LookRound never(straight);
+  EXPECT_FALSE(never.next(known_to(1.0)));
+}
+
 TEST(LookRound, NeverTurnsUnlessItIsAskedTo) {
   LookRound look({});
   EXPECT_EQ(turned_rad(look, {}, 5.0), 0.0);
