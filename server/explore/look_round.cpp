@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "server/explore/trail.hpp"
 
 namespace seeker::explore {
 namespace {
@@ -25,8 +25,8 @@ std::optional<Twist2> LookRound::next(const Matrix3& covariance) {
   if (params_.look_round_m <= 0.0 || omega_rad_s == 0.0) {
     return std::nullopt;
   }
-  const Matrix2 position = covariance.topLeftCorner<2, 2>();
-  const double now_m2 = Eigen::SelfAdjointEigenSolver<Matrix2>(position, Eigen::EigenvaluesOnly).eigenvalues()(1);
+  const double sigma_m = position_sigma_m(covariance);
+  const double now_m2 = sigma_m * sigma_m;
   if (left_rad_ <= 0.0) {
     known_m2_ = after_turn_ ? now_m2 : std::min(known_m2_, now_m2);
     after_turn_ = false;

@@ -13,6 +13,10 @@ namespace {
 
 using lines::SegmentObservation;
 
+using Innovation = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+
+double d2_of(const RowGroup& group, const Innovation& s) { return group.f.dot(s.ldlt().solve(group.f)); }
+
 /// Of the shorter of two observations of one segment that may overlap without being two claims to it.
 constexpr double kTouch_m = 0.05;
 
@@ -151,7 +155,7 @@ struct EndCandidate {
 /// observed one, those that are read too long would be left out, and the others pull the robot along.
 bool is_end_clear(const SpSegment& segment, const PairCandidate& pair, const SegmentObservation& observation,
                   std::size_t side) {
-  const double end_x_m = (side == lines::kLeft ? -0.5 : 0.5) * segment.length_m;
+  const double end_x_m = 0.5 * end_sign(side) * segment.length_m;
   return std::abs(end_x_m - pair.geometry.x_m - observation.foot_x_m) <= observation.clear_m;
 }
 
@@ -283,8 +287,9 @@ std::vector<PairCandidate> candidates_of(const SpState& state, std::size_t index
       continue;
     }
     const RowGroup group = rows_of_pair(state, pair, observation, {});
-    pair.d2 = group_d2(state.p, group);
-    pair.sigma_m = std::sqrt(std::max(0.0, innovation_covariance(state.p, group, group)(0, 0)));
+    const Innovation s = innovation_covariance(state.p, group, group);
+    pair.d2 = d2_of(group, s);
+    pair.sigma_m = std::sqrt(std::max(0.0, s(0, 0)));
     if (pair.d2 <= params.near_gate) {
       found.push_back(pair);
     }
@@ -303,8 +308,7 @@ RowGroup rows_of_pair(const SpState& state, const PairCandidate& pair, const Seg
 }
 
 double group_d2(const SpCovariance& p, const RowGroup& group) {
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> s = innovation_covariance(p, group, group);
-  return group.f.dot(s.ldlt().solve(group.f));
+  return d2_of(group, innovation_covariance(p, group, group));
 }
 
 Association associate_jointly(const SpState& state, const std::vector<SegmentObservation>& observations) {
