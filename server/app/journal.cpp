@@ -154,12 +154,12 @@ void Journal::event(const api::Event& event) {
   });
 }
 
-void Journal::detection(const api::Detection& detection, const std::string& mission) {
-  enqueue([detection, mission](store::Store& store) {
+void Journal::detection(const api::Detection& detection) {
+  enqueue([detection](store::Store& store) {
     wire::pb::Detection message;
     wire::write(detection, &message);
     return store.save_detection({.id = detection.id,
-                                 .mission = mission,
+                                 .mission = detection.mission,
                                  .target = detection.target,
                                  .stamp_ns = ns(detection.stamp),
                                  .data = to_blob(message)});

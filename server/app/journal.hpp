@@ -38,7 +38,7 @@ class Journal {
   void mission_started(const api::MissionRequest& request, RobotTime now);
   void mission(const api::MissionStatus& status);
   void event(const api::Event& event);
-  void detection(const api::Detection& detection, const std::string& mission);
+  void detection(const api::Detection& detection);
   /// Called on the journal's thread with the sentence of the first failed write.
   void set_on_error(std::function<void(const Error&)> on_error);
   [[nodiscard]] std::uint64_t dropped() const;

@@ -4,6 +4,7 @@
 
 #include "common/wire/convert.hpp"
 #include "common/wire/convert_fleet.hpp"
+#include "common/wire/fleet_fields.hpp"
 #include "seeker/v1/kept.pb.h"
 #include "server/app/kept_message.hpp"
 
@@ -38,6 +39,11 @@ Result<MissionPlace> read_place(const fs::path& path) {
     place.so_far.start_map = *start_map;
   }
   place.so_far.running = std::max(Duration(message->running_ns()), Duration::zero());
+  wire::Check check;
+  wire::read_detections(message->found(), place.so_far.found, check);
+  if (!check.ok()) {
+    return tl::unexpected<Error>(check.status().error());
+  }
   return place;
 }
 
@@ -75,6 +81,7 @@ Status keep_place(const fs::path& folder, const api::MissionId& mission, const M
     wire::write(*place.so_far.start_map, message.mutable_start_map());
   }
   message.set_running_ns(place.so_far.running.count());
+  wire::write_detections(api::within_limits(place.so_far.found), message.mutable_found());
   // Every second: one that waited for a busy disk would be of a place the robot has left long ago.
   return store::write_sealed_file(path_of(folder, mission, kPlaceKind), kPlaceKind, message.SerializeAsString(),
                                   store::Outlives::kItsProgram);

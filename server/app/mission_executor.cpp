@@ -1,6 +1,7 @@
 #include "server/app/mission_executor.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "common/core/assert.hpp"
@@ -41,6 +42,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   if (!behaviour) {
     return tl::unexpected<Error>(behaviour.error());
   }
+  take_back(so_far.found, situation.pose.map_epoch);
   Active active;
   active.request = request;
   active.owner = owner;
@@ -52,7 +54,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.status.link_policy = request.link_policy;
   active.detection_base = highest_detection_id_;
   active.pose = situation.pose.map_T_base;
-  active.so_far = so_far;
+  active.so_far = {so_far.start_map, so_far.running};
   if (so_far.start_map) {
     active.behaviour->remember_start(*so_far.start_map);
   }
@@ -250,7 +252,13 @@ std::optional<Duration> MissionExecutor::time_left() const {
 }
 
 std::optional<MissionSoFar> MissionExecutor::so_far() const {
-  return active_ ? std::optional(active_->so_far) : std::nullopt;
+  if (!active_) {
+    return std::nullopt;
+  }
+  MissionSoFar so_far = active_->so_far;
+  std::copy_if(detections_.begin(), detections_.end(), std::back_inserter(so_far.found),
+               [&](const api::Detection& d) { return d.map_epoch == active_->map_epoch; });
+  return so_far;
 }
 
 void MissionExecutor::take(const Decision& decision, const Situation& situation) {

@@ -44,8 +44,9 @@ struct MapCorrection {
 
 /// How far a mission has come: what one that was cut off goes on from.
 struct MissionSoFar {
-  std::optional<Point2> start_map;  ///< where it began; nothing: it begins where the robot is
-  Duration running{0};              ///< robot time in which it ran: neither paused nor held
+  std::optional<Point2> start_map;         ///< where it began; nothing: it begins where the robot is
+  Duration running{0};                     ///< robot time in which it ran: neither paused nor held
+  std::vector<api::Detection> found = {};  ///< by it and by those before it, places in the present map; by rising id
 
   friend bool operator==(const MissionSoFar&, const MissionSoFar&) = default;
 };
@@ -131,6 +132,7 @@ class MissionExecutor {
   void collect_grid();
   void collect_detections();
   void take(api::Detection detection);
+  void take_back(const std::vector<api::Detection>& found, std::uint32_t map_epoch);
   void withdraw_all_but(const std::vector<api::Detection>& told);
   void keep_searched();
   void report(RobotTime now);

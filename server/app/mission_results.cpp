@@ -77,6 +77,14 @@ void MissionExecutor::take(api::Detection detection) {
   }
 }
 
+/// What was found before the program was cut off.
+void MissionExecutor::take_back(const std::vector<api::Detection>& found, std::uint32_t map_epoch) {
+  for (api::Detection detection : found) {
+    detection.map_epoch = map_epoch;
+    take(std::move(detection));
+  }
+}
+
 /// What the behaviour has told and tells no more it has refuted: from near, it is not there.
 void MissionExecutor::withdraw_all_but(const std::vector<api::Detection>& told) {
   const auto is_refuted = [&](const api::Detection& listed) {

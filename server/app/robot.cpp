@@ -286,10 +286,7 @@ void Robot::keep_journal() {
     journal_->mission_started(request, loop_.now());
   };
   loop_.on_mission = [this](const api::MissionStatus& status) { journal_->mission(status); };
-  loop_.on_detection = [this](const api::Detection& detection) {
-    const auto& mission = loop_.missions().last();
-    journal_->detection(detection, mission ? mission->id : std::string());
-  };
+  loop_.on_detection = [this](const api::Detection& detection) { journal_->detection(detection); };
   journal_->set_on_error([this](const Error& error) {
     static_cast<void>(mailbox_.post([this, error] {
       loop_.report_fault({.id = "journal-failed",

@@ -183,7 +183,7 @@ void RobotLoop::begin_map_anew() {
   }
   has_own_map_ = false;
   kept_.topology.reset();
-  kept_.so_far.start_map.reset();
+  kept_.so_far = {std::nullopt, kept_.so_far.running};
   map_.begin_anew();
   forget_places();
 }

@@ -43,6 +43,15 @@ api::MissionRequest exploration() {
   return request;
 }
 
+api::Detection found_bag() {
+  api::Detection bag;
+  bag.id = 3;
+  bag.target = "bag";
+  bag.mission = "look-round";
+  bag.position = Point2(2.0, 1.0);
+  return bag;
+}
+
 class MapCheckpoints : public ::testing::Test {
  protected:
   MapCheckpoints() {
@@ -157,8 +166,8 @@ TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSe
   loop->offer_unfinished(exploration());
   EXPECT_TRUE(loop->map_waits_for_resume());
   state->lost_because = "no scan fits";
-  ASSERT_TRUE(
-      loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, TopologyMemory{}, {Point2(5.0, 5.0), {}}}));
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester",
+                                  {Pose2{1.0, 0.0, 0.0}, TopologyMemory{}, {Point2(5.0, 5.0), {}, {found_bag()}}}));
   EXPECT_FALSE(loop->map_waits_for_resume());
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
@@ -168,6 +177,20 @@ TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSe
   EXPECT_TRUE(state->map.segments.empty());
   EXPECT_FALSE(remembered.topology) << "places of another map";
   EXPECT_FALSE(remembered.start_map);
+  EXPECT_TRUE(loop->missions().detections().empty());
+}
+
+TEST_F(MapCheckpoints, WhatWasFoundBeforeACrashIsListedAgainOnceTheRobotIsFound) {
+  loop->offer_unfinished(exploration());
+  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester",
+                                  {Pose2{1.0, 0.0, 0.0}, std::nullopt, {Point2(1.0, 0.0), {}, {found_bag()}}}));
+  EXPECT_TRUE(loop->missions().detections().empty()) << "where it is, is not known yet";
+  ticks(20);
+  ASSERT_EQ(loop->missions().detections().size(), 1U);
+  const api::Detection& bag = loop->missions().detections()[0];
+  EXPECT_EQ(bag.position, found_bag().position);
+  EXPECT_EQ(bag.map_epoch, loop->status().pose.map_epoch);
+  EXPECT_EQ(place_kept.so_far.found, loop->missions().detections()) << "a second crash would need it";
 }
 
 TEST_F(MapCheckpoints, RobotThatIsNotFoundAtOnceTurnsOnceOnTheSpotAndStands) {

@@ -54,6 +54,23 @@ TEST(Journal, AnotherMissionClosesTheRecordOfTheOneThatWasCutOff) {
   EXPECT_EQ(unfinished_in(folder.path()), "another");
 }
 
+TEST(Journal, WhatWasFoundIsKeptWithTheMissionThatHasFoundIt) {
+  const testing::TemporaryFolder folder;
+  api::Detection bag;
+  bag.id = 4;
+  bag.target = "bag";
+  bag.mission = "earlier";
+  {
+    const auto journal = Journal::open(folder.path()).value();
+    journal->mission_started(exploration("round"), RobotTime{});
+    journal->detection(bag);
+  }
+  EXPECT_EQ(Journal::open(folder.path()).value()->highest_detection_id(), 4U);
+  const auto kept = store::Store::open(folder.path())->detections("earlier").value();
+  ASSERT_EQ(kept.size(), 1U) << "the map it lies in outlives its mission, and it is told again";
+  EXPECT_EQ(kept[0].target, "bag");
+}
+
 /// Opens the journal, as a program that starts does, has one mission begin or go on, and one event happen.
 void begin_and_tell(const std::filesystem::path& folder, const std::string& mission, const std::string& text) {
   const auto journal = Journal::open(folder).value();

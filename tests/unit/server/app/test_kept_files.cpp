@@ -28,7 +28,12 @@ TopologyMemory memory() {
 
 TEST(KeptFiles, ComeOutAsTheyWentInForTheSameStateOfTheMap) {
   const testing::TemporaryFolder folder;
-  const MissionSoFar so_far{Point2(4.0, 5.0), std::chrono::seconds(90)};
+  api::Detection bag;
+  bag.id = 7;
+  bag.target = "bag";
+  bag.mission = "round";
+  bag.position = Point2(2.0, 3.0);
+  const MissionSoFar so_far{Point2(4.0, 5.0), std::chrono::seconds(90), {bag}};
   ASSERT_TRUE(keep_place(folder.path(), "round", {{1.0, 2.0, 3.0}, so_far}));
   ASSERT_TRUE(keep_topology(folder.path(), "round", memory(), 7));
   std::string trouble;

@@ -60,6 +60,26 @@ api::Detection mug_at(const Point2& p_map) {
   return mug;
 }
 
+TEST_F(MissionResultsTest, WhatWasFoundBeforeTheProgramWasCutOffIsListedAgainAndNumbersGoOnAboveIt) {
+  api::Detection before = mug_at({2.0, 0.0});
+  before.id = 6;
+  before.mission = "one";
+  before.map_epoch = 9;
+  situation.pose.map_epoch = 3;
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation, {Point2(0.0, 0.0), seconds(70), {before}}));
+  before.map_epoch = 3;
+  EXPECT_EQ(executor.detections(), std::vector{before}) << "the map it was loaded with";
+  EXPECT_EQ(told, std::vector{before}) << "whoever listens is told";
+  script->detections = {mug_at({4.0, 0.0})};
+  script->next.phase = "cover";
+  static_cast<void>(tick());
+  ASSERT_EQ(executor.detections().size(), 2U) << "what the mission has not seen again is not withdrawn";
+  EXPECT_EQ(executor.detections()[1].id, 7U);
+  EXPECT_EQ(executor.so_far()->found, executor.detections()) << "for the next time";
+  executor.map_moved({.move = Pose2{1.0, 0.0, 0.0}, .from_epoch = 3, .to_epoch = 4}, situation.now);
+  EXPECT_EQ(executor.so_far()->found[0].position, Point2(3.0, 0.0));
+}
+
 TEST_F(MissionResultsTest, WhatAnEndedMissionHasFoundAndSearchedMovesWithTheMapItBelongsTo) {
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
   script->detections = {mug_at({2.0, 0.0})};
