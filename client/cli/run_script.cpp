@@ -54,7 +54,8 @@ class Player {
     return std::optional<MissionReport>();
   }
   StepResult operator()(const DriveStep& drive) const {
-    return plain(drive_for(context_, drive.velocity, drive.duration, false));
+    const Result<std::string> driven = drive_for(context_, drive.velocity, drive.duration, false);
+    return plain(driven ? Status() : tl::unexpected<Error>(driven.error()));
   }
   StepResult operator()(const CommandStep& step) const {
     return plain(ask<void>(

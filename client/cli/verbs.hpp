@@ -56,8 +56,10 @@ using VerbResult = Result<ExitCode>;
 /// Velocity commands of 300 ms life every 100 ms under a lease that is acquired and released; without a velocity
 /// the keyboard drives.
 [[nodiscard]] VerbResult drive(const Context& context, const DriveVerb& verb);
-/// One velocity for a time; the part of drive() that mission scripts use.
-[[nodiscard]] Status drive_for(const Context& context, const Twist2& velocity, Duration duration, bool take_over);
+/// One velocity for a time; the part of drive() that mission scripts use. Why the robot's safety held the last command
+/// back; empty where it did not.
+[[nodiscard]] Result<std::string> drive_for(const Context& context, const Twist2& velocity, Duration duration,
+                                            bool take_over);
 /// As long as a key is held (drive_keyboard.cpp); needs a terminal on stdin.
 [[nodiscard]] Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch);
 

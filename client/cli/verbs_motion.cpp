@@ -84,7 +84,7 @@ VerbResult command_mission(const Context& context, api::MissionCommand command) 
                 command == api::MissionCommand::kPause ? "paused; go on with seeker resume" : "resumed");
 }
 
-Status drive_for(const Context& context, const Twist2& velocity, Duration duration, bool take_over) {
+Result<std::string> drive_for(const Context& context, const Twist2& velocity, Duration duration, bool take_over) {
   const auto lease = Lease::acquire(context, take_over);
   if (!lease) {
     return tl::unexpected<Error>(lease.error());
@@ -92,26 +92,34 @@ Status drive_for(const Context& context, const Twist2& velocity, Duration durati
   const auto start = std::chrono::steady_clock::now();
   for (auto next = start; next < start + duration; next += kCommandPeriod) {
     if (const Status sent = send_velocity(context, velocity, (*lease)->epoch()); !sent) {
-      return sent;
+      return tl::unexpected<Error>(sent.error());
     }
     if (!sleep_for(context, next + kCommandPeriod - std::chrono::steady_clock::now())) {
       break;
     }
   }
-  // Standing still is commanded, not waited for.
   Context calm = context;
   calm.interrupted = [] { return false; };
+  const auto status = ask<api::RobotStatus>(calm, &api::RobotApi::get_status);
+  // Standing still is commanded, not waited for.
   const Status stopped = send_velocity(calm, {}, (*lease)->epoch());
   if (context.interrupted()) {
     return fail(Errc::kCancelled, "interrupted; the robot was told to stand still");
   }
-  return stopped;
+  if (!stopped || !status) {
+    return tl::unexpected<Error>(!stopped ? stopped.error() : status.error());
+  }
+  return status->safety;
 }
 
 VerbResult drive(const Context& context, const DriveVerb& verb) {
   if (verb.v_m_s && verb.omega_rad_s) {
     const Twist2 velocity{*verb.v_m_s, *verb.omega_rad_s};
-    return finish(context, drive_for(context, velocity, seconds(verb.for_s), verb.take_over), "drove and stopped");
+    const Result<std::string> held_back = drive_for(context, velocity, seconds(verb.for_s), verb.take_over);
+    if (!held_back) {
+      return tl::unexpected<Error>(held_back.error());
+    }
+    return done(context, held_back->empty() ? "drove and stopped" : "drove and stopped; held back: " + *held_back);
   }
   const auto lease = Lease::acquire(context, verb.take_over);
   if (!lease) {

@@ -273,6 +273,13 @@ TEST_F(Verbs, DriveSendsPerishableCommandsUnderALeaseAndGivesItBack) {
   EXPECT_TRUE(values.lease.owner.empty());
 }
 
+TEST_F(Verbs, DriveTellsWhatHeldItBack) {
+  EXPECT_EQ(run({"drive", "0.2", "0", "--for", "0.1"}).err, "seeker: drove and stopped\n");
+  host->edit([](testing::FakeRobotValues& v) { v.status.safety = "slowed for an obstacle"; });
+  EXPECT_EQ(run({"drive", "0.2", "0", "--for", "0.1"}).err,
+            "seeker: drove and stopped; held back: slowed for an obstacle\n");
+}
+
 TEST_F(Verbs, DriveThatIsStoppedFromElsewhereSaysSo) {
   const Ran ran = run({"drive", "0.2", "0", "--for", "20"}, [&] {
     while (host->values().drives.empty()) {
