@@ -65,25 +65,32 @@ Result<Pose2> parse_pose(const std::string& text) {
   return Pose2{point->x(), point->y(), wrap_angle(deg_to_rad(angle->y()))};
 }
 
-void print_place(const Context& context, const api::RobotStatus& status, Duration waited) {
+/// `given` is where somebody said that the robot is: a map that looks otherwise there overrules them.
+void print_place(const Context& context, const api::RobotStatus& status, const std::optional<Pose2>& given,
+                 Duration waited) {
   const PoseEstimate& pose = status.pose;
+  const bool placed = is_placed(pose.quality);
+  const auto from_given_m = placed && given ? std::optional(distance_m(pose.map_T_base, *given)) : std::nullopt;
   if (!context.json) {
-    *context.out << to_string(pose.quality) << (is_placed(pose.quality) ? " at " + text_of(pose.map_T_base) : "")
+    *context.out << to_string(pose.quality) << (placed ? " at " + text_of(pose.map_T_base) : "")
+                 << (from_given_m ? fixed(", %.2f m from the place given", *from_given_m) : "")
                  << (pose.cause.empty() ? "" : ": " + pose.cause) << '\n';
     return;
   }
   Json json;
   json.begin_object().field("quality", to_string(pose.quality)).field("cause", pose.cause);
   json.key("pose");
-  is_placed(pose.quality) ? write_json(json, pose.map_T_base) : static_cast<void>(json.null());
+  placed ? write_json(json, pose.map_T_base) : static_cast<void>(json.null());
   json.key("sigma_m");
-  is_placed(pose.quality) ? json.value(sigma_m(pose.covariance.topLeftCorner<2, 2>())) : json.null();
+  placed ? json.value(sigma_m(pose.covariance.topLeftCorner<2, 2>())) : json.null();
+  json.key("from_given_m");
+  from_given_m ? json.value(*from_given_m) : json.null();
   json.field("waited_s", to_seconds(waited));
   *context.out << json.end_object().str() << '\n';
 }
 
 /// Until the robot has found its place or given up.
-VerbResult wait_for_place(const Context& context) {
+VerbResult wait_for_place(const Context& context, const std::optional<Pose2>& given) {
   constexpr Duration kPoll = std::chrono::milliseconds(200);
   const auto start = std::chrono::steady_clock::now();
   for (;;) {
@@ -94,7 +101,7 @@ VerbResult wait_for_place(const Context& context) {
     const Duration waited = std::chrono::steady_clock::now() - start;
     const LocalisationQuality quality = status->pose.quality;
     if (!status->line_map || !status->line_map->relocalising) {
-      print_place(context, *status, waited);
+      print_place(context, *status, given, waited);
       const bool found = quality == LocalisationQuality::kLocalised || quality == LocalisationQuality::kDegraded;
       if (!found) {
         *context.err << "seeker: the robot did not find its place in the map; say where it is with --at X,Y,DEG, or "
@@ -231,7 +238,7 @@ VerbResult relocalise(const Context& context, const RelocaliseVerb& verb) {
   const Status ok =
       ask<void>(context, [&](api::Reply<void> reply) { context.robot->relocalise(at, std::move(reply)); });
   if (ok && verb.wait) {
-    return wait_for_place(context);
+    return wait_for_place(context, at);
   }
   return show_done(context, ok, "the robot looks for its place; 'seeker status' shows how it goes");
 }

@@ -55,7 +55,7 @@ TEST_F(MapVerbs, AnswerWithTheDocumentedKeys) {
       {{"map", "download", "office", path("copy.seekermap")}, {"ok", "message"}},
       {{"map", "delete", "attic", "--yes"}, {"ok", "message"}},
       {{"relocalise"}, {"ok", "message"}},
-      {{"relocalise", "--wait"}, {"quality", "cause", "pose", "sigma_m", "waited_s"}},
+      {{"relocalise", "--wait"}, {"quality", "cause", "pose", "sigma_m", "from_given_m", "waited_s"}},
   };
   for (const auto& [verb, keys] : cases) {
     std::vector<std::string> arguments = verb;
@@ -108,6 +108,9 @@ TEST_F(MapVerbs, RelocaliseTakesDegreesAndEndsAsTheRobotEnds) {
   ASSERT_TRUE(at);
   EXPECT_NEAR(at->theta_rad, 1.5708, 1e-4);
   EXPECT_DOUBLE_EQ(at->y_m, 4.5);
+  host->edit([](testing::FakeRobotValues& v) { v.status.pose.map_T_base = {0.0, 0.5, 0.0}; });
+  const Ran elsewhere = run({"relocalise", "--at", "3,4.5,90", "--wait"});
+  EXPECT_NE(elsewhere.out.find(", 5.00 m from the place given"), std::string::npos) << elsewhere.out;
   host->edit([](testing::FakeRobotValues& v) {
     v.status.pose.quality = LocalisationQuality::kLost;
     v.status.pose.cause = "no place of the map looks like this";
