@@ -134,6 +134,8 @@ class MissionExecutor {
   void take(api::Detection detection);
   void take_back(const std::vector<api::Detection>& found, std::uint32_t map_epoch);
   void withdraw_all_but(const std::vector<api::Detection>& told);
+  void withdraw_found_again(const std::vector<api::Detection>& told);
+  void withdraw(const std::function<bool(const api::Detection&)>& is_none);
   void keep_searched();
   void report(RobotTime now);
   void log(RobotTime now, const std::string& kind, const std::string& text,

@@ -2,10 +2,27 @@
 
 #include <algorithm>
 
+#include <Eigen/Cholesky>
+
 #include "common/api/fleet.hpp"
 #include "server/app/mission_executor.hpp"
 
 namespace seeker::app {
+namespace {
+
+/// Chi-square with 2 degrees of freedom, 99 %.
+constexpr double kSamePlace_chi2 = 9.21;
+
+bool is_same_thing(const api::Detection& a, const api::Detection& b) {
+  if (a.mission != b.mission || a.target != b.target || a.map_epoch != b.map_epoch || !a.position || !b.position) {
+    return false;
+  }
+  const Eigen::LDLT<Matrix2> covariance(a.position_covariance + b.position_covariance);
+  const Point2 apart = *a.position - *b.position;
+  return covariance.vectorD().minCoeff() > 0.0 && apart.dot(covariance.solve(apart)) < kSamePlace_chi2;
+}
+
+}  // namespace
 
 void MissionExecutor::map_moved(const MapCorrection& correction, RobotTime now) {
   const auto& [move, from_epoch, to_epoch] = correction;
@@ -59,6 +76,7 @@ void MissionExecutor::collect_detections() {
     take(detection);
   }
   withdraw_all_but(told);
+  withdraw_found_again(told);
 }
 
 void MissionExecutor::take(api::Detection detection) {
@@ -87,17 +105,28 @@ void MissionExecutor::take_back(const std::vector<api::Detection>& found, std::u
 
 /// What the behaviour has told and tells no more it has refuted: from near, it is not there.
 void MissionExecutor::withdraw_all_but(const std::vector<api::Detection>& told) {
-  const auto is_refuted = [&](const api::Detection& listed) {
+  withdraw([&](const api::Detection& listed) {
     return listed.id > active_->detection_base &&
            std::none_of(told.begin(), told.end(), [&](const api::Detection& d) { return d.id == listed.id; });
-  };
+  });
+}
+
+/// A mission that was cut off and goes on knows nothing of what it found before, and finds it again.
+void MissionExecutor::withdraw_found_again(const std::vector<api::Detection>& told) {
+  withdraw([&](const api::Detection& listed) {
+    return listed.id <= active_->detection_base &&
+           std::any_of(told.begin(), told.end(), [&](const api::Detection& d) { return is_same_thing(d, listed); });
+  });
+}
+
+void MissionExecutor::withdraw(const std::function<bool(const api::Detection&)>& is_none) {
   for (api::Detection detection : detections_) {
-    if (is_refuted(detection)) {
+    if (is_none(detection)) {
       detection.withdrawn = true;
       outputs_.detection(detection);
     }
   }
-  std::erase_if(detections_, is_refuted);
+  std::erase_if(detections_, is_none);
 }
 
 void MissionExecutor::forget_places() {

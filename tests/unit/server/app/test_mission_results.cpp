@@ -80,6 +80,23 @@ TEST_F(MissionResultsTest, WhatWasFoundBeforeTheProgramWasCutOffIsListedAgainAnd
   EXPECT_EQ(executor.so_far()->found[0].position, Point2(3.0, 0.0));
 }
 
+TEST_F(MissionResultsTest, WhatIsFoundAgainAfterTheProgramWasCutOffIsListedOnce) {
+  api::Detection before = mug_at({2.0, 0.0});
+  before.id = 6;
+  before.mission = "one";
+  before.position_covariance = 0.01 * Matrix2::Identity();
+  ASSERT_TRUE(executor.start(request("one"), "anna", situation, {Point2(0.0, 0.0), seconds(70), {before}}));
+  api::Detection again = mug_at({2.1, 0.1});
+  again.position_covariance = before.position_covariance;
+  script->detections = {again};
+  script->next.phase = "cover";
+  static_cast<void>(tick());
+  ASSERT_EQ(executor.detections().size(), 1U);
+  EXPECT_EQ(executor.detections()[0].id, 7U) << "what is refined from now on";
+  EXPECT_EQ(told.back().id, 6U);
+  EXPECT_TRUE(told.back().withdrawn);
+}
+
 TEST_F(MissionResultsTest, WhatAnEndedMissionHasFoundAndSearchedMovesWithTheMapItBelongsTo) {
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
   script->detections = {mug_at({2.0, 0.0})};
