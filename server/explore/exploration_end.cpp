@@ -33,10 +33,6 @@ struct Unlimited {
   nav::DistanceField costs;
 };
 
-double area_m2(const CutOffFloor& part, const GridFrame& frame) {
-  return frame.resolution_m * frame.resolution_m * static_cast<double>(part.cells.size());
-}
-
 /// Nothing where nothing is forbidden, either.
 std::optional<Unlimited> without_limits(const nav::FloorView& floor, const nav::ForbiddenAreas& areas,
                                         const Point2& robot_map, const nav::CostMapParams& params) {
@@ -106,11 +102,7 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
     return left;
   }
   const auto unlimited = without_limits(**floor, request_.areas, here, params_.cost);
-  const ViewpointParams& sizes = params_.viewpoints;
-  for (const CutOffFloor& part : cut_off_floor((*floor)->cost, *costs, sizes.min_pocket_m2)) {
-    if (area_m2(part, (*floor)->cost.frame()) < sizes.min_cut_off_m2 && !goes_on(part, (*floor)->cost, sizes)) {
-      continue;
-    }
+  for (const CutOffFloor& part : cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2)) {
     if (unlimited && unlimited->costs.cost_to(part.p_map)) {
       left.beyond_limits = true;  // the way there is forbidden, not blocked
     } else if (nav::seen_by_itself(**floor, part.p_map)) {

@@ -149,16 +149,4 @@ std::vector<CutOffFloor> cut_off_floor(const nav::CostMap& map, const nav::Dista
   return parts;
 }
 
-bool goes_on(const CutOffFloor& part, const nav::CostMap& map, const ViewpointParams& params) {
-  const double cell_m = map.frame().resolution_m;
-  const auto enough = static_cast<std::size_t>(params.min_cut_off_m2 / (cell_m * cell_m));
-  const auto at_border = std::count_if(part.cells.begin(), part.cells.end(), [&](CellIndex cell) {
-    const auto next = neighbours(cell);
-    return std::any_of(next.begin(), next.end(), [&](CellIndex c) {
-      return map.state(c) == CellState::kUnknown && large_unknown(map, c, enough);
-    });
-  });
-  return cell_m * static_cast<double>(at_border) >= params.min_frontier_m;
-}
-
 }  // namespace seeker::explore

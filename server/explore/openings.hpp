@@ -145,8 +145,4 @@ struct CutOffFloor {
 [[nodiscard]] std::vector<CutOffFloor> cut_off_floor(const nav::CostMap& map, const nav::DistanceField& costs,
                                                      double min_m2);
 
-/// Whether it borders, for min_frontier_m, on unknown floor of at least min_cut_off_m2: through a gap one sees the
-/// beginning of what lies behind.
-[[nodiscard]] bool goes_on(const CutOffFloor& part, const nav::CostMap& map, const ViewpointParams& params);
-
 }  // namespace seeker::explore

@@ -339,27 +339,6 @@ TEST(Openings, FloorBehindAWallOfWhichSomeIsSeenIsCutOff) {
   EXPECT_GT(places.front().p_map.x(), 2.75);
 }
 
-/// A wall with a gap of 0.25 m; of what lies behind, cells are `behind` but for a little floor that is seen.
-Scene behind_a_gap(char behind) {
-  std::vector<std::string> rows(16, "#.........#" + std::string(8, behind) + "#");
-  rows.front() = rows.back() = std::string(20, '#');
-  rows[8][10] = '.';
-  for (std::size_t k = 6; k <= 10; ++k) {
-    rows[k].replace(11, 6, "......");
-  }
-  return scene_of(rows, {1.0, 2.0, 0.0});
-}
-
-TEST(Openings, LittleFloorThatIsSeenThroughAGapGoesOnWhereTheUnknownBehindItIsLarge) {
-  const ViewpointParams params;
-  for (const auto& [behind, expected] : {std::pair(' ', true), std::pair('#', false)}) {
-    const Scene scene = behind_a_gap(behind);
-    const auto places = cut_off_floor(scene.floor.cost, scene.costs, params.min_pocket_m2);
-    ASSERT_FALSE(places.empty());
-    EXPECT_EQ(goes_on(places.front(), scene.floor.cost, params), expected) << "behind the gap: '" << behind << "'";
-  }
-}
-
 // The memory survives a moved map: the same opening has the same id wherever the map went.
 RC_GTEST_PROP(Openings, KeepTheirIdsWhenTheMapMoves, ()) {
   const auto dx = static_cast<double>(*rc::gen::inRange(-40, 40)) * 0.25;
