@@ -98,9 +98,10 @@ Result<std::string> drive_for(const Context& context, const Twist2& velocity, Du
       break;
     }
   }
+  // Asked while the last command holds; whoever interrupts wants the robot to stand, and waits for no answer.
+  const auto status = ask<api::RobotStatus>(context, &api::RobotApi::get_status);
   Context calm = context;
   calm.interrupted = [] { return false; };
-  const auto status = ask<api::RobotStatus>(calm, &api::RobotApi::get_status);
   // Standing still is commanded, not waited for.
   const Status stopped = send_velocity(calm, {}, (*lease)->epoch());
   if (context.interrupted()) {
