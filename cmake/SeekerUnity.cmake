@@ -5,13 +5,21 @@ set(SEEKER_ALONE
     common/image/svg.cpp
     common/rpc/client_impl.cpp
     common/wire/convert_stream.cpp
-    server/app/fleet_leader.cpp server/app/fleet_memory.cpp server/app/journal.cpp server/app/map_service.cpp
+    server/app/fleet/fleet_leader.cpp server/app/fleet/fleet_memory.cpp
+    server/app/state/journal.cpp
+    server/app/robot/map_service.cpp
     server/emulator/emulator_server.cpp
     server/explore/horizon_views.cpp server/explore/segment_sight.cpp server/explore/wall_faces.cpp
     server/explore/wall_follower.cpp
-    server/lab/child_process.cpp server/lab/explore_picture.cpp server/lab/figures.cpp server/lab/merge_report.cpp
-    server/lab/s2_figures.cpp server/lab/s5_figures.cpp server/lab/s5_reproduce.cpp server/lab/search_run.cpp
-    server/lab/slam_report.cpp server/lab/solids_study.cpp
+    server/lab/experiments/child_process.cpp
+    server/lab/active_slam/explore_picture.cpp
+    server/lab/search/search_figures.cpp
+    server/lab/map_merging/merge_report.cpp
+    server/lab/stereo_database/stereo_figures.cpp
+    server/lab/line_detection/line_figures.cpp server/lab/line_detection/reproduce_line_detection.cpp
+    server/lab/search/search_run.cpp
+    server/lab/slam/slam_report.cpp
+    server/lab/solids/solids_study.cpp
     server/localize/tracking_matcher.cpp
     server/nav/lookout.cpp server/nav/path_follower.cpp server/nav/seen_movers.cpp
     server/search/fuzzy_planner.cpp server/search/target_visit.cpp
@@ -24,16 +32,20 @@ set(SEEKER_ALONE
     tests/arch/test_rules.cpp
     tests/support/net/chaos_proxy.cpp
     tests/unit/common/image/test_map_picture.cpp
-    tests/unit/server/app/test_robot_map.cpp tests/unit/server/app/test_turn_and_look.cpp
+    tests/unit/server/app/maps/test_robot_map.cpp
+    tests/unit/server/app/missions/test_turn_and_look.cpp
     tests/unit/server/explore/test_doors.cpp tests/unit/server/explore/test_exploration.cpp
-    tests/unit/server/explore/test_exploration_guards.cpp tests/unit/server/explore/test_viewpoint_strategies.cpp
+    tests/unit/server/explore/test_exploration_guards.cpp
+    tests/unit/server/explore/test_viewpoint_strategies.cpp
     tests/unit/server/fleet/test_goal_choice.cpp
-    tests/unit/server/lab/test_explore_result.cpp tests/unit/server/lab/test_run_result.cpp
+    tests/unit/server/lab/active_slam/test_explore_result.cpp
+    tests/unit/server/lab/search/test_run_result.cpp
     tests/unit/server/nav/test_known_floor.cpp tests/unit/server/nav/test_lookout.cpp
     tests/unit/server/nav/test_retry_drive.cpp tests/unit/server/nav/test_seen_movers.cpp
     tests/unit/server/options/test_slam_options.cpp
     tests/unit/server/search/test_mission.cpp
-    tests/unit/server/sim/test_simulation.cpp tests/unit/server/sim/test_stereo.cpp tests/unit/server/sim/test_tank.cpp
+    tests/unit/server/sim/test_simulation.cpp tests/unit/server/sim/test_stereo.cpp
+    tests/unit/server/sim/test_tank.cpp
     tests/unit/server/slam/test_odometry_scale.cpp tests/unit/server/slam/test_pairwise_consistency.cpp
     tests/unit/server/store/test_store_kill.cpp
     tests/unit/server/vision/test_nearest.cpp)

@@ -6,8 +6,8 @@
 
 #include "common/log/log.hpp"
 #include "common/net/random_id.hpp"
-#include "server/app/robot_options.hpp"
-#include "server/app/termination_signals.hpp"
+#include "server/app/composition/robot_options.hpp"
+#include "server/app/runtime/termination_signals.hpp"
 #include "server/drivers/emulator/emulator_wire.hpp"
 #include "server/emulator/emulator_server.hpp"
 #include "server/emulator/truth_log.hpp"

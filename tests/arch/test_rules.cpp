@@ -72,8 +72,8 @@ TEST(Rules, ThreadFileAndClockInAnAlgorithmAreFound) {
 }
 
 TEST(Rules, LongMainAndUnknownFolderAreFound) {
-  EXPECT_THAT(check_source(table(), {"server/app/main.cpp", std::string(kMaxMainLines, '\n')}), IsEmpty());
-  EXPECT_THAT(check_source(table(), {"server/app/main.cpp", std::string(kMaxMainLines + 1, '\n')}),
+  EXPECT_THAT(check_source(table(), {"server/app/daemon/main.cpp", std::string(kMaxMainLines, '\n')}), IsEmpty());
+  EXPECT_THAT(check_source(table(), {"server/app/daemon/main.cpp", std::string(kMaxMainLines + 1, '\n')}),
               ElementsAre(HasSubstr("main has 61 lines")));
   EXPECT_THAT(check_source(table(), {"server/new/a.cpp", ""}), ElementsAre(HasSubstr("lies in no folder")));
 }

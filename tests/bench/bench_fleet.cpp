@@ -3,8 +3,8 @@
 /// and what each of them would send to the main one. Robot time: the table's own column is the time of the computer.
 #include <benchmark/benchmark.h>
 
-#include "server/lab/explore_run.hpp"
-#include "server/lab/fleet_run.hpp"
+#include "server/lab/active_slam/explore_run.hpp"
+#include "server/lab/map_merging/fleet_run.hpp"
 #include "tests/support/data.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "common/core/assert.hpp"
-#include "server/app/robot_options.hpp"
+#include "server/app/composition/robot_options.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

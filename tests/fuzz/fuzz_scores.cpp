@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "common/core/assert.hpp"
-#include "server/lab/score_reference.hpp"
-#include "server/lab/score_relations.hpp"
+#include "server/lab/scoring/score_reference.hpp"
+#include "server/lab/scoring/score_relations.hpp"
 
 // NOLINTNEXTLINE: the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "common/core/assert.hpp"
-#include "server/lab/score_walls.hpp"
+#include "server/lab/scoring/score_walls.hpp"
 
 // NOLINTNEXTLINE: the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

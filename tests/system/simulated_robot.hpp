@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/image/png.hpp"
-#include "server/app/device_factory.hpp"
+#include "server/app/composition/device_factory.hpp"
 #include "tests/support/data.hpp"
 
 namespace seeker::testing {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/fleet_part.hpp"
+#include "server/app/fleet/fleet_part.hpp"
 #include "tests/support/process.hpp"
 #include "tests/unit/server/fleet/toy_maps.hpp"
 

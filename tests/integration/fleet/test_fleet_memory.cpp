@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <future>
 
-#include "server/app/fleet_records.hpp"
+#include "server/app/fleet/fleet_records.hpp"
 #include "server/store/atomic_file.hpp"
 #include "server/store/map_file.hpp"
 #include "tests/integration/fleet/fleet_world.hpp"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/device_factory.hpp"
-#include "server/app/update_hub.hpp"
+#include "server/app/composition/device_factory.hpp"
+#include "server/app/runtime/update_hub.hpp"
 #include "tests/support/data.hpp"
 
 namespace seeker::testing {

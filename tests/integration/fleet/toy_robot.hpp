@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/fleet_leader.hpp"
+#include "server/app/fleet/fleet_leader.hpp"
 
 namespace seeker::testing {
 

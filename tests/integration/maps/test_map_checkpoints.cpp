@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/device_factory.hpp"
-#include "server/app/tracker_estimator.hpp"
+#include "server/app/composition/device_factory.hpp"
+#include "server/app/estimators/tracker_estimator.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/maps/fake_map_tracker.hpp"
 #include "tests/support/maps/random_map.hpp"

@@ -13,7 +13,7 @@
 
 #include "common/core/angle.hpp"
 #include "common/rpc/fleet_client.hpp"
-#include "server/app/kept_files.hpp"
+#include "server/app/state/kept_files.hpp"
 #include "server/options/world_options.hpp"
 #include "server/store/map_file.hpp"
 #include "tests/integration/processes/emulator.hpp"

@@ -1,0 +1,24 @@
+/// \file
+/// The estimators a robot file may name.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "server/app/composition/robot_options.hpp"
+#include "server/slam/pose_tracker.hpp"
+
+namespace seeker::app {
+
+/// Names as in the field `estimator` of a robot file.
+[[nodiscard]] const std::vector<std::pair<std::string_view, EstimatorType>>& estimator_names();
+[[nodiscard]] std::string_view to_string(EstimatorType type);
+
+/// Whether it goes by wheels and walls alone: make_tracker() makes it.
+[[nodiscard]] bool is_tracker(EstimatorType type);
+/// A tracker with the parameters of the robot file, at the origin of `map`. Asserts is_tracker().
+[[nodiscard]] std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotOptions& options);
+
+}  // namespace seeker::app

@@ -1,0 +1,115 @@
+#include "server/app/daemon/daemon.hpp"
+
+#include <cstdlib>
+#include <iostream>
+
+#include "common/log/log.hpp"
+#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_options.hpp"
+#include "server/app/fleet/fleet_part.hpp"
+#include "server/app/robot/robot.hpp"
+#include "server/app/runtime/termination_signals.hpp"
+#include "server/net/server.hpp"
+#include "server/store/atomic_file.hpp"
+
+namespace seeker::app {
+namespace {
+
+constexpr int kExitConfig = 78;  // sysexits EX_CONFIG
+constexpr const char* kPart = "seekerd";
+
+int config_error(const Error& error) {
+  log::error(kPart, error.message);
+  return kExitConfig;
+}
+
+int serve(const DaemonArguments& arguments, const RobotOptions& options, const std::filesystem::path& state,
+          const TerminationSignals& signals, Assembly assembly) {
+  Result<std::unique_ptr<Journal>> journal = Journal::open(state / options.robot_id);
+  if (!journal) {
+    log::error(kPart, journal.error().message);
+    return EXIT_FAILURE;
+  }
+  if ((*journal)->unfinished()) {
+    log::warning(kPart,
+                 "mission '" + (*journal)->unfinished()->id +
+                     "' was cut off when the program ended; 'seeker resume' starts it again, the robot stays disarmed "
+                     "until then");
+  }
+  Robot robot(
+      {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
+      options.loop, std::move(assembly.parts), std::move(*journal), state / "maps", std::move(assembly.landmarks));
+  server_net::ServerParams params = options.server;
+  params.port = arguments.port.value_or(params.port);
+  params.robot_now = [&robot] { return robot.now(); };
+  server_net::Server server(robot, params);
+  const Result<FleetPart> fleet = start_fleet(options.fleet, options.robot_id, SEEKER_VERSION,
+                                              state / options.robot_id / "fleet", robot.fleet_host());
+  if (!fleet) {
+    return config_error(fleet.error());
+  }
+  robot.start(options.driver == DriverType::kReplay && options.replay.wait_for_client);
+  const Result<std::uint16_t> port = server.start();
+  if (!port) {
+    log::error(kPart, port.error().message);
+    return EXIT_FAILURE;
+  }
+  log::info(kPart, options.robot_id + " listens on " + params.address + ":" + std::to_string(*port));
+  if (!arguments.port_file.empty()) {
+    if (const Status written = store::write_file_atomically(arguments.port_file, std::to_string(*port) + "\n");
+        !written) {
+      log::error(kPart, written.error().message);
+      return EXIT_FAILURE;
+    }
+  }
+  constexpr std::chrono::milliseconds kPoll{200};
+  while (!signals.wait(kPoll)) {
+    if (options.replay.exit_at_end && robot.ended()) {
+      log::info(kPart, "the log has ended");
+      break;
+    }
+  }
+  log::info(kPart, "stopping: motion first, then the sessions");
+  robot.stop();
+  server.stop();
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+std::filesystem::path default_state_folder() {
+  if (const char* folder = std::getenv("STATE_DIRECTORY"); folder != nullptr && *folder != '\0') {
+    return folder;
+  }
+  if (const char* folder = std::getenv("XDG_STATE_HOME"); folder != nullptr && *folder != '\0') {
+    return std::filesystem::path(folder) / "seeker";
+  }
+  const char* home = std::getenv("HOME");
+  return std::filesystem::path(home != nullptr ? home : ".") / ".local/state/seeker";
+}
+
+int run_daemon(const DaemonArguments& arguments) {
+  log::set_level(log::parse_level(arguments.log_level).value_or(log::Level::kInfo));
+  const Result<RobotOptions> options = load_robot_options(arguments.config, arguments.overrides);
+  if (!options) {
+    return config_error(options.error());
+  }
+  if (arguments.print_config) {
+    std::cout << config::print(*options);
+    return EXIT_SUCCESS;
+  }
+  const std::filesystem::path state = arguments.state.empty() ? default_state_folder() : arguments.state;
+  // Before any thread: making the robot starts some, and one that does not block a signal dies of it with all others.
+  const TerminationSignals signals;
+  Result<Assembly> assembly = assemble(
+      *options, {.folder = state / "landmarks", .robot_id = options->robot_id, .software_version = SEEKER_VERSION});
+  if (!assembly) {
+    // What is not there yet may be there at the next start.
+    const Errc code = assembly.error().code;
+    const int wrong = config_error(assembly.error());
+    return code == Errc::kLinkLost || code == Errc::kTimeout ? EXIT_FAILURE : wrong;
+  }
+  return serve(arguments, *options, state, signals, std::move(*assembly));
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,102 @@
+#include "server/app/fleet/fleet_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/core/angle.hpp"
+#include "common/wire/sha256.hpp"
+#include "server/store/map_file.hpp"
+
+namespace seeker::app {
+namespace {
+
+constexpr const char* kPieceName = "piece";
+constexpr double kStepsPerUnit = 1e6;  ///< of metres and radians
+
+double rounded(double value) { return std::round(value * kStepsPerUnit) / kStepsPerUnit; }
+
+Pose2 rounded(const Pose2& pose) { return {rounded(pose.x_m), rounded(pose.y_m), rounded(wrap_angle(pose.theta_rad))}; }
+
+/// The local map alone, as a map of its own.
+LineMap local_map(const LineMap& map, const MapNode& node) {
+  LineMap local;
+  local.nodes = {{node.id, Pose2{}, node.created}};
+  const Pose2 node_T_map = inverse(node.map_T_node);
+  for (MapSegment segment : map.segments) {
+    if (segment.node == node.id) {
+      segment.map_T_segment = rounded(node_T_map * segment.map_T_segment);
+      local.next_id = std::max(local.next_id, segment.id + 1);
+      local.segments.push_back(segment);
+    }
+  }
+  std::copy_if(map.keyframes.begin(), map.keyframes.end(), std::back_inserter(local.keyframes),
+               [&](const MapKeyframe& keyframe) { return keyframe.node == node.id; });
+  return local;
+}
+
+}  // namespace
+
+Result<PackedMap> pack_map(const LineMap& map, const std::string& robot_id) {
+  if (map.nodes.size() > api::kMaxFleetNodes || map.edges.size() > api::kMaxFleetEdges) {
+    return fail(Errc::kTooLarge, "the map has more local maps or relations than a fleet takes");
+  }
+  PackedMap packed;
+  api::FleetManifest& manifest = packed.manifest;
+  manifest.robot_id = robot_id;
+  manifest.map_epoch = map.epoch;
+  manifest.next_id = map.next_id;
+  manifest.edges = map.edges;
+  manifest.nodes.reserve(map.nodes.size());
+  for (const MapNode& node : map.nodes) {
+    store::MapFile file;
+    file.origin.name = kPieceName;
+    file.origin.robot_id = robot_id;
+    file.map = local_map(map, node);
+    Result<std::vector<std::uint8_t>> bytes = store::encode_map_file(file);
+    if (!bytes) {
+      return tl::unexpected<Error>(bytes.error());
+    }
+    if (bytes->size() > api::kMaxFleetPieceBytes) {
+      return fail(Errc::kTooLarge, "a local map has more than 8 MiB");
+    }
+    const api::PieceHash hash = wire::sha256_of(*bytes);
+    manifest.nodes.push_back({node, hash, bytes->size()});
+    packed.pieces[hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*bytes));
+  }
+  return packed;
+}
+
+Result<LineMap> unpack_map(const api::FleetManifest& manifest, const Pieces& pieces) {
+  LineMap map;
+  map.epoch = manifest.map_epoch;
+  map.next_id = manifest.next_id;
+  map.edges = manifest.edges;
+  map.nodes.reserve(manifest.nodes.size());
+  for (const api::FleetNode& node : manifest.nodes) {
+    const auto piece = pieces.find(node.hash);
+    if (piece == pieces.end()) {
+      return fail(Errc::kNotReady, "a piece is missing");
+    }
+    Result<store::MapFile> file = store::decode_map_file(*piece->second);
+    if (!file) {
+      return tl::unexpected<Error>(file.error());
+    }
+    const LineMap& local = file->map;
+    if (local.nodes.size() != 1 || local.nodes.front().id != node.node.id) {
+      return fail(Errc::kInvalidArgument, "a piece is not the local map that was announced");
+    }
+    map.nodes.push_back(node.node);
+    for (MapSegment segment : local.segments) {
+      segment.map_T_segment = node.node.map_T_node * segment.map_T_segment;
+      map.segments.push_back(segment);
+    }
+    map.keyframes.insert(map.keyframes.end(), local.keyframes.begin(), local.keyframes.end());
+  }
+  if (const Status valid = validate(map); !valid) {
+    return tl::unexpected<Error>(valid.error());
+  }
+  return map;
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,56 @@
+/// \file
+/// Where other robots, and the operator's program, reach the main robot of a fleet.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "common/net/listen.hpp"
+#include "seeker/v1/fleet.pb.h"
+#include "server/app/fleet/fleet_leader.hpp"
+
+namespace seeker::app {
+
+/// One thread does its network work. A connection that sends what is no request is closed; the others do not notice.
+class FleetServer {
+ public:
+  /// `leader` must outlive this; its own robot hears of the others every `refresh_period` of wall time.
+  FleetServer(FleetLeader& leader, Duration refresh_period);
+  FleetServer(const FleetServer&) = delete;
+  FleetServer& operator=(const FleetServer&) = delete;
+  /// Closes all connections.
+  ~FleetServer();
+
+  /// Listens and starts the thread; the answer is the port.
+  [[nodiscard]] Result<std::uint16_t> start(const std::string& address, std::uint16_t port);
+
+ private:
+  struct Peer;
+  void admit(boost::asio::ip::tcp::socket socket);
+  void on_frame(const std::shared_ptr<Peer>& peer, std::string_view payload);
+  void send(const std::shared_ptr<Peer>& peer, const v1::FleetReply& reply);
+  void drop(const std::shared_ptr<Peer>& peer);
+  void close_all();
+  void refresh();
+
+  FleetLeader& leader_;
+  boost::asio::io_context io_{1};
+  net::Listener listener_;
+  boost::asio::steady_timer timer_;
+  Duration refresh_period_;
+  std::set<std::shared_ptr<Peer>> peers_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+/// The reply to everything but a map, which comes later.
+[[nodiscard]] v1::FleetReply answer_of(FleetLeader& leader, const v1::FleetRequest& request);
+
+}  // namespace seeker::app

@@ -1,0 +1,42 @@
+/// \file
+/// The robot's databases of landmarks as clients see them. Files are read and written on a worker.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/api/robot_api.hpp"
+#include "server/app/landmarks/landmark_library.hpp"
+#include "server/app/runtime/disk_worker.hpp"
+
+namespace seeker::app {
+
+/// Methods mean what they mean in api::RobotApi and may be called from any thread; its end finishes what was accepted.
+class LandmarkService {
+ public:
+  /// `in_use`: the database that the robot's estimator goes by, which nobody may change; empty: none.
+  LandmarkService(std::shared_ptr<LandmarkLibrary> library, std::string in_use);
+
+  void list(const api::Reply<std::vector<api::LandmarkSummary>>& reply);
+  void inspect(const std::string& name, bool verify, const api::Reply<api::LandmarkSummary>& reply);
+  void points(const std::string& name, const api::Reply<std::vector<api::LandmarkPoint>>& reply);
+  void prune(const std::string& name, int min_views, const api::Reply<api::LandmarkSummary>& reply);
+  void revert(const std::string& name, const api::Reply<api::LandmarkSummary>& reply);
+  void remove(const std::string& name, const api::Reply<void>& reply);
+
+ private:
+  template <class T>
+  void on_worker(const api::Reply<T>& reply, std::function<Result<T>(LandmarkLibrary&)> work);
+  /// On the worker, unless the robot's estimator goes by this database.
+  void change(const std::string& name, const api::Reply<api::LandmarkSummary>& reply,
+              std::function<Result<api::LandmarkSummary>(LandmarkLibrary&)> work);
+  [[nodiscard]] Status may_change(const std::string& name) const;
+
+  std::shared_ptr<LandmarkLibrary> library_;
+  std::string in_use_;
+  DiskWorker disk_;
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,157 @@
+/// \file
+/// Runs one mission at a time: its behaviour, pause and end, what happens when its client is lost, its log.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/api/robot_api.hpp"
+#include "common/core/map_move.hpp"
+#include "server/app/missions/behaviour.hpp"
+
+namespace seeker::app {
+
+/// Heartbeats and link policy live on the wall clock, missions on robot time (design section 3).
+using WallTime = std::chrono::steady_clock::time_point;
+
+struct MissionParams {
+  Duration link_grace = std::chrono::seconds(5);     ///< wall time a lost client has to come back
+  Duration fault_grace = std::chrono::seconds(10);   ///< robot time a blocking fault may last
+  Duration lost_grace = std::chrono::seconds(10);    ///< robot time without localisation
+  Duration report_period = std::chrono::seconds(1);  ///< robot time between reports of an unchanged phase
+};
+
+/// Makes the behaviour of a task. Refusals (an unusable target picture) become the answer to the client.
+using BehaviourFactory = std::function<Result<std::unique_ptr<Behaviour>>(const api::MissionTask&, const Situation&)>;
+
+/// Where the executor's results go. All are called on the loop's thread.
+struct MissionOutputs {
+  std::function<void(const api::Event&)> event;
+  std::function<void(const api::MissionStatus&)> status;
+  std::function<void(const api::Detection&)> detection;  ///< new, refined, or withdrawn
+};
+
+/// A correction of the map that is in use.
+struct MapCorrection {
+  MapMove move;                  ///< takes places in the map before to places in the map now; nothing: it only grew
+  std::uint32_t from_epoch = 0;  ///< of the map before: only what belongs to it moves
+  std::uint32_t to_epoch = 0;    ///< of the map now
+};
+
+/// How far a mission has come: what one that was cut off goes on from.
+struct MissionSoFar {
+  std::optional<Point2> start_map;         ///< where it began; nothing: it begins where the robot is
+  Duration running{0};                     ///< robot time in which it ran: neither paused nor held
+  std::vector<api::Detection> found = {};  ///< by it and by those before it, places in the present map; by rising id
+
+  friend bool operator==(const MissionSoFar&, const MissionSoFar&) = default;
+};
+
+class MissionExecutor {
+ public:
+  MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs);
+
+  /// kBusy while another mission runs; the id of the running one is accepted again. `so_far` is of one that was cut
+  /// off.
+  [[nodiscard]] Result<api::MissionId> start(const api::MissionRequest& request, const std::string& owner,
+                                             const Situation& situation, const MissionSoFar& so_far = {});
+  /// kNotReady when no mission runs or it is not in the state for the command.
+  [[nodiscard]] Status command(api::MissionCommand command, RobotTime now);
+  /// Ends a running mission; nothing otherwise.
+  void end(api::Outcome outcome, const std::string& cause, const std::string& remedy, RobotTime now);
+  /// Holds a running mission; `why` is shown as its activity.
+  void pause(RobotTime now, const std::string& why);
+
+  /// One tick; a decision without command when nothing runs. `blocking` is a fault that forbids motion.
+  [[nodiscard]] Decision step(const Situation& situation, const api::Fault* blocking, WallTime wall_now);
+  void on_recognition(const Recognition& recognition);
+  void on_look(const Result<StereoLook>& look);
+  /// What a running mission knows of places moves with the map, and so does what ended ones have found and searched in
+  /// it: others are told of it as long as the map lives. Only grid() of an ended mission keeps its epoch.
+  void map_moved(const MapCorrection& correction, RobotTime now);
+
+  /// What the behaviour knew when the program was cut off; before its first step.
+  void remember(const TopologyMemory& memory);
+  void client_lost(const std::string& client, WallTime wall_now);
+  void client_back(const std::string& client);
+
+  /// Another map takes the place of the present one: what was found and searched in that is no part of it.
+  void forget_places();
+
+  [[nodiscard]] bool running() const { return active_ && active_->status.state == api::MissionState::kRunning; }
+  [[nodiscard]] bool present() const { return active_.has_value(); }
+  /// Of the mission that runs or is paused, places in the present map; nothing when there is none.
+  [[nodiscard]] std::optional<MissionSoFar> so_far() const;
+  /// What the running mission was asked for; null when none runs.
+  [[nodiscard]] const api::MissionRequest* request() const { return active_ ? &active_->request : nullptr; }
+  /// The running mission or the last one.
+  [[nodiscard]] const std::optional<api::MissionStatus>& last() const { return last_; }
+  [[nodiscard]] const std::optional<api::GridReport>& grid() const { return grid_; }
+  /// Of the mission that runs or ran last, and the newest of those before; by rising id.
+  [[nodiscard]] const std::vector<api::Detection>& detections() const { return detections_; }
+  /// What the running search has searched, or the last one of this map epoch; see Behaviour::searched().
+  [[nodiscard]] std::optional<SearchedFloor> searched(const PoseEstimate& at) const;
+  [[nodiscard]] const Behaviour* behaviour() const { return active_ ? active_->behaviour.get() : nullptr; }
+  /// Ids continue above what an earlier run of the program gave out.
+  void continue_detection_ids(std::uint64_t highest) { highest_detection_id_ = highest; }
+
+ private:
+  struct Active {
+    api::MissionRequest request;
+    std::string owner;
+    std::unique_ptr<Behaviour> behaviour;
+    api::MissionStatus status;
+    MissionSoFar so_far;
+    std::optional<RobotTime> ran_at;   ///< the step before this one; none after a pause or while it is held
+    std::uint64_t detection_base = 0;  ///< added to the behaviour's own ids, which count from 1
+    std::optional<WallTime> lost_since;
+    bool finish_step = false;
+    std::optional<api::MissionEnd> end_after;  ///< the outcome once the robot is back (link policy RETURN)
+    std::optional<RobotTime> blocked_since;
+    std::optional<RobotTime> unlocalised_since;
+    bool decision_told = true;       ///< the status' decision was in a report
+    std::optional<Pose2> last_pose;  ///< that the way is measured from; none after the map has moved
+    Pose2 pose;                      ///< where it was last, frame `map`
+    RobotTime last_report;
+    std::uint32_t map_epoch = 0;  ///< that results belong to
+  };
+
+  [[nodiscard]] Decision held(const Situation& situation, const std::string& activity);
+  [[nodiscard]] bool hold_for_trouble(const Situation& situation, const api::Fault* blocking);
+  void count_time(RobotTime now);
+  [[nodiscard]] std::optional<Duration> time_left() const;
+  void apply_link_policy(const Situation& situation, WallTime wall_now);
+  void take(const Decision& decision, const Situation& situation);
+  void finish(const api::MissionEnd& end, RobotTime now);
+  [[nodiscard]] api::MissionEnd as_it_counts(api::MissionEnd end) const;
+  void collect();
+  void collect_grid();
+  void collect_detections();
+  void take(api::Detection detection);
+  void take_back(const std::vector<api::Detection>& found, std::uint32_t map_epoch);
+  void withdraw_all_but(const std::vector<api::Detection>& told);
+  void withdraw_found_again(const std::vector<api::Detection>& told);
+  void withdraw(const std::function<bool(const api::Detection&)>& is_none);
+  void keep_searched();
+  void report(RobotTime now);
+  void log(RobotTime now, const std::string& kind, const std::string& text,
+           api::Severity severity = api::Severity::kInfo);
+
+  MissionParams params_;
+  BehaviourFactory factory_;
+  MissionOutputs outputs_;
+  std::optional<Active> active_;
+  std::optional<api::MissionStatus> last_;
+  std::optional<api::GridReport> grid_;
+  std::vector<api::Detection> detections_;
+  std::optional<SearchedFloor> searched_;  ///< by the last search that ended,
+  std::uint32_t searched_epoch_ = 0;       ///< in the map of this epoch
+  std::uint64_t highest_detection_id_ = 0;
+  std::uint64_t event_sequence_ = 0;
+};
+
+}  // namespace seeker::app

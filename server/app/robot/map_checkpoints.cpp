@@ -1,0 +1,120 @@
+// Maps of missions that are building them, for their resumption after a crash.
+
+#include <utility>
+
+#include "server/app/robot/map_service.hpp"
+#include "server/app/state/kept_files.hpp"
+
+namespace seeker::app {
+namespace {
+
+/// Of a map that a mission could not go on in; the first free number is taken.
+std::string name_aside(const api::MissionId& mission, int number) {
+  constexpr std::size_t kMaxName = 48;
+  return mission.substr(0, kMaxName) + "-cut-off" + (number > 1 ? "-" + std::to_string(number) : "");
+}
+
+}  // namespace
+
+void MapService::write_checkpoint(const api::MissionId& mission, Checkpoint checkpoint) {
+  const auto shared = std::make_shared<const Checkpoint>(std::move(checkpoint));
+  const auto answer = [this](const Status& written) {
+    // A robot that shuts down needs no answer.
+    static_cast<void>(mailbox_.post([this, written] { loop_.checkpoint_written(written); }));
+  };
+  const Status ok = enqueue([this, mission, shared, answer](const store::MapFiles& /*files*/) {
+    // First, so that no map is without one; a full disk is told with the map.
+    static_cast<void>(keep_place(checkpoint_folder(), mission, shared->place));
+    const Result<store::MapListing> written = checkpoints_.write(file_of(shared->map, mission), true);
+    Status kept = written ? Status() : Status(tl::unexpected<Error>(written.error()));
+    // After the map: what is remembered of an older one is less, and never of places that the map does not have.
+    if (kept && shared->topology) {
+      kept = keep_topology(checkpoint_folder(), mission, *shared->topology, shared->map.map.epoch);
+    }
+    answer(kept);
+  });
+  if (!ok) {
+    answer(ok);
+  }
+}
+
+void MapService::write_place(const api::MissionId& mission, const MissionPlace& place) {
+  const auto answer = [this] { static_cast<void>(mailbox_.post([this] { loop_.place_written(); })); };
+  const Status ok = enqueue([this, mission, place, answer](const store::MapFiles& /*files*/) {
+    static_cast<void>(keep_place(checkpoint_folder(), mission, place));  // a full disk is told with the map
+    answer();
+  });
+  if (!ok) {
+    answer();
+  }
+}
+
+void MapService::set_checkpoint_aside(const api::MissionId& mission) {
+  static_cast<void>(enqueue([this, mission](const store::MapFiles& files) {
+    Result<store::MapFile> file = checkpoints_.read(mission);
+    Result<store::MapListing> saved = fail(Errc::kNotFound, "there is no map");
+    constexpr int kMostNames = 100;
+    for (int k = 1; file && !saved && k <= kMostNames; ++k) {
+      file->origin.name = name_aside(mission, k);
+      saved = files.write(*file, false);
+    }
+    const std::string text = saved ? "the map that the robot was not found in is saved as '" + file->origin.name + "'"
+                                   : "the map that the robot was not found in could not be saved: " +
+                                         (file ? saved.error() : file.error()).message;
+    tell("map-set-aside", text, saved ? api::Severity::kInfo : api::Severity::kWarning);
+  }));
+}
+
+void MapService::tell(const std::string& kind, const std::string& text, api::Severity severity) {
+  static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.log(kind, text, severity); }));
+}
+
+void MapService::drop_checkpoints() {
+  // Where they cannot be removed they do no harm: they are looked up by the id of their mission.
+  static_cast<void>(enqueue([this](const store::MapFiles& /*files*/) {
+    const Result<std::vector<store::MapListing>> kept = checkpoints_.list();
+    for (const store::MapListing& listing : kept ? *kept : std::vector<store::MapListing>()) {
+      static_cast<void>(checkpoints_.remove(listing.header.origin.name));
+    }
+    drop_kept(checkpoint_folder());
+  }));
+}
+
+void MapService::resume_mission(const std::string& client, const api::Reply<void>& reply) {
+  const bool posted = mailbox_.post([this, client, reply] {
+    const std::optional<api::MissionId> mission = loop_.checkpoint_to_resume();
+    if (mission && !storage_.folder.empty()) {
+      resume_from(*mission, client, reply);
+    } else {
+      reply(loop_.command_mission(api::MissionCommand::kResume, client));
+    }
+  });
+  if (!posted) {
+    reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
+  }
+}
+
+void MapService::resume_from(const api::MissionId& mission, const std::string& client, const api::Reply<void>& reply) {
+  const Status ok = enqueue([this, mission, client, reply](const store::MapFiles& /*files*/) {
+    Result<store::MapFile> file = checkpoints_.read(mission);
+    const MapIdentity identity{"", file ? file->origin.created_unix_s : 0, api::MapUse::kContinue};
+    std::string trouble;
+    const KeptState kept = file ? read_kept(checkpoint_folder(), mission, file->map.epoch, trouble) : KeptState{};
+    if (!trouble.empty()) {
+      tell("resume-without-memory", "the mission goes on in its map, but without all that it remembered: " + trouble,
+           api::Severity::kWarning);
+    }
+    const auto map = std::make_shared<const Result<LineMap>>(
+        file ? Result<LineMap>(std::move(file->map)) : Result<LineMap>(tl::unexpected<Error>(file.error())));
+    const bool posted = mailbox_.post(
+        [this, map, identity, client, kept, reply] { reply(loop_.resume_in_map(*map, identity, client, kept)); });
+    if (!posted) {
+      reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
+    }
+  });
+  if (!ok) {
+    reply(ok);
+  }
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,232 @@
+#include "server/app/robot/map_service.hpp"
+
+#include <utility>
+
+#include "server/fleet/joint_map.hpp"
+
+namespace seeker::app {
+namespace {
+
+/// Waiting requests; each may hold a whole map.
+constexpr std::size_t kMaxWaiting = 16;
+
+api::MapSummary summary_of(const store::MapListing& listing) {
+  const store::MapFileHeader& header = listing.header;
+  return {.name = header.origin.name,
+          .robot_id = header.origin.robot_id,
+          .sensors = header.origin.sensors,
+          .software_version = header.origin.software_version,
+          .created_unix_s = header.origin.created_unix_s,
+          .saved_unix_s = header.origin.saved_unix_s,
+          .file_bytes = listing.file_bytes,
+          .epoch = header.epoch,
+          .nodes = header.nodes,
+          .edges = header.edges,
+          .loops = header.loops,
+          .segments = header.segments,
+          .keyframes = header.keyframes,
+          .problem = listing.problem};
+}
+
+Result<api::MapSummary> summary_of(const Result<store::MapListing>& listing) {
+  return listing ? Result<api::MapSummary>(summary_of(*listing))
+                 : Result<api::MapSummary>(tl::unexpected<Error>(listing.error()));
+}
+
+/// What the scans say about who made them.
+std::string sensors_of(const LineMap& map) {
+  if (map.keyframes.empty()) {
+    return "no kept scans";
+  }
+  const MapKeyframe& scan = map.keyframes.front();
+  constexpr double kTenth = 10.0;
+  const int range_dm = static_cast<int>(static_cast<double>(scan.range_max_m) * kTenth);
+  return "lidar with " + std::to_string(scan.ranges.size()) + " beams of up to " + std::to_string(range_dm / 10) + "." +
+         std::to_string(range_dm % 10) + " m";
+}
+
+Error with_disk_remedy(const Error& error) {
+  return error.code == Errc::kIo ? Error{error.code, error.message + "; free space on the disk of the state folder"}
+                                 : error;
+}
+
+}  // namespace
+
+MapService::MapService(MapStorage storage, RobotLoop& loop, Mailbox& mailbox)
+    : storage_(std::move(storage)),
+      loop_(loop),
+      mailbox_(mailbox),
+      files_(storage_.folder),
+      checkpoints_(checkpoint_folder()),
+      disk_(kMaxWaiting, "maps") {}
+
+Status MapService::enqueue(Work work) {
+  if (storage_.folder.empty()) {
+    return fail(Errc::kNotReady, "this robot has no folder to keep maps in; start it with --state FOLDER");
+  }
+  return disk_.post([this, work = std::move(work)] { work(files_); });
+}
+
+template <class T>
+void MapService::on_worker(const api::Reply<T>& reply, std::function<Result<T>(const store::MapFiles&)> work) {
+  const Status ok = enqueue([reply, work = std::move(work)](const store::MapFiles& files) { reply(work(files)); });
+  if (!ok) {
+    reply(tl::unexpected<Error>(ok.error()));
+  }
+}
+
+void MapService::save(const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply) {
+  const bool posted = mailbox_.post([this, name, replace, reply] {
+    Result<LoopMap> map = loop_.map_to_save(name);
+    if (!map) {
+      reply(tl::unexpected<Error>(map.error()));
+      return;
+    }
+    // Saving again under its own name is how a map grows.
+    const bool own = map->identity.name == name;
+    const auto shared = std::make_shared<const LoopMap>(std::move(*map));
+    const Status ok = enqueue([this, shared, name, replace, own, reply](const store::MapFiles& /*files*/) {
+      write(*shared, name, replace || own, reply);
+    });
+    if (!ok) {
+      reply(tl::unexpected<Error>(ok.error()));
+    }
+  });
+  if (!posted) {
+    reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
+  }
+}
+
+store::MapFile MapService::file_of(const LoopMap& from, const std::string& name) const {
+  store::MapFile file;
+  file.map = from.map;
+  file.origin.name = name;
+  file.origin.robot_id = storage_.robot_id;
+  file.origin.software_version = storage_.software_version;
+  file.origin.sensors = sensors_of(from.map);
+  file.origin.saved_unix_s = wall_unix_s();
+  file.origin.created_unix_s =
+      from.identity.created_unix_s != 0 ? from.identity.created_unix_s : file.origin.saved_unix_s;
+  return file;
+}
+
+void MapService::write(const LoopMap& from, const std::string& name, bool replace,
+                       const api::Reply<api::MapSummary>& reply) {
+  const store::MapFile file = file_of(from, name);
+  const Result<store::MapListing> written = files_.write(file, replace);
+  if (!written) {
+    reply(tl::unexpected<Error>(with_disk_remedy(written.error())));
+    return;
+  }
+  // The answer comes after the loop knows the name, so that a status asked for next has it.
+  const MapIdentity identity{name, file.origin.created_unix_s, api::MapUse::kContinue};
+  const api::MapSummary summary = summary_of(*written);
+  if (!mailbox_.post([this, identity, reply, summary] {
+        loop_.map_saved(identity);
+        reply(summary);
+      })) {
+    reply(summary);  // the robot shuts down; the file is there
+  }
+}
+
+void MapService::load(const std::string& name, api::MapUse use, const api::Reply<api::MapSummary>& reply) {
+  const Status ok = enqueue([this, name, use, reply](const store::MapFiles& files) {
+    Result<store::MapFile> file = files.read(name);
+    const Result<store::MapListing> listing = files.inspect(name);
+    if (!file || !listing) {
+      reply(tl::unexpected<Error>(file ? listing.error() : file.error()));
+      return;
+    }
+    file->map = fleet::as_one_robots(std::move(file->map));  // a fleet's map, too, may be carried on by one robot
+    const auto shared = std::make_shared<const store::MapFile>(std::move(*file));
+    const bool posted = mailbox_.post([this, shared, name, use, summary = summary_of(*listing), reply] {
+      const Status loaded = loop_.load_map(shared->map, {name, shared->origin.created_unix_s, use});
+      reply(loaded ? Result<api::MapSummary>(summary) : tl::unexpected<Error>(loaded.error()));
+    });
+    if (!posted) {
+      reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
+    }
+  });
+  if (!ok) {
+    reply(tl::unexpected<Error>(ok.error()));
+  }
+}
+
+void MapService::list(const api::Reply<std::vector<api::MapSummary>>& reply) {
+  on_worker<std::vector<api::MapSummary>>(reply,
+                                          [](const store::MapFiles& files) -> Result<std::vector<api::MapSummary>> {
+                                            const Result<std::vector<store::MapListing>> listings = files.list();
+                                            if (!listings) {
+                                              return tl::unexpected<Error>(listings.error());
+                                            }
+                                            std::vector<api::MapSummary> maps;
+                                            for (const store::MapListing& listing : *listings) {
+                                              maps.push_back(summary_of(listing));
+                                            }
+                                            return maps;
+                                          });
+}
+
+void MapService::inspect(const std::string& name, bool verify, const api::Reply<api::MapSummary>& reply) {
+  on_worker<api::MapSummary>(reply, [name, verify](const store::MapFiles& files) -> Result<api::MapSummary> {
+    if (verify) {
+      if (const Result<store::MapFile> file = files.read(name); !file) {
+        return tl::unexpected<Error>(file.error());
+      }
+    }
+    return summary_of(files.inspect(name));
+  });
+}
+
+void MapService::remove(const std::string& name, const api::Reply<void>& reply) {
+  const bool posted = mailbox_.post([this, name, reply] {
+    if (const Status free = loop_.map_not_in_use(name); !free) {
+      reply(free);
+      return;
+    }
+    on_worker<void>(reply, [name](const store::MapFiles& files) { return files.remove(name); });
+  });
+  if (!posted) {
+    reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
+  }
+}
+
+void MapService::download(const std::string& name, const api::Reply<std::vector<std::uint8_t>>& reply) {
+  on_worker<std::vector<std::uint8_t>>(
+      reply, [name](const store::MapFiles& files) -> Result<std::vector<std::uint8_t>> {
+        Result<std::vector<std::uint8_t>> bytes = files.read_bytes(name);
+        if (bytes && bytes->size() > api::kMaxMapTransferBytes) {
+          return fail(Errc::kTooLarge, "map '" + name + "' has " + std::to_string(bytes->size()) +
+                                           " bytes, more than the 15 MiB that can be sent; copy the file '" +
+                                           files.path_of(name).string() + "'");
+        }
+        return bytes;
+      });
+}
+
+void MapService::upload(const api::MapUpload& upload, const api::Reply<api::MapSummary>& reply) {
+  const bool posted = mailbox_.post([this, upload, reply] {
+    if (const Status free = upload.check_only ? Status() : loop_.map_not_in_use(upload.name); !free) {
+      reply(tl::unexpected<Error>(free.error()));
+      return;
+    }
+    on_worker<api::MapSummary>(reply, [upload](const store::MapFiles& files) -> Result<api::MapSummary> {
+      Result<store::MapFile> file = store::decode_map_file(upload.bytes);
+      if (!file) {
+        return tl::unexpected<Error>(file.error());
+      }
+      if (upload.check_only) {
+        store::MapListing listing{store::decode_map_header(upload.bytes).value_or(store::MapFileHeader()),
+                                  upload.bytes.size(), ""};
+        return summary_of(listing);
+      }
+      file->origin.name = upload.name;
+      return summary_of(files.write(*file, upload.replace));
+    });
+  });
+  if (!posted) {
+    reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
+  }
+}
+
+}  // namespace seeker::app

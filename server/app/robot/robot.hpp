@@ -1,0 +1,74 @@
+/// \file
+/// The robot as a whole: the loop on its own thread, and the API body that others call.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "common/api/robot_api.hpp"
+#include "server/app/fleet/own_map.hpp"
+#include "server/app/landmarks/landmark_service.hpp"
+#include "server/app/loop/robot_loop.hpp"
+#include "server/app/robot/map_service.hpp"
+#include "server/app/runtime/mailbox.hpp"
+#include "server/app/state/journal.hpp"
+
+namespace seeker::app {
+
+struct RobotIdentity {
+  std::string robot_id = "seeker-1";
+  std::string software_version;
+  double robot_radius_m = 0.26;
+};
+
+/// Owns loop, mailbox and thread. RobotApi calls from any thread become tasks of the loop's thread.
+class Robot final : public api::RobotHost {
+ public:
+  /// `journal` may be null: nothing is kept over a restart then. An empty `maps` folder: no maps are kept.
+  Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal = nullptr,
+        const std::filesystem::path& maps = {}, LandmarkUse landmarks = {});
+  ~Robot() override;
+
+  /// Starts the components, then the thread. With `wait_for_client` a replay begins with the first session.
+  void start(bool wait_for_client = false);
+  /// Halts the robot, answers what was asked, joins the thread. Harmless when repeated.
+  void stop();
+  /// Runs until the source has ended (a replay) or `deadline` robot time; for programs without a network.
+  [[nodiscard]] RobotLoop& loop() { return loop_; }
+  /// The robot for its fleet; valid while this lives.
+  [[nodiscard]] FleetHost fleet_host();
+  /// True once a replay's source has been read to its end.
+  [[nodiscard]] bool ended() const { return ended_.load(); }
+  /// Robot time of the last tick; any thread.
+  [[nodiscard]] RobotTime now() const { return RobotTime(Duration(now_ns_.load())); }
+
+  [[nodiscard]] std::shared_ptr<api::RobotApi> open(const api::Caller& caller) override;
+  void closed(const api::Caller& caller) override;
+  void lost(const api::Caller& caller, const std::string& why) override;
+
+ private:
+  class Session;
+
+  void give_own_map(const api::Reply<OwnMap>& reply);
+  void give_own_topology(const api::Reply<OwnTopology>& reply);
+  void give_own_seen(const api::Reply<OwnSeen>& reply);
+  void keep_journal();
+  void run(bool wait_for_client);
+  [[nodiscard]] api::RobotInfo info() const;
+
+  RobotIdentity identity_;
+  UpdateHub hub_;
+  RobotLoop loop_;
+  Mailbox mailbox_;
+  std::unique_ptr<Journal> journal_;
+  MapService maps_;
+  LandmarkService landmarks_;
+  std::thread thread_;
+  std::atomic<bool> client_seen_{false};
+  std::atomic<bool> ended_{false};
+  std::atomic<std::int64_t> now_ns_{0};
+};
+
+}  // namespace seeker::app

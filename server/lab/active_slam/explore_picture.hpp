@@ -1,0 +1,29 @@
+/// \file
+/// Figures of explorations.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/core/image.hpp"
+#include "server/lab/active_slam/explore_run.hpp"
+
+namespace seeker::lab {
+
+/// Figs 4 and 5 of the active-SLAM paper: the mapped segments laid on the true walls, what is missing, and the true
+/// path, dash-dotted where the robot followed a wall.
+[[nodiscard]] Image draw_exploration(const ExploreRecord& record, const std::string& title);
+
+/// One run's curve.
+struct NamedCurve {
+  std::string name;
+  std::vector<ExploreSample> samples;
+};
+
+/// Fig 6: localisation error over time.
+[[nodiscard]] Image error_figure(const std::string& title, const std::vector<NamedCurve>& curves);
+/// Fig 7: trace of the covariance over time: of robot and segments, of the robot alone, of a segment on average.
+[[nodiscard]] Image trace_figure(const std::string& title, const std::vector<NamedCurve>& curves);
+
+}  // namespace seeker::lab

@@ -1,0 +1,49 @@
+/// \file
+/// seeker-lab lines: the line extractor over a recorded log.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "common/core/result.hpp"
+#include "server/drivers/replay/replay.hpp"
+#include "server/lab/experiments/log_stopwatch.hpp"
+
+namespace seeker::lab {
+
+/// What the extractor found in a log, and what it cost.
+struct LineStatistics {
+  std::uint64_t scans = 0;
+  std::uint64_t beams = 0;  ///< of the first scan
+  std::uint64_t lines = 0;
+  double lines_per_scan = 0.0;
+  std::uint64_t most_lines = 0;
+  double points_on_lines = 0.0;  ///< share of the returns
+  double range_sigma_m = 0.0;    ///< noise the extractor worked with, median over the scans
+  TimeFigures scan;              ///< on the wall
+  TimeFigures scan_processor;    ///< processor time of the thread
+  std::uint64_t bad_lines = 0;   ///< of the log's text
+};
+
+/// Extracts the lines of every scan. Errors of ReplaySource::open(); kParse when the log has no scan.
+[[nodiscard]] Result<LineStatistics> measure_lines(const std::filesystem::path& log,
+                                                   const drivers::ReplayParams& geometry);
+
+struct LinesOptions {
+  std::filesystem::path log;
+  std::filesystem::path robot;
+  std::filesystem::path config;
+  std::vector<std::string> overrides;
+  std::optional<std::uint64_t> scan;  ///< draw this one, the first being 0
+  std::filesystem::path out;          ///< PNG of that scan
+  bool json = false;
+};
+
+/// Prints the statistics, or draws one scan. Errors of the files; kNotFound: no such scan.
+[[nodiscard]] Status run_lines(const LinesOptions& options, std::ostream& out);
+
+}  // namespace seeker::lab

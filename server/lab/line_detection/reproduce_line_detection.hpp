@@ -1,0 +1,28 @@
+/// \file
+/// Regenerates figures 3 and 4 and Table 1 of the line-detection paper and checks them (spec S7: R10).
+#pragma once
+
+#include "common/core/image.hpp"
+#include "server/lab/experiments/check.hpp"
+#include "server/lab/experiments/reproduce_params.hpp"
+#include "server/lines/paper_extractor.hpp"
+
+namespace seeker::lab {
+
+/// fig3-lines.png, fig4-fits.png, table1.csv, thresholds.csv and one line per condition to the report.
+[[nodiscard]] Status reproduce_line_detection(const ReproduceParams& params, Report& report);
+
+/// The paper's detector as printed: the error limit is 5 mm whatever the noise.
+[[nodiscard]] lines::PaperParams printed_line_params();
+
+/// Fig 3: the scan with its lines.
+[[nodiscard]] Image table1_figure(const LaserScan& scan, const lines::ScanLines& found);
+/// Fig 4: distances of the points of each line from it.
+[[nodiscard]] Image table1_fit_figure(const LaserScan& scan, const lines::ScanLines& found);
+
+/// R10 over the seeds.
+void check_table1(const std::vector<std::uint64_t>& seeds, Report& report);
+/// R10: initial thresholds times 0.5 to 2 against split-and-merge with the same thresholds. The table is a CSV.
+[[nodiscard]] std::string check_thresholds(const std::vector<std::uint64_t>& seeds, Report& report);
+
+}  // namespace seeker::lab

@@ -1,5 +1,0 @@
-// seeker-lab: offline experiments. Everything is in libraries.
-
-#include "server/lab/commands.hpp"
-
-int main(int argc, char** argv) { return seeker::lab::run_lab(argc, argv); }

@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/angle.hpp"
+#include "server/lab/active_slam/explore_experiment.hpp"
+#include "server/lab/active_slam/reproduce_active_slam.hpp"
+#include "server/lab/experiments/seeds.hpp"
+#include "server/lab/experiments/table.hpp"
+#include "server/lab/map_merging/reproduce_map_merging.hpp"
+
+namespace seeker::lab {
+namespace {
+
+constexpr double kSweep_rad = deg_to_rad(0.25);
+constexpr double kRounding_m = 1e-6;
+
+/// Spec S4.1 as it is written, beam by beam.
+bool blocked(const LaserScan& scan, double angle_rad, double radius_m, double width_m) {
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    const auto range_m = static_cast<double>(scan.ranges_m[beam]);
+    const double off_rad = scan.base_T_laser.theta_rad + scan.angle_rad(beam) - angle_rad;
+    const double along_m = range_m * std::cos(off_rad);
+    if (std::isfinite(range_m) && along_m > 0.0 && along_m <= radius_m &&
+        std::abs(range_m * std::sin(off_rad)) <= 0.5 * width_m) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Check check_tree(const LaserScan& scan, const fleet::SpaceTree& tree, const fleet::SpaceTreeParams& params) {
+  int directions = 0;
+  int wrong = 0;
+  int layers = 0;
+  for (const fleet::SpaceSection& section : tree.sections) {
+    layers = std::max(layers, section.layer);
+    for (double off_rad = kSweep_rad; off_rad < section.span_rad; off_rad += kSweep_rad) {
+      ++directions;
+      wrong += blocked(scan, section.start_rad + off_rad, section.radius_m - kRounding_m,
+                       params.corridor_width_m - kRounding_m)
+                   ? 1
+                   : 0;
+    }
+  }
+  const auto outside = std::count_if(tree.goals.begin(), tree.goals.end(),
+                                     [&](const fleet::SpaceGoal& goal) { return !tree.admits(goal.p_base); });
+  return {.id = "S4-TREE",
+          .passed = directions > 0 && wrong == 0 && outside == 0 && tree.main_goal.has_value(),
+          .figures = {{"sections", std::to_string(tree.sections.size())},
+                      {"layers", std::to_string(layers)},
+                      {"goals", std::to_string(tree.goals.size())},
+                      {"directions", std::to_string(directions)},
+                      {"blocked", std::to_string(wrong)},
+                      {"goals_outside", std::to_string(outside)}}};
+}
+
+Check check_single(const std::vector<ExploreResult>& runs) {
+  int good = 0;
+  int contacts = 0;
+  double share_min = 1.0;
+  double error_max_m = 0.0;
+  std::vector<double> path_m;
+  std::vector<double> time_s;
+  std::vector<std::uint64_t> seeds;
+  for (const ExploreResult& run : runs) {
+    const bool complete = run.outcome == to_string(api::Outcome::kComplete);
+    good += complete && run.wall_share >= kArenaWallShare && run.contacts == 0 ? 1 : 0;
+    contacts += run.contacts;
+    share_min = std::min(share_min, run.wall_share);
+    error_max_m = std::max(error_max_m, run.mean_error_m);
+    path_m.push_back(run.path_length_m);
+    time_s.push_back(run.robot_time_s);
+    seeds.push_back(run.seed);
+  }
+  const int needed = static_cast<int>(std::ceil(kSeedShare * static_cast<double>(runs.size())));
+  return {.id = "S4-SINGLE",
+          .passed = !runs.empty() && good >= needed,
+          .figures = {{"good", std::to_string(good) + "/" + std::to_string(runs.size())},
+                      {"walls_min", fixed(share_min, 3)},
+                      {"walls_limit", fixed(kArenaWallShare, 2)},
+                      {"contacts", std::to_string(contacts)},
+                      {"error_max_m", fixed(error_max_m, 3)},
+                      {"path_m", fixed(mean_spread(path_m).mean, 1)},
+                      {"time_s", fixed(mean_spread(time_s).mean, 0)},
+                      {"seeds", print_seeds(seeds)}}};
+}
+
+Check check_merges(const std::vector<FleetResult>& runs) {
+  int merged = 0;
+  int wrong = 0;
+  double error_m = 0.0;
+  double error_deg = 0.0;
+  std::vector<double> at_s;
+  std::vector<std::uint64_t> seeds;
+  for (const FleetResult& run : runs) {
+    const bool all = run.merged == run.pairs && run.error_m <= kMergeError_m && run.error_deg <= kMergeError_deg;
+    merged += all ? 1 : 0;
+    wrong += run.wrong;
+    error_m = std::max(error_m, run.error_m);
+    error_deg = std::max(error_deg, run.error_deg);
+    if (run.merged > 0) {
+      at_s.push_back(run.merged_at_s);
+    }
+    seeds.push_back(run.seed);
+  }
+  const int needed = static_cast<int>(std::ceil(kMergeShare * static_cast<double>(runs.size())));
+  return {.id = "R8",
+          .passed = !runs.empty() && merged >= needed && wrong == 0,
+          .figures = {{"merged", std::to_string(merged) + "/" + std::to_string(runs.size())},
+                      {"wrong", std::to_string(wrong)},
+                      {"error_max_m", fixed(error_m, 3)},
+                      {"limit_m", fixed(kMergeError_m, 2)},
+                      {"error_max_deg", fixed(error_deg, 2)},
+                      {"limit_deg", fixed(kMergeError_deg, 1)},
+                      {"merged_at_s", fixed(mean_spread(at_s).mean, 0)},
+                      {"seeds", print_seeds(seeds)}}};
+}
+
+Check check_trap(const std::vector<FleetResult>& runs) {
+  int merged = 0;
+  int wrong = 0;
+  double error_m = 0.0;
+  std::vector<std::uint64_t> seeds;
+  for (const FleetResult& run : runs) {
+    merged += run.merged == run.pairs ? 1 : 0;
+    wrong += run.wrong;
+    error_m = std::max(error_m, run.error_m);
+    seeds.push_back(run.seed);
+  }
+  return {.id = "S4-TRAP",
+          .passed = !runs.empty() && wrong == 0,
+          .figures = {{"wrong", std::to_string(wrong)},
+                      {"merged", std::to_string(merged) + "/" + std::to_string(runs.size())},
+                      {"error_max_m", fixed(error_m, 3)},
+                      {"seeds", print_seeds(seeds)}}};
+}
+
+Check check_sharing(const std::vector<FleetResult>& runs, const std::vector<ExploreResult>& single) {
+  std::vector<double> ratios;
+  int contacts = 0;
+  for (const FleetResult& run : runs) {
+    const auto alone = std::find_if(single.begin(), single.end(),
+                                    [&](const ExploreResult& candidate) { return candidate.seed == run.seed; });
+    if (alone != single.end() && alone->robot_time_s > 0.0) {
+      ratios.push_back(run.world_time_s / alone->robot_time_s);
+    }
+    contacts += run.contacts;
+  }
+  const double mean = mean_spread(ratios).mean;
+  return {.id = "S4-SHARE",
+          .passed = !ratios.empty() && mean <= kSharedTime && contacts == 0,
+          .figures = {{"time_ratio", fixed(mean, 3)},
+                      {"limit", fixed(kSharedTime, 2)},
+                      {"contacts", std::to_string(contacts)},
+                      {"runs", std::to_string(ratios.size())}}};
+}
+
+Check check_keyframes(const std::vector<LoadSample>& samples) {
+  double frame_s = 0.0;
+  double keyframe_s = 0.0;
+  std::vector<const LoadSample*> by_load;
+  std::size_t nodes = 0;
+  for (const LoadSample& sample : samples) {
+    frame_s += sample.frame_s();
+    keyframe_s += sample.keyframe_s();
+    by_load.push_back(&sample);
+    nodes += sample.node ? 1 : 0;
+  }
+  std::stable_sort(by_load.begin(), by_load.end(),
+                   [](const LoadSample* a, const LoadSample* b) { return a->keyframe_s() > b->keyframe_s(); });
+  const auto at_nodes = std::count_if(by_load.begin(), by_load.begin() + static_cast<std::ptrdiff_t>(nodes),
+                                      [](const LoadSample* sample) { return sample->node; });
+  const double count = std::max(1.0, static_cast<double>(samples.size()));
+  return {.id = "R9",
+          .passed = nodes > 0 && keyframe_s < frame_s &&
+                    static_cast<double>(at_nodes) >= kPeaksAtNodes * static_cast<double>(nodes),
+          .figures = {{"frame_mean_s", fixed(frame_s / count, 4)},
+                      {"keyframe_mean_s", fixed(keyframe_s / count, 4)},
+                      {"peaks_at_nodes", std::to_string(at_nodes) + "/" + std::to_string(nodes)},
+                      {"seconds", std::to_string(samples.size())}}};
+}
+
+}  // namespace seeker::lab

@@ -1,0 +1,58 @@
+#include "server/lab/plots/world_sheet.hpp"
+
+#include <cmath>
+
+#include "common/image/map_layers.hpp"
+
+namespace seeker::lab {
+namespace {
+
+constexpr int kFooter_px = 76;  // the row of the legend, and the scale bar with its label
+constexpr double kLeft_px = 16.0;
+constexpr double kTitle_px = 14.0;
+constexpr double kText_px = 10.5;
+constexpr double kFirstLine_px = 24.0;
+constexpr double kLineStep_px = 20.0;
+constexpr double kSample_px = 26.0;
+
+image::MapView view_of(const sim::World& world, const WorldSheet::Layout& layout) {
+  image::MapView view;
+  view.low = world.min_corner - Point2::Constant(layout.margin_m);
+  view.high = world.max_corner + Point2::Constant(layout.margin_m);
+  const Point2 side = view.high - view.low;
+  view.px_per_m = layout.largest_side_px / side.maxCoeff();
+  view.width_px = static_cast<int>(std::ceil(side.x() * view.px_per_m));
+  view.height_px = static_cast<int>(std::ceil(side.y() * view.px_per_m));
+  return view;
+}
+
+}  // namespace
+
+WorldSheet::WorldSheet(const sim::World& world, const Layout& layout)
+    : header_px_(layout.header_px),
+      view_(view_of(world, layout)),
+      canvas_(view_.width_px, view_.height_px + header_px_ + kFooter_px, image::kWhite) {}
+
+void WorldSheet::head(const std::string& title, const std::vector<std::string>& facts) {
+  Point2 at(kLeft_px, kFirstLine_px);
+  canvas_.text(at, title, {.size_px = kTitle_px});
+  for (const std::string& fact : facts) {
+    at.y() += kLineStep_px;
+    canvas_.text(at, fact, {.size_px = kText_px});
+  }
+}
+
+void WorldSheet::foot(const std::vector<LegendEntry>& legend) {
+  constexpr double kGap_px = 22.0;
+  const double y = view_.height_px + header_px_ + 0.5 * kLineStep_px;
+  double left = kLeft_px;
+  for (const LegendEntry& entry : legend) {
+    canvas_.line({left, y}, {left + kSample_px, y}, entry.stroke);
+    left += kSample_px + 6.0;
+    canvas_.text({left, y + 5.0}, entry.label, {.size_px = kText_px});
+    left += image::text_width_px(entry.label, kText_px) + kGap_px;
+  }
+  image::draw_scale_bar(canvas_, view_);
+}
+
+}  // namespace seeker::lab

@@ -1,0 +1,34 @@
+/// \file
+/// A trajectory against a reference trajectory: absolute trajectory error (Sturm et al., "A benchmark for the
+/// evaluation of RGB-D SLAM systems", IROS 2012) after the rigid motion that fits them best.
+#pragma once
+
+#include <cstdint>
+
+#include "common/core/pose2.hpp"
+#include "common/core/result.hpp"
+#include "server/lab/scoring/score_relations.hpp"
+#include "server/lab/scoring/trajectory.hpp"
+
+namespace seeker::lab {
+
+struct ReferenceReport {
+  std::uint64_t used = 0;    ///< poses that lie within the reference
+  std::uint64_t missed = 0;  ///< poses outside it, or in a gap of it
+  double translation_rms_m = 0.0;
+  double rotation_rms_deg = 0.0;
+  ErrorFigures translation_m;
+  ErrorFigures rotation_deg;
+  Pose2 reference_T_map;  ///< the motion that was applied
+};
+
+/// Scores every pose of the trajectory whose time is at most `max_gap_s` from an entry of the reference, which is
+/// interpolated. kInvalidArgument when fewer than two poses have a reference.
+[[nodiscard]] Result<ReferenceReport> score_reference(const Trajectory& trajectory, const Trajectory& reference,
+                                                      double max_gap_s);
+
+/// map_T_base from a localiser's map_T_odom and the odometry, at the stamps of the odometry that it covers; between
+/// its entries the correction is interpolated.
+[[nodiscard]] Trajectory apply_corrections(const Trajectory& map_T_odom, const Trajectory& odometry, double max_gap_s);
+
+}  // namespace seeker::lab

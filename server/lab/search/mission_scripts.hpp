@@ -1,0 +1,25 @@
+/// \file
+/// R12 of spec S7: the shipped mission scripts over real TCP, server and client as two processes.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+
+#include "common/core/result.hpp"
+#include "server/lab/experiments/check.hpp"
+
+namespace seeker::lab {
+
+struct ScriptParams {
+  std::filesystem::path programs;           ///< folder of seekerd and seeker
+  std::filesystem::path config = "config";  ///< folder with robots/, worlds/, missions/
+  std::filesystem::path out;                ///< logs go to out/r12
+  std::chrono::seconds start_limit{60};     ///< wall time until the server can be reached
+  std::chrono::seconds script_limit{600};   ///< wall time of one script
+};
+
+/// One check per script in config/missions: a server of its own is started, `seeker run` plays the script and must exit
+/// with 0, and the server must end with 0 when asked to. Errors: no programs or no scripts.
+[[nodiscard]] Status check_mission_scripts(const ScriptParams& params, Report& report);
+
+}  // namespace seeker::lab

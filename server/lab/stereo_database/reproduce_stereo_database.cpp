@@ -1,0 +1,122 @@
+#include "server/lab/stereo_database/reproduce_stereo_database.hpp"
+#include "server/lab/experiments/load_run.hpp"
+
+#include <algorithm>
+
+#include "common/image/files.hpp"
+#include "common/image/png.hpp"
+#include "server/lab/experiments/resumable.hpp"
+#include "server/lab/experiments/table.hpp"
+#include "server/lab/stereo_database/stereo_run.hpp"
+
+namespace seeker::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path file_of(const fs::path& out, const StereoSpec& spec, const std::string& ending) {
+  return out / "runs" / (spec.paper ? "paper" : "default") / ("seed-" + std::to_string(spec.seed) + ending);
+}
+
+Status keep_figures(const fs::path& out, const StereoSpec& spec, const StereoRecord& record) {
+  struct Plan {
+    const char* name;
+    const char* figure;
+  };
+  for (const Plan& wanted : {Plan{"all", "-fig4.png"}, Plan{"sparse", "-fig6.png"}, Plan{"salient", "-fig8.png"}}) {
+    for (const DatabasePlan& plan : record.plans) {
+      if (plan.name != wanted.name) {
+        continue;
+      }
+      if (Status ok = image::write_png(file_of(out, spec, wanted.figure), plan_figure(plan, record.way)); !ok) {
+        return ok;
+      }
+    }
+  }
+  std::vector<ErrorCurve> curves;
+  std::copy_if(record.curves.begin(), record.curves.end(), std::back_inserter(curves),
+               [](const ErrorCurve& curve) { return curve.name != "changed" && curve.name != "outdated"; });
+  for (const std::string what : {"x", "y", "angle", "x-y"}) {
+    if (Status ok = image::write_png(file_of(out, spec, "-fig13-" + what + ".png"), error_figure(curves, what)); !ok) {
+      return ok;
+    }
+  }
+  return {};
+}
+
+/// Files of one run: numbers last, since they say that the run is complete.
+Status keep(const fs::path& out, const StereoSpec& spec, const StereoRecord& record) {
+  std::error_code error;
+  fs::create_directories(file_of(out, spec, ".json").parent_path(), error);
+  if (Status ok = image::write_file(file_of(out, spec, "-table1.csv"), record.table1_csv); !ok) {
+    return ok;
+  }
+  if (Status ok = image::write_file(file_of(out, spec, "-table2.csv"), record.table2_csv); !ok) {
+    return ok;
+  }
+  if (Status ok = keep_figures(out, spec, record); !ok) {
+    return ok;
+  }
+  return save(file_of(out, spec, ".json"), record.result);
+}
+
+RunKind<StereoSpec, StereoResult> kind_of(const fs::path& out) {
+  RunKind<StereoSpec, StereoResult> kind;
+  kind.file = [out](const StereoSpec& spec) { return file_of(out, spec, ".json"); };
+  kind.settings = [](const StereoSpec& spec) { return settings_of(spec); };
+  kind.load = load_run<StereoResult>;
+  kind.make = [out](const StereoSpec& spec, const std::string& settings) -> Result<StereoResult> {
+    Result<StereoRecord> record = run_s2(spec);
+    if (!record) {
+      return tl::unexpected<Error>(record.error());
+    }
+    record->result.settings = settings;
+    if (const Status kept = keep(out, spec, *record); !kept) {
+      return tl::unexpected<Error>(kept.error());
+    }
+    return record->result;
+  };
+  kind.tell = [](const StereoResult& result) {
+    const DatabaseScore* salient = result.find("salient");
+    return result.mode + " seed " + std::to_string(result.seed) + ": " +
+           (salient != nullptr ? fixed(1000.0 * salient->rms_m, 1) + " mm" : "no drive");
+  };
+  return kind;
+}
+
+std::vector<StereoSpec> specs_of(const ReproduceParams& params, bool paper) {
+  std::vector<StereoSpec> specs;
+  for (const std::uint64_t seed : params.seeds) {
+    // The paper's descriptors are found all over again: one seed tells what it does.
+    if (!paper || seed == params.seeds.front()) {
+      specs.push_back({params.config, seed, paper, params.overrides});
+    }
+  }
+  return specs;
+}
+
+}  // namespace
+
+Status reproduce_stereo_database(const ReproduceParams& params, Report& report) {
+  if (params.seeds.empty()) {
+    return fail(Errc::kInvalidArgument, "no seeds to run: name some with --seeds");
+  }
+  std::error_code error;
+  fs::create_directories(params.out, error);
+  std::vector<StereoResult> all;
+  for (const bool paper : {false, true}) {
+    const Result<std::vector<StereoResult>> runs =
+        resume_runs(specs_of(params, paper), kind_of(params.out), params.jobs, params.show_progress);
+    if (!runs) {
+      return tl::unexpected<Error>(runs.error());
+    }
+    check_stereo(*runs, report);
+    all.insert(all.end(), runs->begin(), runs->end());
+    if (Status ok = image::write_file(params.out / "table3.csv", table3_csv(all)); !ok) {
+      return ok;
+    }
+  }
+  return {};
+}
+
+}  // namespace seeker::lab
