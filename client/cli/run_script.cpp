@@ -118,9 +118,18 @@ class Player {
 /// Nothing after it can be expected to work.
 bool ends_script(const Error& error) { return error.code == Errc::kCancelled || error.code == Errc::kLinkLost; }
 
+/// A file that a script may name; left out where it names none.
+void add_path(Json& json, std::string_view key, const std::filesystem::path& file) {
+  if (!file.empty()) {
+    json.field(key, file.string());
+  }
+}
+
 void print_steps(const Context& context, const Script& script, const std::vector<StepReport>& reports, bool ok) {
   Json json;
   json.begin_object().field("script", script.name).field("ok", ok);
+  add_path(json, "robot", script.robot);
+  add_path(json, "world", script.world);
   json.field("steps_planned", script.steps.size()).key("steps").begin_array();
   for (std::size_t i = 0; i < reports.size(); ++i) {
     json.begin_object()

@@ -329,13 +329,32 @@ void describe(config::Fields& f, StepItem& item) {
 
 struct ScriptFile {
   std::string name;
+  std::string robot;
+  std::string world;
   std::vector<StepItem> steps;
 };
 void describe(config::Fields& f, ScriptFile& script) {
   f.field("name", script.name);
+  f.field("robot", script.robot);
+  f.field("world", script.world);
   f.require("steps");
   f.list("steps", script.steps);
   f.check("steps", !script.steps.empty() && script.steps.size() <= kMaxSteps, "must have 1 to 1000 steps");
+}
+
+/// A file that the script at `script` names under `key`, relative to the script's folder.
+Status resolve(const fs::path& script, const std::string& key, fs::path& file) {
+  if (file.empty()) {
+    return {};
+  }
+  const fs::path there = fs::absolute(script.parent_path() / file).lexically_normal();
+  std::error_code error;
+  if (!fs::is_regular_file(there, error)) {
+    return fail(Errc::kNotFound, script.string() + ": " + key + ": there is no file " + there.string() +
+                                     "; write its path relative to the script's folder, or leave '" + key + "' out");
+  }
+  file = there;
+  return {};
 }
 
 }  // namespace
@@ -351,6 +370,8 @@ Result<Script> parse_script(std::string_view text, const std::string& name) {
   }
   Script script;
   script.name = file.name.empty() ? fs::path(name).stem().string() : file.name;
+  script.robot = file.robot;
+  script.world = file.world;
   for (StepItem& item : file.steps) {
     script.steps.push_back(std::move(item.step));
   }
@@ -362,7 +383,15 @@ Result<Script> load_script(const fs::path& path) {
   if (!text) {
     return tl::unexpected<Error>(text.error());
   }
-  return parse_script(*text, path.string());
+  Result<Script> script = parse_script(*text, path.string());
+  if (script) {
+    for (const auto& [key, file] : {std::pair("robot", &script->robot), std::pair("world", &script->world)}) {
+      if (const Status ok = resolve(path, key, *file); !ok) {
+        return tl::unexpected<Error>(ok.error());
+      }
+    }
+  }
+  return script;
 }
 
 }  // namespace seeker::cli

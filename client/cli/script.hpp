@@ -97,13 +97,18 @@ struct Step {
 
 struct Script {
   std::string name;
+  std::filesystem::path robot;  ///< the robot file that the script was written for; empty: any robot
+  std::filesystem::path world;  ///< the world it plays in; empty: that of the robot file
   std::vector<Step> steps;
 };
 
 inline constexpr std::size_t kMaxSteps = 1000;
 
-/// Reads a script; errors name file, line and path. Targets' files are not opened (see check_targets()).
+/// Reads a script; errors name file, line and path. No other file is opened: `robot` and `world` stay as written, and
+/// targets are looked for by check_missions().
 [[nodiscard]] Result<Script> parse_script(std::string_view text, const std::string& name);
+/// Reads a script file; `robot` and `world` become paths that do not depend on its folder. Errors: those of
+/// parse_script(), kNotFound where the script names a robot or world file that is not there.
 [[nodiscard]] Result<Script> load_script(const std::filesystem::path& path);
 
 /// Whether the step starts a mission.

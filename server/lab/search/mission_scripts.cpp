@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <regex>
+#include <optional>
 #include <thread>
 
 #include "common/config/yaml.hpp"
@@ -14,14 +14,42 @@ namespace {
 constexpr std::chrono::milliseconds kPollPeriod(50);
 constexpr std::chrono::seconds kEndLimit(20);
 
-/// A script says in its first comment which world it is for, as config/worlds/NAME.yaml; nothing: the robot file's.
-std::optional<std::string> world_named_in(const std::filesystem::path& script) {
-  const Result<std::string> text = config::read_text_file(script);
-  std::smatch match;
-  if (!text || !std::regex_search(*text, match, std::regex("config/worlds/([A-Za-z0-9_-]+\\.yaml)"))) {
-    return std::nullopt;
+/// What `seeker run --check --json` says of a script. Only what it is for matters here.
+struct ScriptSetup {
+  std::string script;
+  bool ok = false;
+  std::optional<std::string> robot;  ///< a robot file; nothing: any robot will do
+  std::optional<std::string> world;  ///< a world file; nothing: that of the robot file
+  int steps_planned = 0;
+  std::vector<std::string> steps;
+};
+void describe(config::Fields& f, ScriptSetup& setup) {
+  f.field("script", setup.script);
+  f.field("ok", setup.ok);
+  f.optional_field("robot", setup.robot);
+  f.optional_field("world", setup.world);
+  f.field("steps_planned", setup.steps_planned);
+  f.field("steps", setup.steps);
+}
+
+/// The robot and the world that a script names, as the client reads it, which is the one strict reader of scripts.
+Result<ScriptSetup> setup_of(const ScriptParams& params, const std::filesystem::path& script,
+                             const std::filesystem::path& folder) {
+  const std::filesystem::path answer = folder / "script.json";
+  Result<ChildProcess> client = ChildProcess::start(
+      params.programs / "seeker",
+      {"run", script.string(), "--check", "--json", "--targets", (params.config / "targets").string()}, answer);
+  if (!client) {
+    return tl::unexpected<Error>(client.error());
   }
-  return match[1].str();
+  if (client->wait(params.start_limit) != 0) {
+    return fail(Errc::kParse, "the client refuses " + script.string() + "; its reason is in " + answer.string());
+  }
+  ScriptSetup setup;
+  if (const Status ok = config::load_file(answer, setup); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  return setup;
 }
 
 /// The port that the server writes once it can be reached.
@@ -44,13 +72,18 @@ Check play(const ScriptParams& params, const std::filesystem::path& script) {
   std::filesystem::create_directories(folder);
   Check check{.id = "R12", .passed = false, .figures = {{"script", name}}};
 
-  std::vector<std::string> arguments = {"--config",    (params.config / "robots" / "sim.yaml").string(),
-                                        "--port",      "0",
-                                        "--state",     (folder / "state").string(),
-                                        "--port-file", (folder / "port").string()};
-  if (const std::optional<std::string> world = world_named_in(script)) {
-    arguments.insert(arguments.end(),
-                     {"--set", "sim.world=" + std::filesystem::absolute(params.config / "worlds" / *world).string()});
+  const Result<ScriptSetup> setup = setup_of(params, script, folder);
+  if (!setup) {
+    check.figures.emplace_back("problem", "script-refused");
+    return check;
+  }
+  std::vector<std::string> arguments = {
+      "--config",    setup->robot.value_or((params.config / "robots" / "sim.yaml").string()),
+      "--port",      "0",
+      "--state",     (folder / "state").string(),
+      "--port-file", (folder / "port").string()};
+  if (setup->world) {
+    arguments.insert(arguments.end(), {"--set", "sim.world=" + *setup->world});
   }
   Result<ChildProcess> server = ChildProcess::start(params.programs / "seekerd", arguments, folder / "seekerd.log");
   if (!server) {

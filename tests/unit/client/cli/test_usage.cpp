@@ -84,6 +84,22 @@ TEST_F(Usage, ACheckedScriptIsADocumentWithJson) {
   EXPECT_NE(run({"run", "--check", path("ok.yaml")}).err.find("is sound: 1 step\n"), std::string::npos);
 }
 
+TEST_F(Usage, AScriptSaysWhichRobotAndWorldItIsFor) {
+  write("office.yaml", "");
+  write("ok.yaml", "name: tea\nworld: ./office.yaml\nsteps:\n  - goto: {waypoints: [[1, 2]]}\n");
+  const Ran ran = run({"run", "--check", path("ok.yaml"), "--json"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.out, "{\"script\":\"tea\",\"ok\":true,\"world\":\"" + path("office.yaml") +
+                         "\",\"steps_planned\":1,\"steps\":[]}\n");
+}
+
+TEST_F(Usage, AScriptForARobotThatIsNotThereIsRefused) {
+  write("lost.yaml", "robot: ../none.yaml\nsteps:\n  - goto: {waypoints: [[1, 2]]}\n");
+  const Ran ran = run({"run", "--check", path("lost.yaml")});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("robot: there is no file"), std::string::npos) << ran.err;
+}
+
 TEST_F(Usage, AnEndedPipeIsNoErrorAndAFullDiskIs) {
   for (const bool ended : {true, false}) {
     std::ostringstream out;
