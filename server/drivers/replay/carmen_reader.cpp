@@ -1,6 +1,7 @@
 #include "server/drivers/replay/carmen_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -52,7 +53,12 @@ CarmenReader::CarmenReader(LineFile file, const LogTraits& traits)
     : file_(std::move(file)),
       traits_(traits),
       odometry_order_(traits.odometry_period_s),
-      scan_order_(traits.scan_period_s) {}
+      scan_order_(traits.scan_period_s) {
+  summary_.invented_period_s = traits.invented_period_s;
+  if (traits.invented_period_s) {
+    invented_clock_.emplace(*traits.invented_period_s / traits.records_per_scan);
+  }
+}
 
 void CarmenReader::count_bad(std::uint64_t line, std::string reason) {
   ++summary_.bad;
@@ -119,7 +125,10 @@ bool CarmenReader::look_ahead() {
   return !waiting_.empty();
 }
 
-bool CarmenReader::place(CarmenRecord& record, std::uint64_t line) {
+Result<double> CarmenReader::stamp_for(const CarmenRecord& record) {
+  if (invented_clock_) {
+    return invented_clock_->place(record);
+  }
   const bool scan = is_scan(record);
   std::vector<double> following_s;
   for (const Waiting& next : waiting_) {
@@ -127,13 +136,17 @@ bool CarmenReader::place(CarmenRecord& record, std::uint64_t line) {
       following_s.push_back(stamp_of(next.record));
     }
   }
-  const Result<double> stamp_s = (scan ? scan_order_ : odometry_order_).place(stamp_of(record), following_s, offset_s_);
+  return (scan ? scan_order_ : odometry_order_).place(stamp_of(record), following_s, offset_s_);
+}
+
+bool CarmenReader::place(CarmenRecord& record, std::uint64_t line) {
+  const Result<double> stamp_s = stamp_for(record);
   if (!stamp_s) {
     count_bad(line, stamp_s.error().message);
     return false;
   }
   std::visit([&](auto& r) { r.stamp_s = *stamp_s; }, record);
-  ++(scan ? summary_.scans : summary_.odometry);
+  ++(is_scan(record) ? summary_.scans : summary_.odometry);
   first_s_ = first_s_.value_or(*stamp_s);
   summary_.duration_s = std::max(summary_.duration_s, *stamp_s - *first_s_);
   return true;
@@ -158,6 +171,11 @@ std::string describe(const ReplaySummary& summary) {
   if (!summary.examples.empty()) {
     text += " (first: line " + std::to_string(summary.examples.front().number) + ", " +
             summary.examples.front().reason + ")";
+  }
+  if (summary.invented_period_s) {
+    text += "; its stamps are too coarse to tell when anything was recorded: scans are taken to be " +
+            std::to_string(static_cast<int>(std::lround(1e3 * *summary.invented_period_s))) +
+            " ms apart, and more where the robot moved far, so no time or speed of it is real";
   }
   if (summary.overtaken > 0) {
     text += "; " + std::to_string(summary.overtaken) + " scans were overtaken by newer ones";

@@ -12,6 +12,7 @@
 
 #include "common/core/result.hpp"
 #include "server/drivers/replay/carmen_line.hpp"
+#include "server/drivers/replay/invented_clock.hpp"
 #include "server/drivers/replay/line_file.hpp"
 #include "server/drivers/replay/log_survey.hpp"
 #include "server/drivers/replay/stamp_order.hpp"
@@ -23,10 +24,12 @@ struct ReplaySummary {
   std::uint64_t lines = 0;
   std::uint64_t odometry = 0;
   std::uint64_t scans = 0;
-  std::uint64_t ignored = 0;      ///< comments, PARAM, types not used here, scans written a second time
-  std::uint64_t bad = 0;          ///< malformed, too long, or with a stamp out of order
-  std::uint64_t overtaken = 0;    ///< scans that were replaced by a newer one before anyone read them
-  double duration_s = 0.0;        ///< from the first stamp to the last
+  std::uint64_t ignored = 0;    ///< comments, PARAM, types not used here, scans written a second time
+  std::uint64_t bad = 0;        ///< malformed, too long, or with a stamp out of order
+  std::uint64_t overtaken = 0;  ///< scans that were replaced by a newer one before anyone read them
+  double duration_s = 0.0;      ///< from the first stamp to the last
+  /// What a scan is taken to last where the log's own stamps are too coarse to tell; else nothing.
+  std::optional<double> invented_period_s;
   std::vector<BadLine> examples;  ///< the first BadLines::kMaxExamples bad lines
   std::string damage;             ///< why the file ended early (cut or damaged compression); empty otherwise
 };
@@ -62,6 +65,7 @@ class CarmenReader {
   void mend(CarmenScan& scan) const;
   /// Puts a record in its place in time and counts it; false where its stamp is wrong.
   [[nodiscard]] bool place(CarmenRecord& record, std::uint64_t line);
+  [[nodiscard]] Result<double> stamp_for(const CarmenRecord& record);
   void count_bad(std::uint64_t line, std::string reason);
 
   LineFile file_;
@@ -69,6 +73,7 @@ class CarmenReader {
   ReplaySummary summary_;
   std::deque<Waiting> waiting_;
   bool at_end_ = false;
+  std::optional<InventedClock> invented_clock_;  ///< where the stamps do not tell when a record was made
   StampOrder odometry_order_;
   StampOrder scan_order_;
   double offset_s_ = 0.0;              ///< from the log's clock to one that was never set

@@ -24,10 +24,23 @@ constexpr double kLeastShare = 0.05;
 constexpr std::uint64_t kScans = 500;
 constexpr std::uint64_t kMostScans = 5000;
 
+/// Fewer changes of the stamp in so many scans, and the clock counted so slowly that the scans' rate is not to be had.
+constexpr std::uint64_t kChanges = 3;
+constexpr std::uint64_t kFewScans = 20;
+
+/// How fast a robot that maps a building usually drives and turns at the most, and how often scanners scan.
+constexpr double kUsual_m_s = 0.5;
+constexpr double kUsual_rad_s = 0.8;
+constexpr double kShortestScan_s = 0.05;
+constexpr double kLongestScan_s = 1.0;
+/// Of all scans so many are no faster than usual: a few more are jumps of the odometry, or gaps of the log.
+constexpr double kUsualShare = 0.95;
+
 }  // namespace
 
 void LogSurvey::Motion::add(double stamp_s, const std::optional<Pose2>& pose) {
   first_s = records == 0 ? stamp_s : first_s;
+  changes += records > 0 && stamp_s != last_s ? 1 : 0;
   last_s = stamp_s;
   ++records;
   if (!pose) {
@@ -62,6 +75,7 @@ void LogSurvey::add_scan(const CarmenScan& scan) {
   if (odometry_.records == 0) {
     robot_ = scan.odom_T_base;
   }
+  watch_motion();
   double farthest_m = 0.0;
   for (const float range_m : scan.ranges_m) {
     farthest_m = std::isfinite(range_m) ? std::max(farthest_m, static_cast<double>(range_m)) : farthest_m;
@@ -84,8 +98,29 @@ void LogSurvey::watch_reach(double farthest_m) {
   }
 }
 
+void LogSurvey::watch_motion() {
+  if (robot_ && robot_at_scan_) {
+    const double turned_rad = std::abs(wrap_angle(robot_->theta_rad - robot_at_scan_->theta_rad));
+    least_s_.push_back(std::max(distance_m(*robot_at_scan_, *robot_) / kUsual_m_s, turned_rad / kUsual_rad_s));
+  }
+  robot_at_scan_ = robot_;
+}
+
+bool LogSurvey::stamps_are_coarse() const { return scans_.records >= kFewScans && scans_.changes < kChanges; }
+
+double LogSurvey::plausible_period_s() const {
+  if (least_s_.empty()) {
+    return LogTraits{}.scan_period_s;
+  }
+  std::vector<double> least_s = least_s_;
+  const auto usual =
+      least_s.begin() + static_cast<std::ptrdiff_t>(kUsualShare * static_cast<double>(least_s.size() - 1));
+  std::nth_element(least_s.begin(), usual, least_s.end());
+  return std::clamp(*usual, kShortestScan_s, kLongestScan_s);
+}
+
 bool LogSurvey::knows_enough() const {
-  return scans_.records >= kMostScans || (scans_.records >= kScans && places_ >= kPlaces);
+  return scans_.records >= kMostScans || (scans_.records >= kScans && places_ >= kPlaces && !stamps_are_coarse());
 }
 
 LogTraits LogSurvey::traits() const {
@@ -97,6 +132,11 @@ LogTraits LogSurvey::traits() const {
   traits.scan_poses_stand = scans_.first && !scans_.moved && odometry_.moved;
   traits.odometry_period_s = odometry_.period_s();
   traits.scan_period_s = scans_.period_s();
+  if (stamps_are_coarse()) {
+    traits.invented_period_s = plausible_period_s();
+    traits.records_per_scan =
+        static_cast<double>(scans_.records + odometry_.records) / static_cast<double>(scans_.records);
+  }
   return traits;
 }
 

@@ -143,7 +143,7 @@ Status reproduce_active_slam(const ReproduceParams& params, Report& report) {
   std::filesystem::create_directories(params.out, error);
   std::vector<ExploreResult> all;
   for (const ExploreWorld& world : explore_worlds()) {
-    if (!chosen(params.worlds, world.name)) {
+    if (!chosen(params.worlds, world.name) || (params.smallest && &world != &explore_worlds().front())) {
       continue;
     }
     const Result<WorldExperiment> experiment = run_world(params, world);

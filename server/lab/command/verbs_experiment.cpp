@@ -34,18 +34,19 @@ const std::map<std::string, api::OnFound> kOnFound = {
 struct Reproduction {
   Status (*run)(const ReproduceParams&, Report&);
   const char* seeds;              ///< where the command line names none
+  const char* smallest_seeds;     ///< the same with --smallest
   std::set<std::string> takes{};  ///< of kSpecialOptions
 };
 /// What only some reproductions heed. One that is asked for anything else would show figures of other settings.
 constexpr std::array kSpecialOptions{"--set", "--robot", "--world", "--strategy", "--programs", "--no-sockets"};
 const std::map<std::string, Reproduction> kReproductions = {
-    {"active-slam", {&reproduce_active_slam, "1-20", {"--set", "--world", "--strategy"}}},
-    {"consistency", {&reproduce_consistency, "1-50"}},
-    {"line-detection", {&reproduce_line_detection, "1-100"}},
-    {"map-merging", {&reproduce_map_merging, "1-4", {"--set"}}},
-    {"search", {&reproduce_search, "1-20", {"--set", "--programs", "--no-sockets"}}},
-    {"solids", {&reproduce_solids, "1-5"}},
-    {"stereo-database", {&reproduce_stereo_database, "1-10", {"--set"}}}};
+    {"active-slam", {&reproduce_active_slam, "1-20", "1", {"--set", "--world", "--strategy"}}},
+    {"consistency", {&reproduce_consistency, "1-50", "1-3"}},
+    {"line-detection", {&reproduce_line_detection, "1-100", "1-3"}},
+    {"map-merging", {&reproduce_map_merging, "1-4", "1", {"--set"}}},
+    {"search", {&reproduce_search, "1-20", "1", {"--set", "--programs", "--no-sockets"}}},
+    {"solids", {&reproduce_solids, "1-5", "1"}},
+    {"stereo-database", {&reproduce_stereo_database, "1-10", "1", {"--set"}}}};
 /// The section of the specification that a reproduction comes from, as another name of it.
 const std::map<std::string, std::string> kAliases = {
     {"r2", "consistency"}, {"s1", "active-slam"},    {"s2", "stereo-database"}, {"s3", "search"},
@@ -182,6 +183,7 @@ struct ReproduceOptions {
   std::string programs;
   std::vector<std::string> worlds;
   std::vector<std::string> strategies;
+  bool smallest = false;
   bool no_sockets = false;
 };
 
@@ -201,8 +203,9 @@ int run_reproduce(const CLI::App& verb, const ReproduceOptions& options) {
     return report_error("reproduce " + options.name + " takes no " + option +
                         ": its condition fixes what that would change; leave it out");
   }
-  const Result<std::vector<std::uint64_t>> seeds =
-      parse_seeds(o.seeds.empty() ? kReproductions.at(name).seeds : o.seeds);
+  const Reproduction& reproduction = kReproductions.at(name);
+  const char* usual_seeds = options.smallest ? reproduction.smallest_seeds : reproduction.seeds;
+  const Result<std::vector<std::uint64_t>> seeds = parse_seeds(o.seeds.empty() ? usual_seeds : o.seeds);
   if (!seeds) {
     return report_error(seeds.error().message);
   }
@@ -215,10 +218,11 @@ int run_reproduce(const CLI::App& verb, const ReproduceOptions& options) {
   params.jobs = o.jobs;
   params.show_progress = show_progress();
   params.sockets = !options.no_sockets;
+  params.smallest = options.smallest;
   params.worlds = options.worlds;
   params.strategies = options.strategies;
   Report report(o.json ? nullptr : &std::cout);
-  const Status done = kReproductions.at(name).run(params, report);
+  const Status done = reproduction.run(params, report);
   if (o.json) {
     std::cout << report.json() << std::flush;
   }
@@ -268,6 +272,8 @@ Verb add_reproduce(CLI::App& app) {
   verb->add_option("--strategy", o->strategies, "active-slam: only this strategy (repeatable)")
       ->check(CLI::IsMember(explore_strategies()));
   verb->add_option("--programs", o->programs, "Folder of seekerd and seeker (default: beside this program)");
+  verb->add_flag("--smallest", o->smallest,
+                 "The smallest form: one seed or a few, the smallest world, fewer pictures; shows that all of it runs");
   verb->add_flag("--no-sockets", o->no_sockets, "Leave out R12, which starts server and client as processes");
   return [o, verb] { return run_reproduce(*verb, *o); };
 }

@@ -19,7 +19,9 @@ struct ReproduceParams {
   bool show_progress = false;
   std::vector<std::string> worlds;      ///< of active-slam: only these; empty: all
   std::vector<std::string> strategies;  ///< of active-slam: only these; empty: all
-  bool sockets = true;                  ///< false: leave out R12, the only part with processes and network
+  /// The smallest form of everything that is regenerated: the smallest world, the fewest pictures. For tests.
+  bool smallest = false;
+  bool sockets = true;  ///< false: leave out R12, the only part with processes and network
 };
 
 }  // namespace seeker::lab

@@ -83,10 +83,12 @@ class LoadMeter {
       const double loop_s = thread_seconds() - since_s_;
       const Image picture = simulation.omni_image();
       const double before_s = thread_seconds();
-      (void)vision::detect_sift(vision::to_grey_mat(picture), vision::place_detector_params());
-      const double features_s = thread_seconds() - before_s;
-      samples_.push_back(
-          {time_s, samples_.empty() ? 0.0 : loop_s, features_s, loop.own_topology().topology.nodes.size() > nodes_});
+      const auto features = vision::detect_sift(vision::to_grey_mat(picture), vision::place_detector_params());
+      samples_.push_back({.time_s = time_s,
+                          .loop_s = samples_.empty() ? 0.0 : loop_s,
+                          .features_s = thread_seconds() - before_s,
+                          .features = static_cast<int>(features.size()),
+                          .node = loop.own_topology().topology.nodes.size() > nodes_});
       nodes_ = loop.own_topology().topology.nodes.size();
       since_s_ = thread_seconds();
     }
@@ -150,6 +152,9 @@ Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
   report.add(check_sharing(*fleets, *runs));
   if (Status ok = image::write_file(params.out / "fleet.csv", fleet_table(*fleets).csv()); !ok) {
     return ok;
+  }
+  if (params.smallest) {
+    return {};
   }
   const auto trapped = fleet_missing(fleet_specs(params, kTrapWorld), params.out, params.show_progress);
   if (!trapped) {

@@ -66,7 +66,7 @@ RunKind<StereoSpec, StereoResult> kind_of(const fs::path& out) {
   kind.settings = [](const StereoSpec& spec) { return settings_of(spec); };
   kind.load = load_run<StereoResult>;
   kind.make = [out](const StereoSpec& spec, const std::string& settings) -> Result<StereoResult> {
-    Result<StereoRecord> record = run_s2(spec);
+    Result<StereoRecord> record = run_stereo(spec);
     if (!record) {
       return tl::unexpected<Error>(record.error());
     }

@@ -15,6 +15,7 @@ struct Mean {
   double rms_m = 0.0;
   double rms_rad = 0.0;
   double nees = 0.0;
+  double compared = 0.0;
   double step_ms = 0.0;
   int unnoticed = 0;
   int runs = 0;
@@ -28,13 +29,14 @@ Mean mean_of(const std::vector<StereoResult>& runs, std::string_view name) {
       mean.rms_m += score->rms_m;
       mean.rms_rad += score->rms_rad;
       mean.nees += score->mean_nees;
+      mean.compared += score->mean_compared;
       mean.step_ms += score->median_step_ms;
       mean.unnoticed += score->unnoticed;
       ++mean.runs;
     }
   }
   const double count = std::max(1, mean.runs);
-  for (double* value : {&mean.landmarks, &mean.rms_m, &mean.rms_rad, &mean.nees, &mean.step_ms}) {
+  for (double* value : {&mean.landmarks, &mean.rms_m, &mean.rms_rad, &mean.nees, &mean.compared, &mean.step_ms}) {
     *value /= count;
   }
   return mean;
@@ -57,7 +59,8 @@ void add(Report& report, std::string id, bool passed, const std::vector<StereoRe
   report.add({std::move(id), passed, std::move(figures)});
 }
 
-/// Errors are compared in the plane; a ratio of directions of some hundredths of a degree says nothing.
+/// Errors are compared in the plane; a ratio of directions of some hundredths of a degree says nothing. That a smaller
+/// database costs less is judged by what association compares, which no other load of the machine changes.
 void check_r3(const std::vector<StereoResult>& runs, Report& report) {
   const Mean all = mean_of(runs, "all");
   const Mean sparse = mean_of(runs, "sparse");
@@ -65,9 +68,10 @@ void check_r3(const std::vector<StereoResult>& runs, Report& report) {
   const double ratio = all.rms_m > 0.0 ? salient.rms_m / all.rms_m : 0.0;
   add(report, "R3",
       all.runs > 0 && salient.landmarks < sparse.landmarks && sparse.landmarks < all.landmarks &&
-          salient.step_ms < sparse.step_ms && sparse.step_ms < all.step_ms && ratio <= kR3ErrorRatio,
+          salient.compared < sparse.compared && sparse.compared < all.compared && ratio <= kR3ErrorRatio,
       runs,
       {{"landmarks", fixed(all.landmarks, 0) + ">" + fixed(sparse.landmarks, 0) + ">" + fixed(salient.landmarks, 0)},
+       {"compared", fixed(all.compared, 0) + ">" + fixed(sparse.compared, 0) + ">" + fixed(salient.compared, 0)},
        {"step_ms", fixed(all.step_ms, 2) + ">" + fixed(sparse.step_ms, 2) + ">" + fixed(salient.step_ms, 2)},
        {"error_ratio", fixed(ratio, 3)},
        {"limit", fixed(kR3ErrorRatio, 1)}});

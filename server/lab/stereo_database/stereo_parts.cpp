@@ -137,6 +137,7 @@ void Localisation::add(const DriveFrame& frame, const localize::StereoLocaliser&
   score_.unnoticed += localised && wrong ? 1 : 0;
   score_.mean_nees += error.dot(estimate.covariance.inverse() * error);
   score_.mean_inliers += static_cast<double>(localiser.last().inliers.size());
+  score_.mean_compared += localiser.last().in_range * static_cast<double>(localiser.last().expected.size());
   score_.rms_x_m += error(0) * error(0);
   score_.rms_y_m += error(1) * error(1);
   score_.rms_rad += error(2) * error(2);
@@ -152,6 +153,7 @@ void Localisation::finish() {
   score_.rms_rad = std::sqrt(score_.rms_rad / count);
   score_.mean_nees /= count;
   score_.mean_inliers /= count;
+  score_.mean_compared /= count;
   const auto middle = steps_ms_.begin() + static_cast<std::ptrdiff_t>(steps_ms_.size() / 2);
   std::nth_element(steps_ms_.begin(), middle, steps_ms_.end());
   score_.median_step_ms = *middle;

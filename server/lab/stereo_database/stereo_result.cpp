@@ -17,6 +17,7 @@ void describe(config::Fields& f, DatabaseScore& score) {
   f.field("rms_rad", score.rms_rad);
   f.field("mean_nees", score.mean_nees);
   f.field("mean_inliers", score.mean_inliers);
+  f.field("mean_compared", score.mean_compared);
   f.field("median_step_ms", score.median_step_ms);
   f.field("not_localised", score.not_localised);
   f.field("unnoticed", score.unnoticed);

@@ -24,6 +24,7 @@ struct DatabaseScore {
   double rms_rad = 0.0;
   double mean_nees = 0.0;  ///< of (x, y, theta): 3 where the filter tells its error
   double mean_inliers = 0.0;
+  double mean_compared = 0.0;   ///< features of a frame times landmarks that should show in it: association's work
   double median_step_ms = 0.0;  ///< association and update of a frame, its features apart
   int not_localised = 0;        ///< frames that were not LOCALISED
   int unnoticed = 0;            ///< frames that were LOCALISED and wrong by more than kUnnoticed_m or kUnnoticed_rad
@@ -34,7 +35,7 @@ inline constexpr double kUnnoticed_m = 0.25;
 inline constexpr double kUnnoticed_rad = 0.087;  ///< 5 degrees
 
 struct StereoResult {
-  int schema = 1;
+  int schema = 2;    ///< 2: with mean_compared
   std::string mode;  ///< default or paper
   std::uint64_t seed = 0;
   std::string settings;

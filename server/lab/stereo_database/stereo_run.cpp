@@ -43,9 +43,9 @@ SimSpec sim_spec_of(const StereoSpec& spec) {
 }
 
 /// The whole of one seed, step by step.
-class S2Run {
+class StereoRun {
  public:
-  S2Run(const StereoSpec& spec, const Bench& bench, sim::World world)
+  StereoRun(const StereoSpec& spec, const Bench& bench, sim::World world)
       : spec_(spec), bench_(bench), world_(std::move(world)), rng_(spec.seed) {}
 
   Status survey_and_drive();
@@ -69,8 +69,8 @@ class S2Run {
   std::vector<double> relocalise_ms_;
 };
 
-Status S2Run::localise(const std::string& name, const Database& database, const Frames& frames,
-                       localize::DatabaseUpdate* update) {
+Status StereoRun::localise(const std::string& name, const Database& database, const Frames& frames,
+                           localize::DatabaseUpdate* update) {
   Localisation localisation(bench_, name, database);
   if (Status ok = localisation.run(frames, spec_.seed, update); !ok) {
     return ok;
@@ -85,7 +85,7 @@ Status S2Run::localise(const std::string& name, const Database& database, const 
   return {};
 }
 
-void S2Run::note_frames(const Frames& frames) {
+void StereoRun::note_frames(const Frames& frames) {
   Table table(
       {"frame", "left_keypoints", "right_keypoints", "matches_before_constraints", "matches_after_constraints"});
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -97,7 +97,7 @@ void S2Run::note_frames(const Frames& frames) {
   record_.table1_csv = table.csv();
 }
 
-Status S2Run::survey_and_drive() {
+Status StereoRun::survey_and_drive() {
   Rng rng = rng_.fork("survey");
   const auto views = stereo::survey_views(bench_, world_, rng);
   if (!views) {
@@ -128,7 +128,7 @@ Status S2Run::survey_and_drive() {
   return {};
 }
 
-Status S2Run::change_and_update() {
+Status StereoRun::change_and_update() {
   Rng rng = rng_.fork("furniture");
   const Result<sim::World> moved = move_furniture(world_, bench_.model, kMovedShare, rng);
   if (!moved) {
@@ -165,7 +165,7 @@ Status S2Run::change_and_update() {
 }
 
 /// Robots that are switched on anywhere in the surveyed room.
-Status S2Run::wake_up() {
+Status StereoRun::wake_up() {
   StereoResult& result = record_.result;
   Rng rng = rng_.fork("places");
   for (const Pose2& pose : random_poses(world_, bench_.model, kPlaces, rng)) {
@@ -186,7 +186,7 @@ Status S2Run::wake_up() {
   return {};
 }
 
-Status S2Run::look_at_foreign() {
+Status StereoRun::look_at_foreign() {
   StereoResult& result = record_.result;
   Result<sim::World> foreign = load_laboratory(spec_.config, kForeignTextures + spec_.seed);
   if (!foreign) {
@@ -211,7 +211,7 @@ Status S2Run::look_at_foreign() {
   return {};
 }
 
-Status S2Run::relocalise() {
+Status StereoRun::relocalise() {
   // What is asked of the localiser is not asked of the paper's.
   if (spec_.paper) {
     return {};
@@ -242,7 +242,7 @@ Result<std::string> settings_of(const StereoSpec& spec) {
   return hash->hex();
 }
 
-Result<StereoRecord> run_s2(const StereoSpec& spec) {
+Result<StereoRecord> run_stereo(const StereoSpec& spec) {
   const Result<app::RobotOptions> options = sim_options(sim_spec_of(spec));
   if (!options) {
     return tl::unexpected<Error>(options.error());
@@ -252,8 +252,8 @@ Result<StereoRecord> run_s2(const StereoSpec& spec) {
     return tl::unexpected<Error>(world.error());
   }
   const Bench bench = stereo::bench_of(spec, *options);
-  S2Run run(spec, bench, std::move(*world));
-  for (const auto step : {&S2Run::survey_and_drive, &S2Run::change_and_update, &S2Run::relocalise}) {
+  StereoRun run(spec, bench, std::move(*world));
+  for (const auto step : {&StereoRun::survey_and_drive, &StereoRun::change_and_update, &StereoRun::relocalise}) {
     if (Status ok = (run.*step)(); !ok) {
       return tl::unexpected<Error>(ok.error());
     }

@@ -19,6 +19,6 @@ struct StereoSpec {
 };
 
 [[nodiscard]] Result<std::string> settings_of(const StereoSpec& spec);
-[[nodiscard]] Result<StereoRecord> run_s2(const StereoSpec& spec);
+[[nodiscard]] Result<StereoRecord> run_stereo(const StereoSpec& spec);
 
 }  // namespace seeker::lab

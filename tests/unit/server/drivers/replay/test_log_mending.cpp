@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/core/rng.hpp"
 #include "server/drivers/replay/carmen_reader.hpp"
+#include "server/drivers/replay/invented_clock.hpp"
 #include "server/drivers/replay/log_survey.hpp"
 #include "server/drivers/replay/stamp_order.hpp"
 #include "tests/unit/server/drivers/replay/temporary_log.hpp"
@@ -180,6 +182,67 @@ TEST(LogSurvey, OdometryOfScansThatStandsStillWhileTheRobotMovesIsNone) {
   const std::vector<CarmenScan> scans = scans_of(text);
   ASSERT_EQ(scans.size(), 10U);
   EXPECT_FALSE(scans.front().odom_T_base);
+}
+
+/// A robot that drives 0.1 m between scans and sometimes 0.4 m, with odometry between; all stamps cut to six digits.
+std::string log_without_times(int scans) {
+  std::string text;
+  double x_m = 0.0;
+  for (int k = 0; k < scans; ++k) {
+    x_m += k % 50 == 49 ? 0.4 : 0.1;
+    const std::string x = std::to_string(x_m);
+    text += "ODOM " + x + " 0 0 0.1 0 0 1.01893e+09 host 1\n";
+    text += "FLASER 3 1 1 1 " + x + " 0 0 " + x + " 0 0 1.01893e+09 host 1.01893e+09\n";
+  }
+  return text;
+}
+
+TEST(InventedClock, StampsThatWereCutGiveWayToTimesThatTheMotionAllows) {
+  const std::vector<CarmenScan> scans = scans_of(log_without_times(200));
+  ASSERT_EQ(scans.size(), 200U);
+  for (std::size_t k = 1; k < scans.size(); ++k) {
+    const double step_s = scans[k].stamp_s - scans[k - 1].stamp_s;
+    const double way_m = scans[k].odom_T_base->x_m - scans[k - 1].odom_T_base->x_m;
+    EXPECT_GE(step_s, 0.05) << "scan " << k;
+    EXPECT_LE(way_m / step_s, 1.01) << "scan " << k << ": faster than wheels go without effort";
+  }
+  EXPECT_LT(scans.back().stamp_s - scans.front().stamp_s, 200.0) << "and not a second for each scan";
+}
+
+TEST(InventedClock, OdometryAndScansKeepTheOrderOfTheLog) {
+  const TemporaryLog log("order", log_without_times(60));
+  auto reader = CarmenReader::open(log.path());
+  ASSERT_TRUE(reader) << reader.error().message;
+  double last_s = -1.0;
+  std::uint64_t records = 0;
+  while (const auto record = reader->next()) {
+    EXPECT_GT(stamp_of(*record), last_s) << "record " << records;
+    last_s = stamp_of(*record);
+    ++records;
+  }
+  EXPECT_EQ(records, 120U);
+  EXPECT_THAT(describe(reader->summary()), ::testing::HasSubstr("too coarse to tell"));
+}
+
+TEST(InventedClock, AJumpOfTheOdometryStaysOne) {
+  InventedClock clock(0.1);
+  EXPECT_EQ(clock.place(CarmenOdometry{0.0, {0.0, 0.0, 0.0}, {}}), 0.0);
+  EXPECT_NEAR(clock.place(CarmenOdometry{0.0, {2.0, 0.0, 0.0}, {}}), 2.0, 1e-9);
+  EXPECT_NEAR(clock.place(CarmenOdometry{0.0, {80.0, 0.0, 0.0}, {}}), 2.1, 1e-9);
+}
+
+TEST(InventedClock, AClockThatCountsSecondsIsBelieved) {
+  std::string text;
+  for (int k = 0; k < 60; ++k) {
+    text += front_laser(0.1 * k, 1000.0 + k / 5, "1 1 1");
+  }
+  const TemporaryLog log("seconds", text);
+  auto reader = CarmenReader::open(log.path());
+  ASSERT_TRUE(reader) << reader.error().message;
+  while (reader->next()) {
+  }
+  EXPECT_FALSE(reader->summary().invented_period_s);
+  EXPECT_NEAR(reader->summary().duration_s, 12.0, 1.0);
 }
 
 }  // namespace
