@@ -45,7 +45,7 @@ const std::map<std::string, Reproduction> kReproductions = {
     {"line-detection", {&reproduce_line_detection, "1-100", "1-3"}},
     {"map-merging", {&reproduce_map_merging, "1-4", "1", {"--set"}}},
     {"search", {&reproduce_search, "1-20", "1", {"--set", "--programs", "--no-sockets"}}},
-    {"solids", {&reproduce_solids, "1-5", "1"}},
+    {"solids", {&reproduce_solids, "1-5", "3"}},
     {"stereo-database", {&reproduce_stereo_database, "1-10", "1", {"--set"}}}};
 /// The section of the specification that a reproduction comes from, as another name of it.
 const std::map<std::string, std::string> kAliases = {

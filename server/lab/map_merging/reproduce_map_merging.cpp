@@ -101,7 +101,8 @@ class LoadMeter {
   double since_s_ = 0.0;
 };
 
-Status draw_single(const ReproduceParams& params, Report& report) {
+/// Figs 6 and 11 by one run of the first seed; its numbers.
+Result<ExploreResult> draw_single(const ReproduceParams& params, Report& report) {
   LoadMeter meter;
   const ExploreSpec spec = spec_of(params, params.seeds.front());
   const Result<ExploreRecord> record = run_explore(
@@ -111,10 +112,40 @@ Status draw_single(const ReproduceParams& params, Report& report) {
   }
   const Image map = draw_exploration(*record, "One robot by topology, seed " + std::to_string(spec.seed));
   if (Status ok = image::write_png(params.out / "fig6-single.png", map); !ok) {
-    return ok;
+    return tl::unexpected<Error>(ok.error());
   }
   report.add(check_keyframes(meter.samples()));
-  return image::write_png(params.out / "fig11-load.png", load_figure(meter.samples()));
+  if (Status ok = image::write_png(params.out / "fig11-load.png", load_figure(meter.samples())); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  return record->result;
+}
+
+/// Explorations of one robot: figures, tables and their condition. The smallest form is the one run of the figures.
+Result<std::vector<ExploreResult>> run_single(const ReproduceParams& params, Report& report) {
+  const Result<ExploreResult> drawn = draw_single(params, report);
+  if (!drawn) {
+    return tl::unexpected<Error>(drawn.error());
+  }
+  std::vector<ExploreSpec> specs;
+  specs.reserve(params.seeds.size());
+  for (const std::uint64_t seed : params.seeds) {
+    specs.push_back(spec_of(params, seed));
+  }
+  Result<std::vector<ExploreResult>> runs = params.smallest
+                                                ? std::vector<ExploreResult>{*drawn}
+                                                : explore_missing(specs, params.out, params.jobs, params.show_progress);
+  if (!runs) {
+    return runs;
+  }
+  report.add(check_single(*runs));
+  if (Status ok = image::write_file(params.out / "runs.csv", explore_runs_table(*runs).csv()); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  if (Status ok = image::write_file(params.out / "table.csv", explore_summary_table(*runs).csv()); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  return runs;
 }
 
 }  // namespace
@@ -125,24 +156,9 @@ Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
   if (Status ok = draw_tree(params, report); !ok) {
     return ok;
   }
-  std::vector<ExploreSpec> specs;
-  specs.reserve(params.seeds.size());
-  for (const std::uint64_t seed : params.seeds) {
-    specs.push_back(spec_of(params, seed));
-  }
-  const Result<std::vector<ExploreResult>> runs = explore_missing(specs, params.out, params.jobs, params.show_progress);
+  const Result<std::vector<ExploreResult>> runs = run_single(params, report);
   if (!runs) {
     return tl::unexpected<Error>(runs.error());
-  }
-  report.add(check_single(*runs));
-  if (Status ok = image::write_file(params.out / "runs.csv", explore_runs_table(*runs).csv()); !ok) {
-    return ok;
-  }
-  if (Status ok = image::write_file(params.out / "table.csv", explore_summary_table(*runs).csv()); !ok) {
-    return ok;
-  }
-  if (Status ok = draw_single(params, report); !ok) {
-    return ok;
   }
   const auto fleets = fleet_missing(fleet_specs(params, kWorld), params.out, params.show_progress);
   if (!fleets) {

@@ -57,6 +57,7 @@ struct Report {
   std::string estimator;
   std::uint64_t scans = 0;
   double duration_s = 0.0;
+  bool times_invented = false;  // the log's own stamps were too coarse
   double path_m = 0.0;
   SlamCost cost;
   std::vector<std::pair<std::string, QualityShare>> quality;
@@ -77,6 +78,7 @@ void describe(config::Fields& f, Report& report) {
   f.field("estimator", report.estimator);
   f.field("scans", report.scans);
   f.field("duration_s", report.duration_s);
+  f.field("times_invented", report.times_invented);
   f.field("path_m", report.path_m);
   f.section("cost", report.cost);
   for (auto& [name, share] : report.quality) {
@@ -100,6 +102,7 @@ Report report_of(const SlamSource& source, const SlamRun& run) {
   report.estimator = source.estimator;
   report.scans = run.online.size();
   report.duration_s = run.log.duration_s;
+  report.times_invented = run.log.invented_period_s.has_value();
   report.path_m = length_m(run.trajectory);
   report.cost = run.cost;
   for (const LocalisationQuality quality : kQualities) {
@@ -126,7 +129,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const SlamSource& sour
       {"log", source.log.filename().string()},
       {"robot file", source.robot_file.filename().string()},
       {"estimator", source.estimator},
-      {"scans", std::to_string(run.online.size()) + " in " + fixed(run.log.duration_s, 1) + " s"},
+      {"scans", std::to_string(run.online.size()) + " in " + fixed(run.log.duration_s, 1) + " s" +
+                    (run.log.invented_period_s ? ", times invented: the log's stamps are too coarse" : "")},
       {"path", fixed(length_m(run.trajectory), 1) + " m"},
       {"wall time", fixed(cost.wall_s, 2) + " s (processor " + fixed(cost.processor_s, 2) + " s)"},
       {"ms per scan", fixed(cost.scan.mean_ms, 3) + ", median " + fixed(cost.scan.median_ms, 3)},

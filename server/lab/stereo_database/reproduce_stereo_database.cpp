@@ -89,7 +89,7 @@ std::vector<StereoSpec> specs_of(const ReproduceParams& params, bool paper) {
   for (const std::uint64_t seed : params.seeds) {
     // The paper's descriptors are found all over again: one seed tells what it does.
     if (!paper || seed == params.seeds.front()) {
-      specs.push_back({params.config, seed, paper, params.overrides});
+      specs.push_back({params.config, seed, paper, params.overrides, params.smallest});
     }
   }
   return specs;
@@ -105,6 +105,9 @@ Status reproduce_stereo_database(const ReproduceParams& params, Report& report) 
   fs::create_directories(params.out, error);
   std::vector<StereoResult> all;
   for (const bool paper : {false, true}) {
+    if (paper && params.smallest) {
+      continue;
+    }
     const Result<std::vector<StereoResult>> runs =
         resume_runs(specs_of(params, paper), kind_of(params.out), params.jobs, params.show_progress);
     if (!runs) {

@@ -31,6 +31,8 @@ constexpr std::array<double, 2> kForeignLonger = {1.05, 1.2};
 constexpr std::array<double, 2> kForeignNarrower = {0.8, 0.95};
 constexpr int kPlaces = 20;         ///< at which a robot wakes up; 200 over ten seeds
 constexpr int kForeignViews = 100;  ///< 1000 over ten seeds
+constexpr int kSmallestPlaces = 2;
+constexpr int kSmallestForeignViews = 5;
 constexpr std::uint64_t kForeignTextures = 100'000;
 
 SimSpec sim_spec_of(const StereoSpec& spec) {
@@ -168,7 +170,7 @@ Status StereoRun::change_and_update() {
 Status StereoRun::wake_up() {
   StereoResult& result = record_.result;
   Rng rng = rng_.fork("places");
-  for (const Pose2& pose : random_poses(world_, bench_.model, kPlaces, rng)) {
+  for (const Pose2& pose : random_poses(world_, bench_.model, spec_.smallest ? kSmallestPlaces : kPlaces, rng)) {
     const Result<stereo::Awakening> woken = stereo::wake_up(bench_, salient_, world_, pose, rng.bits());
     if (!woken) {
       return tl::unexpected<Error>(woken.error());
@@ -199,12 +201,12 @@ Status StereoRun::look_at_foreign() {
     return tl::unexpected<Error>(moved.error());
   }
   Rng views_rng = rng_.fork("foreign");
-  const Result<stereo::ForeignViews> views =
-      stereo::look_at_foreign(bench_, salient_, *foreign, kForeignViews, views_rng);
+  const int count = spec_.smallest ? kSmallestForeignViews : kForeignViews;
+  const Result<stereo::ForeignViews> views = stereo::look_at_foreign(bench_, salient_, *foreign, count, views_rng);
   if (!views) {
     return tl::unexpected<Error>(views.error());
   }
-  result.foreign = kForeignViews;
+  result.foreign = count;
   result.foreign_found = views->found;
   result.foreign_empty = views->empty;
   relocalise_ms_.insert(relocalise_ms_.end(), views->relocalise_ms.begin(), views->relocalise_ms.end());
@@ -237,6 +239,9 @@ Result<std::string> settings_of(const StereoSpec& spec) {
     return tl::unexpected<Error>(hash.error());
   }
   hash->add(spec.paper ? "paper" : "default");
+  if (spec.smallest) {
+    hash->add("smallest");
+  }
   // What a run is has changed with these.
   hash->add("poses adjusted, foreign rooms stretched, woken robots turn about, best landmarks kept, as configured");
   return hash->hex();

@@ -16,6 +16,7 @@ struct StereoSpec {
   std::uint64_t seed = 1;        ///< textures of the room, noise, which furniture moves
   bool paper = false;            ///< gates, descriptors and filter of the paper; else ours
   std::vector<std::string> overrides;
+  bool smallest = false;  ///< fewer places to wake up at and fewer foreign views, to see that all of it runs
 };
 
 [[nodiscard]] Result<std::string> settings_of(const StereoSpec& spec);
