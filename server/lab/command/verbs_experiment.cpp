@@ -54,6 +54,7 @@ const std::map<std::string, std::string> kAliases = {
 
 std::vector<std::string> reproduction_names() {
   std::vector<std::string> names;
+  names.reserve(kReproductions.size() + kAliases.size());
   for (const auto& [name, reproduction] : kReproductions) {
     names.push_back(name);
   }
