@@ -29,7 +29,7 @@ class SimulatedRobot {
     simulation = assembly->simulation;
     faults = assembly->faults;
     loop = std::make_unique<app::RobotLoop>(options->loop, std::move(assembly->parts), hub);
-    loop->on_event = [this](const api::Event& event) { events.push_back(event); };
+    loop->hooks().on_event = [this](const api::Event& event) { events.push_back(event); };
     loop->start();
   }
 

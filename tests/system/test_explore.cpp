@@ -17,12 +17,12 @@ api::MissionRequest explore_by(api::ExploreStrategy strategy) {
 TEST(ExploreSystem, DemoWorldIsMappedToItsEndWithoutAContact) {
   SimulatedRobot robot;
   std::vector<ExploreDecision> decisions;
-  robot.loop->on_mission = [&](const api::MissionStatus& status) {
+  robot.loop->hooks().on_mission = [&](const api::MissionStatus& status) {
     if (status.decision) {
       decisions.push_back(*status.decision);
     }
   };
-  ASSERT_TRUE(robot.loop->start_mission(explore_by(api::ExploreStrategy::kFrontier), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(explore_by(api::ExploreStrategy::kFrontier), "test"));
   robot.run(1800.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kComplete) << robot.end().cause;
   EXPECT_EQ(robot.simulation->truth().contacts, 0);
@@ -37,7 +37,7 @@ TEST(ExploreSystem, SearchThatExploresAlsoDrivesForTheMap) {
   SimulatedRobot robot({"sim.world=../worlds/no-target.yaml"});
   api::MissionRequest request = search_for("cross");
   std::get<api::SearchMission>(request.task).explore = true;
-  ASSERT_TRUE(robot.loop->start_mission(request, "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(request, "test"));
   robot.run(1800.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kNotFoundAreaCovered) << robot.end().cause;
   EXPECT_EQ(robot.simulation->truth().contacts, 0);
@@ -49,7 +49,8 @@ TEST(ExploreSystem, SearchThatExploresAlsoDrivesForTheMap) {
 
 TEST(ExploreSystem, RobotWithoutAMapOfSegmentsRefusesWithTheRemedy) {
   SimulatedRobot robot({"estimator=odometry"});
-  const Result<api::MissionId> refused = robot.loop->start_mission(explore_by(api::ExploreStrategy::kFrontier), "test");
+  const Result<api::MissionId> refused =
+      robot.loop->commands().start_mission(explore_by(api::ExploreStrategy::kFrontier), "test");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::kRefused);
   EXPECT_NE(refused.error().message.find("--set estimator=line_slam"), std::string::npos) << refused.error().message;

@@ -34,7 +34,7 @@ api::MissionRequest drive_to(const Point2& place_map) {
 
 TEST(GotoSystem, AMatOnTheStraightWayIsDrivenRound) {
   SimulatedRobot robot({corridor("goto_mat", 3.0, kMat)});
-  ASSERT_TRUE(robot.loop->start_mission(drive_to({7.0, 0.0}), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(drive_to({7.0, 0.0}), "test"));
   robot.run(180.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kComplete) << robot.mission().activity << " " << robot.end().cause;
   const sim::GroundTruth truth = robot.simulation->truth();
@@ -44,7 +44,7 @@ TEST(GotoSystem, AMatOnTheStraightWayIsDrivenRound) {
 
 TEST(GotoSystem, AMatWithNoWayRoundEndsUnreachableAfterABoundedTime) {
   SimulatedRobot robot({corridor("goto_blocked", 1.2, kMat)});
-  ASSERT_TRUE(robot.loop->start_mission(drive_to({7.0, 0.0}), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(drive_to({7.0, 0.0}), "test"));
   robot.run(240.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kUnreachable) << robot.mission().activity << " " << robot.end().cause;
   EXPECT_EQ(robot.end().unreachable, std::vector<Point2>{Point2(7.0, 0.0)});
@@ -56,7 +56,7 @@ TEST(GotoSystem, APersonWhoLeavesTheCorridorDoesNotEndTheDrive) {
   SimulatedRobot robot({corridor("goto_person", 1.2,
                                  "people:\n  - {waypoints: [[5, 0], [5, -3.5]], speed_m_s: 0.04, wait_m: 0.05}\n"
                                  "people_walk: true\n")});
-  ASSERT_TRUE(robot.loop->start_mission(drive_to({8.0, 0.0}), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(drive_to({8.0, 0.0}), "test"));
   robot.run(180.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kComplete) << robot.mission().activity << " " << robot.end().cause;
   const sim::GroundTruth truth = robot.simulation->truth();
@@ -69,14 +69,14 @@ TEST(GotoSystem, APlaceInAKeptOutAreaIsGivenUpAtOnce) {
   api::MissionRequest request = drive_to({7.0, 0.0});
   std::get<api::GotoMission>(request.task).keep_out = {
       Polygon({Point2(6.0, -1.0), Point2(8.0, -1.0), Point2(8.0, 1.0), Point2(6.0, 1.0)})};
-  ASSERT_TRUE(robot.loop->start_mission(request, "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(request, "test"));
   robot.run(10.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kUnreachable) << robot.mission().activity;
 }
 
 TEST(GotoSystem, APlaceInAMappedWallIsGivenUpAtOnce) {
   SimulatedRobot robot({corridor("goto_wall", 3.0, "")});
-  ASSERT_TRUE(robot.loop->start_mission(drive_to({2.0, 1.5}), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(drive_to({2.0, 1.5}), "test"));
   robot.run(20.0);  // on its way it drives up to the wall
   EXPECT_EQ(robot.end().outcome, api::Outcome::kUnreachable) << robot.mission().activity;
 }

@@ -22,7 +22,7 @@ std::vector<std::string> log_of(const SimulatedRobot& robot) {
 
 TEST(SearchSystem, TargetOfTheDemoWorldIsFoundWhereItIsWithoutAContact) {
   SimulatedRobot robot;
-  ASSERT_TRUE(robot.loop->start_mission(search_for("cross"), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(search_for("cross"), "test"));
   robot.run(1200.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kTargetFound) << robot.end().cause;
   const sim::GroundTruth truth = robot.simulation->truth();
@@ -39,7 +39,7 @@ TEST(SearchSystem, SameSeedGivesTheSameMissionLogAnotherSeedDoesNot) {
   std::vector<std::vector<std::string>> logs;
   for (const char* seed : {"sim.seed=5", "sim.seed=5", "sim.seed=6"}) {
     SimulatedRobot robot({seed});
-    ASSERT_TRUE(robot.loop->start_mission(search_for("cross"), "test"));
+    ASSERT_TRUE(robot.loop->commands().start_mission(search_for("cross"), "test"));
     robot.run(120.0);
     logs.push_back(log_of(robot));
   }
@@ -50,7 +50,7 @@ TEST(SearchSystem, SameSeedGivesTheSameMissionLogAnotherSeedDoesNot) {
 
 TEST(SearchSystem, WorldWithoutTargetEndsWithTheAreaCovered) {
   SimulatedRobot robot({"sim.world=../worlds/no-target.yaml"});
-  ASSERT_TRUE(robot.loop->start_mission(search_for("cross"), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(search_for("cross"), "test"));
   robot.run(1800.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kNotFoundAreaCovered) << robot.end().cause;
   EXPECT_EQ(robot.simulation->truth().contacts, 0);
@@ -60,7 +60,7 @@ TEST(SearchSystem, WorldWithoutTargetEndsWithTheAreaCovered) {
 
 TEST(SearchSystem, PaperModeFindsTheTargetOfTheFirstLayout) {
   SimulatedRobot robot({"sim.world=../worlds/paper-a.yaml"});
-  ASSERT_TRUE(robot.loop->start_mission(search_for("cross", api::SearchMode::kPaper), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(search_for("cross", api::SearchMode::kPaper), "test"));
   robot.run(1800.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kTargetFound) << robot.end().cause;
   EXPECT_EQ(robot.simulation->truth().contacts, 0);
@@ -68,7 +68,7 @@ TEST(SearchSystem, PaperModeFindsTheTargetOfTheFirstLayout) {
 
 TEST(SearchSystem, SilentSonarStopsTheRobotAtOnceAndEndsTheMissionWithTheRemedy) {
   SimulatedRobot robot;
-  ASSERT_TRUE(robot.loop->start_mission(search_for("cross"), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(search_for("cross"), "test"));
   robot.ticks(50);
   robot.faults->sonar_silent = true;
   robot.ticks(40);
@@ -83,7 +83,7 @@ TEST(SearchSystem, SilentSonarStopsTheRobotAtOnceAndEndsTheMissionWithTheRemedy)
 
 TEST(SearchSystem, NanOfOneTransducerStopsTheRobotUntilItIsGone) {
   SimulatedRobot robot;
-  ASSERT_TRUE(robot.loop->start_mission(search_for("cross"), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(search_for("cross"), "test"));
   robot.ticks(30);
   robot.faults->sonar_nan = 2;
   robot.ticks(20);
@@ -98,17 +98,17 @@ TEST(SearchSystem, NanOfOneTransducerStopsTheRobotUntilItIsGone) {
 
 TEST(SearchSystem, EstopHoldsTheMissionUntilItIsReleasedAndResumed) {
   SimulatedRobot robot;
-  ASSERT_TRUE(robot.loop->start_mission(search_for("cross"), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(search_for("cross"), "test"));
   robot.ticks(50);
-  robot.loop->set_estop(true);
+  robot.loop->commands().set_estop(true);
   robot.ticks(30);
   EXPECT_NEAR(robot.simulation->truth().velocity.v_m_s, 0.0, 1e-3);
-  EXPECT_FALSE(robot.loop->command_mission(api::MissionCommand::kResume, "tester"));
-  robot.loop->set_estop(false);
+  EXPECT_FALSE(robot.loop->commands().command_mission(api::MissionCommand::kResume, "tester"));
+  robot.loop->commands().set_estop(false);
   EXPECT_EQ(robot.loop->status().safety.find("emergency stop"), std::string::npos) << "told without a tick";
   robot.ticks(20);
   EXPECT_NEAR(robot.simulation->truth().velocity.v_m_s, 0.0, 1e-3) << "releasing alone must not move the robot";
-  ASSERT_TRUE(robot.loop->command_mission(api::MissionCommand::kResume, "tester"));
+  ASSERT_TRUE(robot.loop->commands().command_mission(api::MissionCommand::kResume, "tester"));
   const double before_m = robot.simulation->truth().path_length_m;
   robot.ticks(100);
   EXPECT_GT(robot.simulation->truth().path_length_m, before_m);
@@ -120,7 +120,7 @@ TEST(SearchSystem, GotoVisitsItsPlacesAndReturnsHome) {
   request.id = "tour";
   request.task = api::GotoMission{
       .waypoints = {Point2(1.0, 0.0), Point2(0.3, 0.0)}, .final_heading_rad = kPi / 2.0, .keep_out = {}};
-  ASSERT_TRUE(robot.loop->start_mission(request, "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(request, "test"));
   robot.run(120.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kComplete) << robot.end().cause;
   robot.ticks(10);
@@ -131,8 +131,8 @@ TEST(SearchSystem, GotoVisitsItsPlacesAndReturnsHome) {
 
 TEST(SearchSystem, DriveIsRefusedWhereTimeIsNotReal) {
   SimulatedRobot robot;
-  ASSERT_TRUE(robot.loop->command_lease("test", api::LeaseAction::kAcquire));
-  const Status status = robot.loop->drive(
+  ASSERT_TRUE(robot.loop->commands().command_lease("test", api::LeaseAction::kAcquire));
+  const Status status = robot.loop->commands().drive(
       "test",
       {.velocity = {0.2, 0.0}, .ttl = std::chrono::milliseconds(300), .lease_epoch = robot.loop->status().lease.epoch});
   ASSERT_FALSE(status);

@@ -48,7 +48,7 @@ std::vector<api::TargetSpec> all_solids() {
 
 TEST(SolidsSystem, RecogniseNamesTheSolidInFrontOfTheCameraAndItsPlace) {
   SimulatedRobot robot({}, kTank);
-  ASSERT_TRUE(robot.loop->start_mission(recognise(all_solids()), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(recognise(all_solids()), "test"));
   robot.run(60.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kTargetFound) << robot.end().cause;
   ASSERT_EQ(robot.loop->missions().detections().size(), 1U);
@@ -62,7 +62,8 @@ TEST(SolidsSystem, RecogniseNamesTheSolidInFrontOfTheCameraAndItsPlace) {
 
 TEST(SolidsSystem, RecogniseOfWhatIsNotThereIsComplete) {
   SimulatedRobot robot({}, kTank);
-  ASSERT_TRUE(robot.loop->start_mission(recognise({api::solid_target(SolidKind::kTriangularPrism)}, 3), "test"));
+  ASSERT_TRUE(
+      robot.loop->commands().start_mission(recognise({api::solid_target(SolidKind::kTriangularPrism)}, 3), "test"));
   robot.run(120.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kComplete) << robot.end().cause;
   EXPECT_TRUE(robot.loop->missions().detections().empty());
@@ -72,7 +73,7 @@ TEST(SolidsSystem, RecogniseOfWhatIsNotThereIsComplete) {
 TEST(SolidsSystem, RecogniseWithADeadCameraIsAFaultWithItsRemedy) {
   SimulatedRobot robot({}, kTank);
   robot.faults->camera_dead = true;
-  ASSERT_TRUE(robot.loop->start_mission(recognise(all_solids()), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(recognise(all_solids()), "test"));
   robot.run(120.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kFault) << robot.end().cause;
   EXPECT_NE(robot.end().remedy.find("camera"), std::string::npos);
@@ -80,11 +81,11 @@ TEST(SolidsSystem, RecogniseWithADeadCameraIsAFaultWithItsRemedy) {
 
 TEST(SolidsSystem, ARobotWithoutAModelOrWithAMirrorRefusesSolids) {
   SimulatedRobot no_model({"search.solids.model=''"}, kTank);
-  const auto refused = no_model.loop->start_mission(search_for_sphere(), "test");
+  const auto refused = no_model.loop->commands().start_mission(search_for_sphere(), "test");
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("search.solids.model"), std::string::npos) << refused.error().message;
   SimulatedRobot mirror({"search.solids.model=../solids/tank.yaml"});
-  const auto omni = mirror.loop->start_mission(recognise(all_solids()), "test");
+  const auto omni = mirror.loop->commands().start_mission(recognise(all_solids()), "test");
   ASSERT_FALSE(omni);
   EXPECT_NE(omni.error().message.find("omnidirectional"), std::string::npos) << omni.error().message;
 }
@@ -96,7 +97,8 @@ TEST(SolidsSystem, RecogniseKnowsPicturesByTheMirrorAtOnceAllAround) {
                        << source_file("config/targets/cross.yaml").string() << ", pose: [3.3, 2.5, 180]}]\n";
   SimulatedRobot robot({"sim.world=" + world.string()});
   const api::MissionRequest search = search_for("cross");
-  ASSERT_TRUE(robot.loop->start_mission(recognise(std::get<api::SearchMission>(search.task).targets), "test"));
+  ASSERT_TRUE(
+      robot.loop->commands().start_mission(recognise(std::get<api::SearchMission>(search.task).targets), "test"));
   robot.run(60.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kTargetFound) << robot.end().cause;
   ASSERT_EQ(robot.loop->missions().detections().size(), 1U);
@@ -107,7 +109,7 @@ TEST(SolidsSystem, RecogniseKnowsPicturesByTheMirrorAtOnceAllAround) {
 
 TEST(SolidsSystem, TheSphereIsFoundWhereItLiesWithoutAContact) {
   SimulatedRobot robot({}, kTank);
-  ASSERT_TRUE(robot.loop->start_mission(search_for_sphere(), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(search_for_sphere(), "test"));
   robot.run(3600.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kTargetFound) << robot.end().cause;
   EXPECT_EQ(robot.simulation->truth().contacts, 0);
@@ -120,7 +122,7 @@ TEST(SolidsSystem, TheSphereIsFoundWhereItLiesWithoutAContact) {
 
 TEST(SolidsSystem, ATankWithoutTheSphereIsSearchedToTheEnd) {
   SimulatedRobot robot({"sim.world=../worlds/tank-no-sphere.yaml"}, kTank);
-  ASSERT_TRUE(robot.loop->start_mission(search_for_sphere(), "test"));
+  ASSERT_TRUE(robot.loop->commands().start_mission(search_for_sphere(), "test"));
   robot.run(3600.0);
   EXPECT_EQ(robot.end().outcome, api::Outcome::kNotFoundAreaCovered) << robot.end().cause;
   EXPECT_EQ(robot.simulation->truth().contacts, 0);

@@ -8,7 +8,7 @@
 
 #include "server/app/composition/robot_options.hpp"
 #include "server/app/landmarks/landmark_library.hpp"
-#include "server/app/loop/robot_loop.hpp"
+#include "server/app/loop/loop_params.hpp"
 #include "server/app/runtime/devices.hpp"
 #include "server/drivers/sim/sim_devices.hpp"
 

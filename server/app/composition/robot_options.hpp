@@ -12,7 +12,7 @@
 #include "common/config/yaml.hpp"
 #include "server/app/estimators/landmark_estimator.hpp"
 #include "server/app/fleet/fleet_settings.hpp"
-#include "server/app/loop/robot_loop.hpp"
+#include "server/app/loop/loop_params.hpp"
 #include "server/app/missions/goto_behaviour.hpp"
 #include "server/app/missions/search_behaviour.hpp"
 #include "server/app/missions/survey_behaviour.hpp"

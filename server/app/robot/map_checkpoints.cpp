@@ -20,7 +20,7 @@ void MapService::write_checkpoint(const api::MissionId& mission, Checkpoint chec
   const auto shared = std::make_shared<const Checkpoint>(std::move(checkpoint));
   const auto answer = [this](const Status& written) {
     // A robot that shuts down needs no answer.
-    static_cast<void>(mailbox_.post([this, written] { loop_.checkpoint_written(written); }));
+    static_cast<void>(mailbox_.post([this, written] { loop_.mission_control().checkpoints().written(written); }));
   };
   const Status ok = enqueue([this, mission, shared, answer](const store::MapFiles& /*files*/) {
     // First, so that no map is without one; a full disk is told with the map.
@@ -39,7 +39,9 @@ void MapService::write_checkpoint(const api::MissionId& mission, Checkpoint chec
 }
 
 void MapService::write_place(const api::MissionId& mission, const MissionPlace& place) {
-  const auto answer = [this] { static_cast<void>(mailbox_.post([this] { loop_.place_written(); })); };
+  const auto answer = [this] {
+    static_cast<void>(mailbox_.post([this] { loop_.mission_control().checkpoints().place_written(); }));
+  };
   const Status ok = enqueue([this, mission, place, answer](const store::MapFiles& /*files*/) {
     static_cast<void>(keep_place(checkpoint_folder(), mission, place));  // a full disk is told with the map
     answer();
@@ -66,7 +68,7 @@ void MapService::set_checkpoint_aside(const api::MissionId& mission) {
 }
 
 void MapService::tell(const std::string& kind, const std::string& text, api::Severity severity) {
-  static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.log(kind, text, severity); }));
+  static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.diagnostics().log(kind, text, severity); }));
 }
 
 void MapService::drop_checkpoints() {
@@ -82,11 +84,11 @@ void MapService::drop_checkpoints() {
 
 void MapService::resume_mission(const std::string& client, const api::Reply<void>& reply) {
   const bool posted = mailbox_.post([this, client, reply] {
-    const std::optional<api::MissionId> mission = loop_.checkpoint_to_resume();
+    const std::optional<api::MissionId> mission = loop_.mission_control().checkpoint_to_resume();
     if (mission && !storage_.folder.empty()) {
       resume_from(*mission, client, reply);
     } else {
-      reply(loop_.command_mission(api::MissionCommand::kResume, client));
+      reply(loop_.commands().command_mission(api::MissionCommand::kResume, client));
     }
   });
   if (!posted) {
@@ -106,8 +108,9 @@ void MapService::resume_from(const api::MissionId& mission, const std::string& c
     }
     const auto map = std::make_shared<const Result<LineMap>>(
         file ? Result<LineMap>(std::move(file->map)) : Result<LineMap>(tl::unexpected<Error>(file.error())));
-    const bool posted = mailbox_.post(
-        [this, map, identity, client, kept, reply] { reply(loop_.resume_in_map(*map, identity, client, kept)); });
+    const bool posted = mailbox_.post([this, map, identity, client, kept, reply] {
+      reply(loop_.mission_control().resume_in_map(*map, identity, client, kept));
+    });
     if (!posted) {
       reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
     }

@@ -77,7 +77,7 @@ void MapService::on_worker(const api::Reply<T>& reply, std::function<Result<T>(c
 
 void MapService::save(const std::string& name, bool replace, const api::Reply<api::MapSummary>& reply) {
   const bool posted = mailbox_.post([this, name, replace, reply] {
-    Result<LoopMap> map = loop_.map_to_save(name);
+    Result<LoopMap> map = loop_.maps().to_save(name);
     if (!map) {
       reply(tl::unexpected<Error>(map.error()));
       return;
@@ -122,7 +122,7 @@ void MapService::write(const LoopMap& from, const std::string& name, bool replac
   const MapIdentity identity{name, file.origin.created_unix_s, api::MapUse::kContinue};
   const api::MapSummary summary = summary_of(*written);
   if (!mailbox_.post([this, identity, reply, summary] {
-        loop_.map_saved(identity);
+        loop_.maps().saved(identity);
         reply(summary);
       })) {
     reply(summary);  // the robot shuts down; the file is there
@@ -140,7 +140,7 @@ void MapService::load(const std::string& name, api::MapUse use, const api::Reply
     file->map = fleet::as_one_robots(std::move(file->map));  // a fleet's map, too, may be carried on by one robot
     const auto shared = std::make_shared<const store::MapFile>(std::move(*file));
     const bool posted = mailbox_.post([this, shared, name, use, summary = summary_of(*listing), reply] {
-      const Status loaded = loop_.load_map(shared->map, {name, shared->origin.created_unix_s, use});
+      const Status loaded = loop_.commands().load_map(shared->map, {name, shared->origin.created_unix_s, use});
       reply(loaded ? Result<api::MapSummary>(summary) : tl::unexpected<Error>(loaded.error()));
     });
     if (!posted) {
@@ -180,7 +180,7 @@ void MapService::inspect(const std::string& name, bool verify, const api::Reply<
 
 void MapService::remove(const std::string& name, const api::Reply<void>& reply) {
   const bool posted = mailbox_.post([this, name, reply] {
-    if (const Status free = loop_.map_not_in_use(name); !free) {
+    if (const Status free = loop_.maps().not_in_use(name); !free) {
       reply(free);
       return;
     }
@@ -206,7 +206,7 @@ void MapService::download(const std::string& name, const api::Reply<std::vector<
 
 void MapService::upload(const api::MapUpload& upload, const api::Reply<api::MapSummary>& reply) {
   const bool posted = mailbox_.post([this, upload, reply] {
-    if (const Status free = upload.check_only ? Status() : loop_.map_not_in_use(upload.name); !free) {
+    if (const Status free = upload.check_only ? Status() : loop_.maps().not_in_use(upload.name); !free) {
       reply(tl::unexpected<Error>(free.error()));
       return;
     }

@@ -51,21 +51,22 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     ask(std::move(reply), [this] { return Result<api::RobotStatus>(loop().status()); });
   }
   void list_components(api::Reply<std::vector<api::ComponentInfo>> reply) override {
-    ask(std::move(reply),
-        [this] { return Result<std::vector<api::ComponentInfo>>(loop().components().list(loop().now())); });
+    ask(std::move(reply), [this] {
+      return Result<std::vector<api::ComponentInfo>>(loop().diagnostics().components().list(loop().now()));
+    });
   }
   void restart_component(const std::string& name, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, name] { return loop().restart_component(name); });
+    ask(std::move(reply), [this, name] { return loop().commands().restart_component(name); });
   }
   void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override {
-    ask(std::move(reply), [this, request] { return loop().start_mission(request, client_); });
+    ask(std::move(reply), [this, request] { return loop().commands().start_mission(request, client_); });
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     if (command == api::MissionCommand::kResume) {
       robot_.maps_.resume_mission(client_, reply);
       return;
     }
-    ask(std::move(reply), [this, command] { return loop().command_mission(command, client_); });
+    ask(std::move(reply), [this, command] { return loop().commands().command_mission(command, client_); });
   }
   void get_mission(api::Reply<api::MissionStatus> reply) override {
     ask(std::move(reply), [this]() -> Result<api::MissionStatus> {
@@ -77,21 +78,21 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   }
   void stop(api::Reply<void> reply) override {
     ask(std::move(reply), [this] {
-      loop().stop();
+      loop().commands().stop();
       return Status();
     });
   }
   void set_estop(bool engaged, api::Reply<void> reply) override {
     ask(std::move(reply), [this, engaged] {
-      loop().set_estop(engaged);
+      loop().commands().set_estop(engaged);
       return Status();
     });
   }
   void command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) override {
-    ask(std::move(reply), [this, action] { return loop().command_lease(client_, action); });
+    ask(std::move(reply), [this, action] { return loop().commands().command_lease(client_, action); });
   }
   void drive(const api::DriveCommand& command, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, command] { return loop().drive(client_, command); });
+    ask(std::move(reply), [this, command] { return loop().commands().drive(client_, command); });
   }
   void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override {
     ask(std::move(reply),
@@ -109,10 +110,10 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     ask(std::move(reply), [this] { return Result<std::vector<api::Detection>>(loop().missions().detections()); });
   }
   void get_trajectory(api::Reply<std::vector<api::StampedPose>> reply) override {
-    ask(std::move(reply), [this] { return Result<std::vector<api::StampedPose>>(loop().stamped_trajectory()); });
+    ask(std::move(reply), [this] { return Result<std::vector<api::StampedPose>>(loop().trajectory().stamped()); });
   }
   void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override {
-    ask(std::move(reply), [this, camera] { return loop().grab_image(camera); });
+    ask(std::move(reply), [this, camera] { return loop().commands().grab_image(camera); });
   }
   void get_segments(std::uint64_t since_revision, api::Reply<api::SegmentUpdate> reply) override {
     ask(std::move(reply), [this, since_revision] { return loop().robot_map().segments_since(since_revision); });
@@ -151,13 +152,13 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     robot_.landmarks_.remove(name, reply);
   }
   void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, map_T_base] { return loop().relocalise(map_T_base); });
+    ask(std::move(reply), [this, map_T_base] { return loop().commands().relocalise(map_T_base); });
   }
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                        api::UpdateSink sink) override {
     std::unique_ptr<api::Subscription> subscription = robot_.hub_.subscribe(topics, std::move(sink));
     // A full mailbox only delays the first picture of the map until the next change.
-    static_cast<void>(robot_.mailbox_.post([self = shared_from_this()] { self->loop().republish(); }));
+    static_cast<void>(robot_.mailbox_.post([self = shared_from_this()] { self->loop().publisher().republish(); }));
     return subscription;
   }
 
@@ -186,7 +187,7 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
       journal_(std::move(journal)),
       maps_({maps, identity_.robot_id, identity_.software_version}, loop_, mailbox_),
       landmarks_(std::move(landmarks.library), std::move(landmarks.in_use)) {
-  loop_.on_event = [this](const api::Event& event) {
+  loop_.hooks().on_event = [this](const api::Event& event) {
     tell_log(event);
     if (journal_ && !event.mission.empty()) {
       journal_->event(event);
@@ -196,14 +197,14 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
     keep_journal();
   }
   if (journal_ && !maps.empty()) {
-    loop_.on_checkpoint = [this](const api::MissionId& mission, Checkpoint checkpoint) {
+    loop_.hooks().on_checkpoint = [this](const api::MissionId& mission, Checkpoint checkpoint) {
       maps_.write_checkpoint(mission, std::move(checkpoint));
     };
-    loop_.on_place = [this](const api::MissionId& mission, const MissionPlace& place) {
+    loop_.hooks().on_place = [this](const api::MissionId& mission, const MissionPlace& place) {
       maps_.write_place(mission, place);
     };
-    loop_.on_checkpoint_unused = [this](const api::MissionId& mission) { maps_.set_checkpoint_aside(mission); };
-    loop_.on_checkpoints_void = [this] { maps_.drop_checkpoints(); };
+    loop_.hooks().on_checkpoint_unused = [this](const api::MissionId& mission) { maps_.set_checkpoint_aside(mission); };
+    loop_.hooks().on_checkpoints_void = [this] { maps_.drop_checkpoints(); };
   }
 }
 
@@ -221,18 +222,20 @@ FleetHost Robot::fleet_host() {
   host.give_seen = [this](const api::Reply<OwnSeen>& reply) { give_own_seen(reply); };
   // A full mailbox only delays what is said again soon.
   host.take_view = [this](std::optional<FleetView> view) {
-    static_cast<void>(mailbox_.post([this, view = std::move(view)]() mutable { loop_.set_fleet(std::move(view)); }));
+    static_cast<void>(mailbox_.post(
+        [this, view = std::move(view)]() mutable { loop_.neighbours().set_fleet(std::move(view), loop_.now()); }));
   };
   host.tell_operator = [this](const std::string& kind, const std::string& text, api::Severity severity) {
-    static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.log(kind, text, severity); }));
+    static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.diagnostics().log(kind, text, severity); }));
   };
   return host;
 }
 
 void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
   const bool posted = mailbox_.post([this, reply] {
-    Result<LineMap> map =
-        loop_.map_waits_for_resume() ? Result<LineMap>(fail(Errc::kNotReady, kMapWaits)) : loop_.robot_map().map();
+    Result<LineMap> map = loop_.mission_control().map_waits_for_resume()
+                              ? Result<LineMap>(fail(Errc::kNotReady, kMapWaits))
+                              : loop_.robot_map().map();
     if (!map) {
       reply(tl::unexpected<Error>(map.error()));
       return;
@@ -247,8 +250,8 @@ void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
 void Robot::give_own_topology(const api::Reply<OwnTopology>& reply) {
   const bool posted = mailbox_.post([this, reply] {
     OwnTopology own;
-    if (known_place(loop_) && !loop_.map_waits_for_resume()) {
-      own = loop_.own_topology();
+    if (known_place(loop_) && !loop_.mission_control().map_waits_for_resume()) {
+      own = loop_.neighbours().own();
       own->robot_id = identity_.robot_id;
     }
     reply(std::move(own));
@@ -261,7 +264,7 @@ void Robot::give_own_topology(const api::Reply<OwnTopology>& reply) {
 void Robot::give_own_seen(const api::Reply<OwnSeen>& reply) {
   const bool posted = mailbox_.post([this, reply] {
     const std::optional<Pose2> place = known_place(loop_);
-    const bool told = place && !loop_.map_waits_for_resume();
+    const bool told = place && !loop_.mission_control().map_waits_for_resume();
     if (!told) {
       reply(OwnSeen{});
       return;
@@ -281,20 +284,17 @@ void Robot::give_own_seen(const api::Reply<OwnSeen>& reply) {
 
 void Robot::keep_journal() {
   loop_.missions().continue_detection_ids(journal_->highest_detection_id());
-  loop_.offer_unfinished(journal_->unfinished());
-  loop_.on_mission_started = [this](const api::MissionRequest& request) {
+  loop_.mission_control().offer_unfinished(journal_->unfinished());
+  loop_.hooks().on_mission_started = [this](const api::MissionRequest& request) {
     journal_->mission_started(request, loop_.now());
   };
-  loop_.on_mission = [this](const api::MissionStatus& status) { journal_->mission(status); };
-  loop_.on_detection = [this](const api::Detection& detection) { journal_->detection(detection); };
+  loop_.hooks().on_mission = [this](const api::MissionStatus& status) { journal_->mission(status); };
+  loop_.hooks().on_detection = [this](const api::Detection& detection) { journal_->detection(detection); };
   journal_->set_on_error([this](const Error& error) {
     static_cast<void>(mailbox_.post([this, error] {
-      loop_.report_fault({.id = "journal-failed",
-                          .component = "journal",
-                          .severity = api::Severity::kWarning,
-                          .onset = loop_.now(),
-                          .message = "the journal cannot be written: " + error.message,
-                          .remedy = "free space on the disk of the state folder; missions go on without a journal"});
+      loop_.diagnostics().raise("journal-failed", "journal", "the journal cannot be written: " + error.message,
+                                "free space on the disk of the state folder; missions go on without a journal",
+                                api::Severity::kWarning);
     }));
   });
 }
@@ -314,11 +314,11 @@ void Robot::stop() {
 
 void Robot::run(bool wait_for_client) {
   while (!mailbox_.closed()) {
-    loop_.hold_world();
+    loop_.world().hold();
     mailbox_.run_pending();
     if (loop_.idle() || (wait_for_client && !client_seen_)) {
       loop_.publish_idle();
-      loop_.let_world_go();
+      loop_.world().let_go();
       mailbox_.wait(kIdleWait);
     } else {
       loop_.tick(std::chrono::steady_clock::now());
@@ -328,9 +328,9 @@ void Robot::run(bool wait_for_client) {
       mailbox_.run_pending();
     }
     now_ns_ = loop_.now().time_since_epoch().count();
-    ended_ = loop_.ended();
+    ended_ = loop_.world().ended();
   }
-  loop_.hold_world();
+  loop_.world().hold();
   loop_.shut_down();
   mailbox_.run_pending();
 }
@@ -341,23 +341,24 @@ api::RobotInfo Robot::info() const {
   info.software_version = identity_.software_version;
   info.capabilities = loop_.capabilities();
   info.robot_radius_m = identity_.robot_radius_m;
-  info.realtime = loop_.realtime();
+  info.realtime = loop_.world().realtime();
   return info;
 }
 
 std::shared_ptr<api::RobotApi> Robot::open(const api::Caller& caller) {
   client_seen_ = client_seen_ || !caller.client_name.empty();
-  static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.client_back(name); }));
+  static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.commands().client_back(name); }));
   return std::make_shared<Session>(*this, caller.client_name);
 }
 
 void Robot::closed(const api::Caller& caller) {
-  static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.client_closed(name); }));
+  static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.commands().client_closed(name); }));
 }
 
 void Robot::lost(const api::Caller& caller, const std::string& why) {
-  static_cast<void>(mailbox_.post(
-      [this, name = caller.client_name, why] { loop_.client_lost(name, why, std::chrono::steady_clock::now()); }));
+  static_cast<void>(mailbox_.post([this, name = caller.client_name, why] {
+    loop_.commands().client_lost(name, why, std::chrono::steady_clock::now());
+  }));
 }
 
 }  // namespace seeker::app

@@ -63,7 +63,7 @@ class Observer {
     samples_.push_back(sample());
     add_curves(samples_, result);
     result.max_error_m = watch_.max_error_m();
-    record.topology = loop_.own_topology().topology;
+    record.topology = loop_.neighbours().own().topology;
     record.events = watch_.events();
     record.samples = std::move(samples_);
     record.true_path = std::move(path_);
@@ -112,7 +112,7 @@ std::optional<Polygon> in_world(const std::optional<Polygon>& bound, const Pose2
 void fill_map(ExploreRecord& record, const app::RobotLoop& loop) {
   ExploreResult& result = record.result;
   record.segments = loop.robot_map().segments();
-  record.believed_path = loop.trajectory();
+  record.believed_path = loop.trajectory().poses();
   result.segments = static_cast<int>(record.segments.size());
   result.map_epoch = static_cast<int>(loop.status().pose.map_epoch);
   const api::MissionEnd end =

@@ -61,7 +61,7 @@ Result<TextHash> settings_hash(Result<app::RobotOptions> options, const SimSpec&
 }
 
 RunWatch::RunWatch(app::RobotLoop& loop, const sim::Simulation& simulation) : loop_(loop), simulation_(simulation) {
-  loop.on_event = [this](const api::Event& event) { take(event); };
+  loop.hooks().on_event = [this](const api::Event& event) { take(event); };
 }
 
 void RunWatch::look() {
@@ -106,7 +106,7 @@ Result<double> run_mission(app::RobotLoop& loop, const api::MissionRequest& requ
                            const std::function<void()>& look) {
   const auto started = std::chrono::steady_clock::now();
   loop.start();
-  if (const Result<api::MissionId> id = loop.start_mission(request, kClient); !id) {
+  if (const Result<api::MissionId> id = loop.commands().start_mission(request, kClient); !id) {
     return fail_with_context("the mission was refused", id.error());
   }
   while (loop.missions().present()) {

@@ -89,7 +89,7 @@ class Exchange {
     if (now >= next_share_) {
       next_share_ = now + kSharePeriod;
       for (std::size_t k = 0; k < traffic_.size(); ++k) {
-        traffic_[k].share(members_[k]->loop->own_topology());
+        traffic_[k].share(members_[k]->loop->neighbours().own());
       }
     }
   }
@@ -99,7 +99,7 @@ class Exchange {
     for (std::size_t k = 0; k < traffic_.size(); ++k) {
       const auto robots = static_cast<double>(traffic_.size());
       result.sent_bytes += static_cast<double>(traffic_[k].bytes()) / robots;
-      result.seen_m2 += seen_m2(members_[k]->loop->map().snapshot()) / robots;
+      result.seen_m2 += seen_m2(members_[k]->loop->robot_map().occupancy().snapshot()) / robots;
     }
     for (const Relation& relation : relations_) {
       if (relation.a_T_b) {
@@ -150,7 +150,7 @@ class Exchange {
         view.others.push_back(seen_from(to_T_from, *members_[relation.a == to ? relation.b : relation.a]));
       }
     }
-    members_[to]->loop->set_fleet(std::move(view));
+    members_[to]->loop->neighbours().set_fleet(std::move(view), members_[to]->loop->now());
   }
 
   /// To each robot what the others that are merged with it have seen.
@@ -161,7 +161,7 @@ class Exchange {
         if (relation.a_T_b && (relation.a == to || relation.b == to)) {
           const Pose2 to_T_from = relation.a == to ? *relation.a_T_b : inverse(*relation.a_T_b);
           const Member& from = *members_[relation.a == to ? relation.b : relation.a];
-          if (auto seen = from.loop->map().snapshot()) {
+          if (auto seen = from.loop->robot_map().occupancy().snapshot()) {
             floors.emplace_back(to_T_from, std::make_shared<const Grid<std::uint8_t>>(*std::move(seen)));
           }
         }
@@ -175,7 +175,7 @@ class Exchange {
   }
 
   static RobotTopology seen_from(const Pose2& to_T_from, const Member& from) {
-    RobotTopology robot = fleet::moved(from.loop->own_topology(), to_T_from);
+    RobotTopology robot = fleet::moved(from.loop->neighbours().own(), to_T_from);
     robot.robot_id = from.id;
     return robot;
   }

@@ -88,8 +88,8 @@ class LoadMeter {
                           .loop_s = samples_.empty() ? 0.0 : loop_s,
                           .features_s = thread_seconds() - before_s,
                           .features = static_cast<int>(features.size()),
-                          .node = loop.own_topology().topology.nodes.size() > nodes_});
-      nodes_ = loop.own_topology().topology.nodes.size();
+                          .node = loop.neighbours().own().topology.nodes.size() > nodes_});
+      nodes_ = loop.neighbours().own().topology.nodes.size();
       since_s_ = thread_seconds();
     }
   }

@@ -60,7 +60,7 @@ bool is_true(const FindScore& score) {
 class Observer {
  public:
   Observer(app::RobotLoop& loop, const sim::Simulation& simulation) : loop_(loop), watch_(loop, simulation) {
-    loop.on_detection = [this](const api::Detection& detection) { take(detection); };
+    loop.hooks().on_detection = [this](const api::Detection& detection) { take(detection); };
   }
 
   /// Before every pass of the loop.
@@ -133,8 +133,8 @@ void fill_mission(RunRecord& record, const app::RobotLoop& loop, const Observer&
   }
   result.found = end.outcome == api::Outcome::kTargetFound && result.last_find.has_value();
   record.grid = loop.missions().grid();
-  record.occupancy = loop.map().snapshot();
-  record.trajectory = loop.trajectory();
+  record.occupancy = loop.robot_map().occupancy().snapshot();
+  record.trajectory = loop.trajectory().poses();
 }
 
 void fill_coverage(RunRecord& record) {

@@ -29,13 +29,13 @@ std::vector<Pose2> drive(app::RobotLoop& loop, double way_m) {
   api::MissionRequest request;
   request.id = "ahead";
   request.task = go;
-  EXPECT_TRUE(loop.start_mission(request, "test"));
+  EXPECT_TRUE(loop.commands().start_mission(request, "test"));
   while (loop.missions().present()) {
     loop.tick({});
   }
   EXPECT_EQ(loop.missions().last()->end->outcome, api::Outcome::kComplete);
-  loop.let_world_go();
-  return loop.trajectory();
+  loop.world().let_go();
+  return loop.trajectory().poses();
 }
 
 std::array<std::vector<Pose2>, 2> run() {

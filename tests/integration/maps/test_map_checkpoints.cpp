@@ -62,17 +62,17 @@ class MapCheckpoints : public ::testing::Test {
       return Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Standing>(remembered));
     };
     loop = std::make_unique<app::RobotLoop>(options.loop, std::move(assembly.parts), hub);
-    loop->on_event = [this](const api::Event& event) { events.push_back(event); };
-    loop->on_checkpoint = [this](const api::MissionId& mission, const app::Checkpoint& checkpoint) {
+    loop->hooks().on_event = [this](const api::Event& event) { events.push_back(event); };
+    loop->hooks().on_checkpoint = [this](const api::MissionId& mission, const app::Checkpoint& checkpoint) {
       kept.push_back(mission);
       EXPECT_EQ(checkpoint.map.map.segments.size(), state->map.segments.size());
     };
-    loop->on_place = [this](const api::MissionId& /*mission*/, const app::MissionPlace& place) {
+    loop->hooks().on_place = [this](const api::MissionId& /*mission*/, const app::MissionPlace& place) {
       ++places;
       place_kept = place;
     };
-    loop->on_checkpoint_unused = [this](const api::MissionId& mission) { set_aside.push_back(mission); };
-    loop->on_checkpoints_void = [this] { ++dropped; };
+    loop->hooks().on_checkpoint_unused = [this](const api::MissionId& mission) { set_aside.push_back(mission); };
+    loop->hooks().on_checkpoints_void = [this] { ++dropped; };
     loop->start();
     state->map = room_map();
     state->changed();
@@ -102,7 +102,7 @@ class MapCheckpoints : public ::testing::Test {
 };
 
 TEST_F(MapCheckpoints, ChangedMapIsKeptOncePerPeriodAndDroppedAtTheEnd) {
-  ASSERT_TRUE(loop->start_mission(exploration(), "tester"));
+  ASSERT_TRUE(loop->commands().start_mission(exploration(), "tester"));
   ticks(298);
   EXPECT_TRUE(kept.empty()) << "the period is 30 s";
   ticks(4);
@@ -110,65 +110,65 @@ TEST_F(MapCheckpoints, ChangedMapIsKeptOncePerPeriodAndDroppedAtTheEnd) {
   state->changed();
   ticks(310);
   EXPECT_EQ(kept.size(), 1U) << "the last one is still being written";
-  loop->checkpoint_written({});
+  loop->mission_control().checkpoints().written({});
   ticks(1);
   EXPECT_EQ(kept.size(), 2U);
-  loop->checkpoint_written({});
+  loop->mission_control().checkpoints().written({});
   ticks(310);
   EXPECT_EQ(kept.size(), 2U) << "nothing has changed";
   EXPECT_EQ(dropped, 0);
-  loop->stop();
+  loop->commands().stop();
   EXPECT_EQ(dropped, 1);
 }
 
 TEST_F(MapCheckpoints, FailedWriteIsAFaultUntilOneSucceeds) {
-  ASSERT_TRUE(loop->start_mission(exploration(), "tester"));
+  ASSERT_TRUE(loop->commands().start_mission(exploration(), "tester"));
   ticks(310);
-  loop->checkpoint_written(fail(Errc::kIo, "the disk is full"));
+  loop->mission_control().checkpoints().written(fail(Errc::kIo, "the disk is full"));
   ASSERT_EQ(loop->status().faults.size(), 1U);
   EXPECT_EQ(loop->status().faults[0].id, "checkpoint-failed");
   EXPECT_TRUE(loop->missions().running());
   ticks(310);
   EXPECT_EQ(kept.size(), 2U) << "the same map is tried again";
-  loop->checkpoint_written({});
+  loop->mission_control().checkpoints().written({});
   EXPECT_TRUE(loop->status().faults.empty());
 }
 
 TEST_F(MapCheckpoints, MissionsThatOnlyUseTheMapKeepNone) {
   api::MissionRequest go = exploration();
   go.task = api::GotoMission{.waypoints = {Point2(2.0, 0.0)}, .final_heading_rad = std::nullopt, .keep_out = {}};
-  ASSERT_TRUE(loop->start_mission(go, "tester"));
+  ASSERT_TRUE(loop->commands().start_mission(go, "tester"));
   ticks(310);
-  loop->stop();
+  loop->commands().stop();
   EXPECT_TRUE(kept.empty());
   EXPECT_EQ(dropped, 0);
 }
 
 TEST_F(MapCheckpoints, MissionCutOffByACrashGoesOnWhereTheRobotIsFoundInItsMap) {
-  EXPECT_FALSE(loop->checkpoint_to_resume());
-  loop->offer_unfinished(exploration());
-  ASSERT_EQ(loop->checkpoint_to_resume(), std::optional<api::MissionId>("look-round"));
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester"));
+  EXPECT_FALSE(loop->mission_control().checkpoint_to_resume());
+  loop->mission_control().offer_unfinished(exploration());
+  ASSERT_EQ(loop->mission_control().checkpoint_to_resume(), std::optional<api::MissionId>("look-round"));
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester"));
   EXPECT_FALSE(loop->idle());
   EXPECT_FALSE(loop->missions().present()) << "the robot does not know yet where it is";
-  EXPECT_EQ(loop->command_mission(api::MissionCommand::kResume, "tester").error().code, Errc::kBusy);
+  EXPECT_EQ(loop->commands().command_mission(api::MissionCommand::kResume, "tester").error().code, Errc::kBusy);
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
   EXPECT_EQ(loop->missions().last()->id, "look-round");
   EXPECT_EQ(dropped, 0) << "a second crash would need it";
   ticks(310);
   EXPECT_EQ(kept.size(), 1U);
-  loop->stop();
+  loop->commands().stop();
   EXPECT_EQ(dropped, 1);
 }
 
 TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSetAside) {
-  loop->offer_unfinished(exploration());
-  EXPECT_TRUE(loop->map_waits_for_resume());
+  loop->mission_control().offer_unfinished(exploration());
+  EXPECT_TRUE(loop->mission_control().map_waits_for_resume());
   state->lost_because = "no scan fits";
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester",
-                                  {Pose2{1.0, 0.0, 0.0}, TopologyMemory{}, {Point2(5.0, 5.0), {}, {found_bag()}}}));
-  EXPECT_FALSE(loop->map_waits_for_resume());
+  ASSERT_TRUE(loop->mission_control().resume_in_map(
+      room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, TopologyMemory{}, {Point2(5.0, 5.0), {}, {found_bag()}}}));
+  EXPECT_FALSE(loop->mission_control().map_waits_for_resume());
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
   EXPECT_EQ(count("resume-anew"), 1);
@@ -181,9 +181,9 @@ TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSe
 }
 
 TEST_F(MapCheckpoints, WhatWasFoundBeforeACrashIsListedAgainOnceTheRobotIsFound) {
-  loop->offer_unfinished(exploration());
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester",
-                                  {Pose2{1.0, 0.0, 0.0}, std::nullopt, {Point2(1.0, 0.0), {}, {found_bag()}}}));
+  loop->mission_control().offer_unfinished(exploration());
+  ASSERT_TRUE(loop->mission_control().resume_in_map(
+      room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt, {Point2(1.0, 0.0), {}, {found_bag()}}}));
   EXPECT_TRUE(loop->missions().detections().empty()) << "where it is, is not known yet";
   ticks(20);
   ASSERT_EQ(loop->missions().detections().size(), 1U);
@@ -194,9 +194,9 @@ TEST_F(MapCheckpoints, WhatWasFoundBeforeACrashIsListedAgainOnceTheRobotIsFound)
 }
 
 TEST_F(MapCheckpoints, RobotThatIsNotFoundAtOnceTurnsOnceOnTheSpotAndStands) {
-  loop->offer_unfinished(exploration());
+  loop->mission_control().offer_unfinished(exploration());
   state->scans_to_search = 100'000;
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
   ticks(25);
   EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01) << "it may be found without";
   ticks(20);
@@ -209,33 +209,33 @@ TEST_F(MapCheckpoints, RobotThatIsNotFoundAtOnceTurnsOnceOnTheSpotAndStands) {
 
 TEST_F(MapCheckpoints, RobotThatLooksRoundIsStoppedByStopAndByEstop) {
   for (const bool estop : {false, true}) {
-    loop->offer_unfinished(exploration());
+    loop->mission_control().offer_unfinished(exploration());
     state->scans_to_search = 100'000;
-    ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+    ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
     ticks(45);
     ASSERT_GT(loop->status().velocity.omega_rad_s, 0.1);
-    estop ? loop->set_estop(true) : loop->stop();
+    estop ? loop->commands().set_estop(true) : loop->commands().stop();
     ticks(10);
     EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01);
   }
 }
 
 TEST_F(MapCheckpoints, RobotWhoseLeaseSomebodyHoldsDoesNotLookRound) {
-  loop->offer_unfinished(exploration());
+  loop->mission_control().offer_unfinished(exploration());
   state->scans_to_search = 100'000;
-  ASSERT_TRUE(loop->command_lease("somebody", api::LeaseAction::kAcquire));
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+  ASSERT_TRUE(loop->commands().command_lease("somebody", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
   ticks(45);
   EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01);
 }
 
 TEST_F(MapCheckpoints, WhoHoldsTheLeaseMayResumeAndOwnsTheMission) {
-  ASSERT_TRUE(loop->command_lease("tester", api::LeaseAction::kAcquire));
-  loop->offer_unfinished(exploration());
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester"));
+  ASSERT_TRUE(loop->commands().command_lease("tester", api::LeaseAction::kAcquire));
+  loop->mission_control().offer_unfinished(exploration());
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester"));
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
-  loop->client_lost("tester", "its connection broke", wall);
+  loop->commands().client_lost("tester", "its connection broke", wall);
   wall += std::chrono::seconds(6);
   ticks(1);
   ASSERT_TRUE(loop->missions().last()->end);
@@ -243,42 +243,42 @@ TEST_F(MapCheckpoints, WhoHoldsTheLeaseMayResumeAndOwnsTheMission) {
 }
 
 TEST_F(MapCheckpoints, ResumptionThatIsRefusedForgetsNothing) {
-  loop->offer_unfinished(exploration());
+  loop->mission_control().offer_unfinished(exploration());
   TopologyMemory memory;
   memory.closed_map = {{2.0, 3.0}};
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
-  ASSERT_TRUE(loop->command_lease("somebody", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
+  ASSERT_TRUE(loop->commands().command_lease("somebody", api::LeaseAction::kAcquire));
   ticks(20);
   EXPECT_EQ(count("resume-failed"), 1);
   EXPECT_FALSE(loop->missions().present());
-  ASSERT_TRUE(loop->command_lease("somebody", api::LeaseAction::kRelease));
-  ASSERT_TRUE(loop->command_mission(api::MissionCommand::kResume, "tester"));
+  ASSERT_TRUE(loop->commands().command_lease("somebody", api::LeaseAction::kRelease));
+  ASSERT_TRUE(loop->commands().command_mission(api::MissionCommand::kResume, "tester"));
   EXPECT_EQ(remembered.topology, memory);
 }
 
 TEST_F(MapCheckpoints, MissionGoesOnFromItsStartWithTheTimeThatIsLeft) {
   api::MissionRequest limited = exploration();
   limited.time_limit = std::chrono::seconds(100);
-  loop->offer_unfinished(limited);
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester",
-                                  {Pose2{1.0, 0.5, 0.0}, std::nullopt, {Point2(4.0, -2.0), std::chrono::seconds(60)}}));
+  loop->mission_control().offer_unfinished(limited);
+  ASSERT_TRUE(loop->mission_control().resume_in_map(
+      room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, std::nullopt, {Point2(4.0, -2.0), std::chrono::seconds(60)}}));
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
   EXPECT_EQ(remembered.start_map, std::optional(Point2(4.0, -2.0)));
   ASSERT_TRUE(remembered.time_left);
   EXPECT_LE(*remembered.time_left, Duration(std::chrono::seconds(40)));
   ticks(30);
-  loop->place_written();
+  loop->mission_control().checkpoints().place_written();
   ticks(10);
   EXPECT_EQ(place_kept.so_far.start_map, std::optional(Point2(4.0, -2.0))) << "for the next crash";
   EXPECT_GT(place_kept.so_far.running, Duration(std::chrono::seconds(63)));
 }
 
 TEST_F(MapCheckpoints, MissionGoesOnFromWhereItWasWithWhatItRemembered) {
-  loop->offer_unfinished(exploration());
+  loop->mission_control().offer_unfinished(exploration());
   TopologyMemory memory;
   memory.closed_map = {{2.0, 3.0}};
-  ASSERT_TRUE(loop->resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
   EXPECT_LT(distance_m(loop->status().pose.map_T_base, {1.0, 0.5, 0.0}), 0.01) << "it was looked for there";
@@ -286,7 +286,7 @@ TEST_F(MapCheckpoints, MissionGoesOnFromWhereItWasWithWhatItRemembered) {
 }
 
 TEST_F(MapCheckpoints, PlaceIsKeptMoreOftenThanTheMapItIsIn) {
-  ASSERT_TRUE(loop->start_mission(exploration(), "tester"));
+  ASSERT_TRUE(loop->commands().start_mission(exploration(), "tester"));
   ticks(290);
   EXPECT_EQ(places, 0) << "it says nothing without a map";
   ticks(15);
@@ -294,31 +294,32 @@ TEST_F(MapCheckpoints, PlaceIsKeptMoreOftenThanTheMapItIsIn) {
   ticks(30);
   EXPECT_EQ(places, 1) << "the last one is still being written";
   for (int k = 0; k < 5; ++k) {
-    loop->place_written();
+    loop->mission_control().checkpoints().place_written();
     ticks(10);
   }
   EXPECT_EQ(places, 6);
 }
 
 TEST_F(MapCheckpoints, WithoutAMapTheMissionBeginsAnew) {
-  loop->offer_unfinished(exploration());
-  ASSERT_TRUE(loop->resume_in_map(fail(Errc::kNotFound, "there is none"), {}, "tester"));
+  loop->mission_control().offer_unfinished(exploration());
+  ASSERT_TRUE(loop->mission_control().resume_in_map(fail(Errc::kNotFound, "there is none"), {}, "tester"));
   EXPECT_TRUE(loop->missions().running());
   EXPECT_EQ(count("resume-without-map"), 0);
-  loop->stop();
-  loop->offer_unfinished(exploration());
-  const Status again = loop->resume_in_map(fail(Errc::kCorrupt, "the checksum is wrong"), {}, "tester");
+  loop->commands().stop();
+  loop->mission_control().offer_unfinished(exploration());
+  const Status again =
+      loop->mission_control().resume_in_map(fail(Errc::kCorrupt, "the checksum is wrong"), {}, "tester");
   EXPECT_EQ(count("resume-without-map"), 1);
   EXPECT_FALSE(again) << "its id was used in this run";
 }
 
 TEST_F(MapCheckpoints, AnotherMissionVoidsTheMapOfTheCutOffOne) {
-  loop->offer_unfinished(exploration());
+  loop->mission_control().offer_unfinished(exploration());
   api::MissionRequest other = exploration();
   other.id = "another";
-  ASSERT_TRUE(loop->start_mission(other, "tester"));
+  ASSERT_TRUE(loop->commands().start_mission(other, "tester"));
   EXPECT_EQ(dropped, 1);
-  EXPECT_FALSE(loop->checkpoint_to_resume());
+  EXPECT_FALSE(loop->mission_control().checkpoint_to_resume());
 }
 
 }  // namespace

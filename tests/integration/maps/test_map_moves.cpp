@@ -44,7 +44,7 @@ class MapMoves : public ::testing::Test {
                  : real(task, situation);
     };
     loop = std::make_unique<app::RobotLoop>(options.loop, std::move(assembly.parts), hub);
-    loop->on_event = [this](const api::Event& event) { events.push_back(event); };
+    loop->hooks().on_event = [this](const api::Event& event) { events.push_back(event); };
     loop->start();
     state->map = room_map();
     state->map.keyframes.resize(100, state->map.keyframes.front());
@@ -67,7 +67,7 @@ class MapMoves : public ::testing::Test {
     api::MissionRequest mission;
     mission.id = "go";
     mission.task = task;
-    const Result<api::MissionId> id = loop->start_mission(mission, "tester");
+    const Result<api::MissionId> id = loop->commands().start_mission(mission, "tester");
     return id ? Status() : Status(tl::unexpected<Error>(id.error()));
   }
 
@@ -109,7 +109,7 @@ TEST_F(MapMoves, RobotThatIsFoundAgainMovesNothingOfWhatItKnows) {
     if (mission_runs) {
       ASSERT_TRUE(go(api::ReturnMission{}));
     } else {
-      loop->stop();
+      loop->commands().stop();
     }
     ticks(5);
     ASSERT_EQ(loop->missions().detections().size(), 1U);
@@ -144,16 +144,16 @@ TEST_F(MapMoves, ALostRobotLooksForLandmarksAndDoesNothingElse) {
 TEST_F(MapMoves, MapIsNotExchangedUnderARunningMission) {
   ASSERT_TRUE(go());
   ticks(5);
-  EXPECT_EQ(loop->load_map(room_map(), {"office", 0, api::MapUse::kContinue}).error().code, Errc::kBusy);
-  EXPECT_EQ(loop->relocalise(std::nullopt).error().code, Errc::kBusy);
+  EXPECT_EQ(loop->commands().load_map(room_map(), {"office", 0, api::MapUse::kContinue}).error().code, Errc::kBusy);
+  EXPECT_EQ(loop->commands().relocalise(std::nullopt).error().code, Errc::kBusy);
   EXPECT_EQ(state->loads, 0);
 }
 
 TEST_F(MapMoves, LoadedMapForgetsTheWayAndHoldsMissionsUntilTheRobotIsFound) {
   ticks(5);
-  ASSERT_FALSE(loop->stamped_trajectory().empty());
-  ASSERT_TRUE(loop->load_map(room_map(), {"office", 0, api::MapUse::kContinue}));
-  EXPECT_TRUE(loop->stamped_trajectory().empty());
+  ASSERT_FALSE(loop->trajectory().stamped().empty());
+  ASSERT_TRUE(loop->commands().load_map(room_map(), {"office", 0, api::MapUse::kContinue}));
+  EXPECT_TRUE(loop->trajectory().stamped().empty());
   EXPECT_FALSE(loop->idle()) << "the robot needs scans to find its place";
   const Status refused = go();
   ASSERT_FALSE(refused);

@@ -80,7 +80,7 @@ class RobotReach : public ::testing::Test {
       return Result<std::unique_ptr<Behaviour>>(std::make_unique<StraightOn>());
     };
     loop = std::make_unique<RobotLoop>(options.loop, std::move(parts), hub);
-    loop->on_event = [this](const api::Event& event) { events.push_back(event); };
+    loop->hooks().on_event = [this](const api::Event& event) { events.push_back(event); };
     loop->start();
   }
 
@@ -91,7 +91,7 @@ class RobotReach : public ::testing::Test {
     api::MissionRequest request;
     request.id = id;
     request.task = task;
-    return loop->start_mission(request, "tester");
+    return loop->commands().start_mission(request, "tester");
   }
   void ticks(int count) {
     for (int k = 0; k < count; ++k) {
@@ -105,7 +105,7 @@ class RobotReach : public ::testing::Test {
   }
   [[nodiscard]] double way_m() const { return loop->status().odom_T_base.x_m; }
   [[nodiscard]] api::ComponentInfo component(const std::string& name) const {
-    for (const api::ComponentInfo& info : loop->components().list(loop->now())) {
+    for (const api::ComponentInfo& info : loop->diagnostics().components().list(loop->now())) {
       if (info.name == name) {
         return info;
       }
@@ -130,8 +130,8 @@ TEST_F(RobotReach, ABaseThatWasRestartedBetweenMissionsDrivesInTheNextOne) {
   ticks(30);
   const double before_m = way_m();
   ASSERT_GT(before_m, 0.2);
-  loop->stop();
-  ASSERT_TRUE(loop->restart_component("base"));
+  loop->commands().stop();
+  ASSERT_TRUE(loop->commands().restart_component("base"));
   ASSERT_TRUE(go("second"));
   ticks(30);
   EXPECT_GT(way_m(), before_m + 0.2) << "its way is counted on";
@@ -158,8 +158,8 @@ TEST_F(RobotReach, ARecordingIsNotCommanded) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message, "it is a recording");
   EXPECT_EQ(start("second", api::ExploreMission{}).error().code, Errc::kRefused);
-  EXPECT_EQ(loop->drive("tester", {}).error().message, "it is a recording");
-  ASSERT_TRUE(loop->command_lease("tester", api::LeaseAction::kAcquire));
+  EXPECT_EQ(loop->commands().drive("tester", {}).error().message, "it is a recording");
+  ASSERT_TRUE(loop->commands().command_lease("tester", api::LeaseAction::kAcquire));
   EXPECT_FALSE(loop->status().motors_armed);
   const std::vector<std::string> can = loop->capabilities();
   EXPECT_EQ(std::count(can.begin(), can.end(), "goto"), 0);
@@ -177,9 +177,9 @@ TEST_F(RobotReach, ARecordingIsLookedForInItsMapWhileItMoves) {
   ASSERT_TRUE(go("first"));
   ticks(10);
   base->recording = true;  // it goes its way, whatever it is told
-  loop->stop();
+  loop->commands().stop();
   ASSERT_GT(loop->status().velocity.v_m_s, 0.1);
-  const Status looked_for = loop->relocalise(std::nullopt);
+  const Status looked_for = loop->commands().relocalise(std::nullopt);
   EXPECT_TRUE(looked_for) << looked_for.error().message;
 }
 
@@ -196,7 +196,7 @@ TEST_F(RobotReach, ALostWorldIsAFaultAtOnceAndGoneWithItsCause) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::kNotReady);
   EXPECT_NE(refused.error().message.find("the world is gone"), std::string::npos);
-  EXPECT_EQ(loop->relocalise({}).error().code, Errc::kNotReady) << "no scan would come to find the place by";
+  EXPECT_EQ(loop->commands().relocalise({}).error().code, Errc::kNotReady) << "no scan would come to find the place by";
   EXPECT_FALSE(await(std::chrono::minutes(5)));
   clock->link = {};
   EXPECT_TRUE(await());
@@ -241,7 +241,7 @@ TEST_F(RobotReach, AMissionThatWasCutOffIsToldUntilAnotherOneBegins) {
   request.id = "round";
   request.task = api::ExploreMission{};
   EXPECT_FALSE(loop->status().cut_off);
-  loop->offer_unfinished(request);
+  loop->mission_control().offer_unfinished(request);
   EXPECT_EQ(loop->status().cut_off, (api::CutOffMission{"round", "explore"}));
   ASSERT_TRUE(go("first"));
   EXPECT_FALSE(loop->status().cut_off);

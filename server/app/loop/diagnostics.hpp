@@ -1,0 +1,51 @@
+/// \file
+/// What is wrong with the robot, and what has happened to it: faults, the states of its components, numbered events.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "common/api/robot_state.hpp"
+#include "common/core/result.hpp"
+#include "server/app/loop/loop_hooks.hpp"
+#include "server/app/runtime/components.hpp"
+#include "server/app/runtime/faults.hpp"
+#include "server/app/runtime/update_hub.hpp"
+#include "server/drivers/interfaces/drivers.hpp"
+
+namespace seeker::app {
+
+/// Owner of the faults, of the component states and of the event numbers. A fault that is new, or that goes, is an
+/// event. Lives on the loop's thread.
+class Diagnostics {
+ public:
+  /// `hub` and `hooks` outlive it.
+  Diagnostics(std::shared_ptr<const drivers::Clock> clock, UpdateHub& hub, const LoopHooks& hooks);
+
+  void raise(const std::string& id, const std::string& component, const std::string& message, const std::string& remedy,
+             api::Severity severity = api::Severity::kError);
+  /// True when the fault was there.
+  bool clear(const std::string& id);
+  /// The estimator's or the map's answer to a reading: an error raises the warning `id`, success clears it.
+  void note_reading(const Status& status, const std::string& id);
+
+  /// An event outside of missions, stamped with the present robot time.
+  void log(const std::string& kind, const std::string& text, api::Severity severity = api::Severity::kInfo);
+  /// Hands an event to the journal as it is and, with the next sequence number, to subscribers.
+  void emit(const api::Event& event);
+
+  [[nodiscard]] const FaultList& faults() const { return faults_; }
+  [[nodiscard]] Components& components() { return components_; }
+  [[nodiscard]] const Components& components() const { return components_; }
+
+ private:
+  std::shared_ptr<const drivers::Clock> clock_;
+  UpdateHub& hub_;
+  const LoopHooks& hooks_;
+  FaultList faults_;
+  Components components_;
+  std::uint64_t event_sequence_ = 0;
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,133 @@
+#include "server/app/loop/localiser.hpp"
+
+#include <string>
+#include <utility>
+
+namespace seeker::app {
+namespace {
+
+std::optional<Pose2> odometry_pose(const Sensing& sensing) {
+  return sensing.odometry() != nullptr ? std::optional(sensing.odom_T_base()) : std::nullopt;
+}
+
+}  // namespace
+
+Localiser::Localiser(const LoopParams& params, const nav::OccupancyParams& occupancy,
+                     std::unique_ptr<Estimator> estimator, Diagnostics& diagnostics)
+    : estimator_(std::move(estimator)),
+      diagnostics_(diagnostics),
+      map_(params.map, occupancy, estimator_->map_tracker()),
+      trajectory_(params.trajectory_spacing_m, params.max_trajectory) {}
+
+void Localiser::give_odometry(const drivers::OdometrySample& sample) {
+  last_odometry_given_ = sample.stamp;
+  diagnostics_.note_reading(estimator_->on_odometry(sample), "odometry-refused");
+}
+
+/// In the order of the stamps: a sweep arrives later than it was taken.
+void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbours, RobotTime now) {
+  const drivers::OdometrySample* odometry = sensing.odometry();
+  const LaserScan* scan = sensing.scan();
+  const bool late = sensing.fresh_odometry() && sensing.fresh_scan() && scan->stamp < odometry->stamp;
+  if (sensing.fresh_odometry()) {
+    const std::optional<drivers::OdometrySample> then = late ? sensing.history().at(scan->stamp) : *odometry;
+    if (!late || then->stamp > last_odometry_given_) {
+      give_odometry(*then);
+    }
+  }
+  if (sensing.fresh_scan()) {
+    const std::vector<nav::Mover> others =
+        neighbours.movers_base(estimator_->estimate().map_T_base, odometry_pose(sensing), now);
+    without_movers_.reset();
+    if (!others.empty()) {
+      without_movers_ = nav::without_movers(*scan, Pose2{}, others);
+    }
+    diagnostics_.note_reading(estimator_->on_scan(without_movers_ ? *without_movers_ : *scan), "scan-refused");
+  }
+  if (late) {
+    give_odometry(*odometry);
+  }
+}
+
+std::optional<MapShift> Localiser::localise(const Sensing& sensing, const Neighbours& neighbours, RobotTime now) {
+  give_readings(sensing, neighbours, now);
+  if (!sensing.fresh_odometry() && !sensing.fresh_scan()) {
+    return std::nullopt;
+  }
+  const std::optional<Pose2> odom_T_base = odometry_pose(sensing);
+  std::optional<Pose2> by_odometry;
+  if (odom_T_base_at_pose_ && odom_T_base) {
+    by_odometry = pose_.map_T_base * (inverse(*odom_T_base_at_pose_) * *odom_T_base);
+  }
+  std::optional<MapShift> shift = follow_map(by_odometry, now);
+  odom_T_base_at_pose_ = odom_T_base;
+  diagnostics_.components().count_output("pose", now);
+  return shift;
+}
+
+/// An epoch rises when a loop closure moves the map, and when a robot that was looked for is found: what it has mapped
+/// meanwhile is joined to the map then, and nothing else moves. `old_map_T_base` is where the robot would be now in the
+/// map before.
+std::optional<MapShift> Localiser::follow_map(const std::optional<Pose2>& old_map_T_base, RobotTime now) {
+  const std::uint32_t before = pose_.map_epoch;
+  const bool was_placed = is_placed(pose_.quality);
+  pose_ = map_.follow(estimator_->estimate(), now, old_map_T_base);
+  if (pose_.map_epoch == before || !old_map_T_base) {
+    return std::nullopt;
+  }
+  if (!was_placed) {
+    // The pose before was in a frame of its own: it tells where the robot was looked for, not how the map has moved.
+    diagnostics_.log("robot-found", "the robot has found its place in the map, which stays where it was");
+    return MapShift{{.move = {}, .from_epoch = before, .to_epoch = pose_.map_epoch}, std::nullopt};
+  }
+  const int moved_mm = static_cast<int>(1e3 * distance_m(*old_map_T_base, pose_.map_T_base));
+  diagnostics_.log("map-moved",
+                   "the map was corrected; the robot's place in it moved by " + std::to_string(moved_mm) + " mm");
+  return MapShift{{.move = map_.last_move(), .from_epoch = before, .to_epoch = pose_.map_epoch},
+                  pose_.map_T_base * inverse(*old_map_T_base)};
+}
+
+void Localiser::map_readings(const Sensing& sensing) {
+  if (!is_placed(pose_.quality)) {
+    return;
+  }
+  const OdometryHistory& history = sensing.history();
+  if (sensing.fresh_scan()) {
+    const LaserScan& scan = without_movers_ ? *without_movers_ : *sensing.scan();
+    diagnostics_.note_reading(map_.integrate(scan, pose_.map_T_base * history.now_T_then(scan.stamp)), "map-full");
+  } else if (sensing.fresh_sonar() && !sensing.has_lidar()) {
+    const SonarScan& sonar = *sensing.sonar();
+    diagnostics_.note_reading(map_.integrate(sonar, pose_.map_T_base * history.now_T_then(sonar.stamp)), "map-full");
+  }
+}
+
+void Localiser::note_pose(RobotTime now) {
+  // A robot that is looked for in its map has a pose in a frame of its own.
+  if (pose_.quality != LocalisationQuality::kUnknown || !map_.has_segments()) {
+    trajectory_.add(now, pose_.map_T_base);
+  }
+}
+
+void Localiser::place_at(const PoseEstimate& place, RobotTime now) {
+  const bool in_map = estimator_->map_tracker() != nullptr;
+  const Status placed = in_map ? map_.relocalise(place.map_T_base, now) : estimator_->place_at(place);
+  take_estimate(now);
+  diagnostics_.log("placed", placed ? "the estimator takes the place that was found" : placed.error().message,
+                   placed ? api::Severity::kInfo : api::Severity::kWarning);
+}
+
+void Localiser::on_look(const Result<StereoLook>& look) {
+  estimator_->on_look(look);
+  for (const std::string& news : estimator_->take_news()) {
+    diagnostics_.log("landmarks", news);
+  }
+}
+
+void Localiser::take_estimate(RobotTime now) { pose_ = map_.follow(estimator_->estimate(), now); }
+
+void Localiser::forget_places(RobotTime now) {
+  trajectory_.clear();
+  take_estimate(now);
+}
+
+}  // namespace seeker::app

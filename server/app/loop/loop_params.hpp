@@ -1,0 +1,56 @@
+/// \file
+/// The parameters of the loop, and the parts that it is put together from.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/app/estimators/estimator.hpp"
+#include "server/app/maps/robot_map.hpp"
+#include "server/app/missions/mission_executor.hpp"
+#include "server/app/runtime/devices.hpp"
+#include "server/app/safety/safety_supervisor.hpp"
+#include "server/nav/occupancy_map.hpp"
+#include "server/vision/stereo_features.hpp"
+
+namespace seeker::app {
+
+/// What is assumed of other robots of the fleet that drive about.
+struct FleetMotionParams {
+  double robot_radius_m = 0.26;
+  double slack_m = 0.15;                       ///< error of a reported place: of both poses and of both maps
+  double slack_m_s = 0.5;                      ///< growth of that error for each second since the report
+  Duration max_age = std::chrono::seconds(2);  ///< an older report says nothing about where the robot is now
+};
+
+struct LoopParams {
+  Duration period = std::chrono::milliseconds(100);
+  Duration base_timeout = std::chrono::milliseconds(500);  ///< silence that is a fault, robot time
+  Duration lidar_timeout = std::chrono::seconds(1);
+  Duration sonar_timeout = std::chrono::seconds(1);
+  Duration tile_period = std::chrono::milliseconds(500);  ///< between publications of changed tiles, robot time
+  Duration grid_period = std::chrono::seconds(2);         ///< between publications of lists and evidence
+  double trajectory_spacing_m = 0.1;
+  std::size_t max_trajectory = 100'000;  ///< poses; the oldest half is thinned out beyond it
+  SafetyParams safety;
+  MissionParams mission;
+  RobotMapParams map;
+  FleetMotionParams fleet;
+};
+
+/// What the loop is put together from.
+struct LoopParts {
+  Devices devices;
+  std::unique_ptr<Estimator> estimator;
+  std::shared_ptr<const vision::StereoExtractor> stereo;  ///< finds features in stereo pictures; null: nobody wants any
+  std::string estimator_type;
+  BehaviourFactory behaviours;
+  nav::OccupancyParams occupancy;
+  std::function<void()>
+      forget_places;  ///< called when another map was loaded: what missions remember of places is void
+};
+
+}  // namespace seeker::app

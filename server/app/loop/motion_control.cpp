@@ -1,0 +1,92 @@
+#include "server/app/loop/motion_control.hpp"
+
+#include <utility>
+
+namespace seeker::app {
+
+MotionControl::MotionControl(const SafetyParams& params, std::shared_ptr<drivers::BaseDriver> base,
+                             const Sensing& sensing, const SituationSource& situation, WorldLink& world,
+                             Diagnostics& diagnostics)
+    : params_(params),
+      base_(std::move(base)),
+      sensing_(sensing),
+      situation_(situation),
+      world_(world),
+      diagnostics_(diagnostics) {}
+
+SafetyVerdict MotionControl::verdict_on(const Twist2& wanted) const {
+  const LaserScan* scan = sensing_.scan();
+  const SonarScan* sonar = sensing_.sonar();
+  const OdometryHistory& history = sensing_.history();
+  return supervise({.wanted = wanted,
+                    .armed = authority_.armed(),
+                    .estop = authority_.estop(),
+                    .blocking = diagnostics_.faults().blocking(),
+                    .scan = scan,
+                    .sonar = sonar,
+                    .base_T_scan = scan != nullptr ? history.now_T_then(scan->stamp) : Pose2{},
+                    .base_T_sonar = sonar != nullptr ? history.now_T_then(sonar->stamp) : Pose2{},
+                    .velocity = sensing_.velocity(),
+                    .movers_base = situation_.movers_base()},
+                   params_);
+}
+
+void MotionControl::act(const Twist2& wanted) {
+  const bool arm = authority_.armed() && diagnostics_.faults().blocking() == nullptr;
+  const SafetyVerdict verdict = verdict_on(wanted);
+  safety_reason_ = verdict.reason;
+  if (!diagnostics_.components().active("base") || !base_->drivable()) {
+    return;
+  }
+  if (arm != motors_on_) {
+    if (const Status ok = base_->set_motors(arm); !ok) {
+      refused(ok.error());
+      return;
+    }
+    motors_on_ = arm;
+  }
+  if (!motors_on_ && verdict.allowed == Twist2{}) {
+    return;
+  }
+  if (const Status ok = base_->set_velocity(verdict.allowed, world_.now()); !ok) {
+    refused(ok.error());
+  }
+}
+
+void MotionControl::refused(const Error& error) {
+  if (world_.check()) {
+    diagnostics_.raise("base-refused", "base", "base: " + error.message, "'seeker components --restart base'");
+  }
+}
+
+void MotionControl::stop() {
+  authority_.stop();
+  act({});
+}
+
+bool MotionControl::set_estop(bool engaged) {
+  if (engaged == authority_.estop()) {
+    return false;
+  }
+  authority_.set_estop(engaged);
+  diagnostics_.log(engaged ? "estop" : "estop-released", engaged ? "emergency stop latched" : "emergency stop released",
+                   engaged ? api::Severity::kCritical : api::Severity::kInfo);
+  return true;
+}
+
+void MotionControl::halt() {
+  if (diagnostics_.components().active("base")) {
+    // Nothing can be done here about a base that does not answer: its own time-out halts it.
+    static_cast<void>(base_->set_velocity({}, world_.now()));
+    static_cast<void>(base_->set_motors(false));
+  }
+}
+
+void MotionControl::restarted(const std::string& component) {
+  authority_.disarm();
+  if (component == "base") {
+    motors_on_ = false;
+  }
+}
+
+}  // namespace seeker::app
