@@ -9,6 +9,7 @@
 
 #include "common/image/png.hpp"
 #include "server/app/composition/device_factory.hpp"
+#include "server/app/loop/robot_loop.hpp"
 #include "tests/support/data.hpp"
 
 namespace seeker::testing {

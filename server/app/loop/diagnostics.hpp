@@ -10,7 +10,7 @@
 #include "common/core/result.hpp"
 #include "server/app/loop/loop_hooks.hpp"
 #include "server/app/runtime/components.hpp"
-#include "server/app/runtime/faults.hpp"
+#include "server/app/runtime/fault_list.hpp"
 #include "server/app/runtime/update_hub.hpp"
 #include "server/drivers/interfaces/drivers.hpp"
 

@@ -78,7 +78,7 @@ void MapCommands::begin_anew() {
 /// All of these are places in the map before.
 void MapCommands::forget_places() {
   parties_.neighbours.forget_places();
-  parties_.missions.forget_places();
+  parties_.missions.findings().forget_places();
   if (forget_places_) {
     forget_places_();
   }

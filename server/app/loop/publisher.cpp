@@ -46,7 +46,7 @@ void Publisher::publish_tiles(RobotTime stamp) {
 }
 
 void Publisher::publish_grid(RobotTime stamp) {
-  const auto& grid = sources_.missions.grid();
+  const auto& grid = sources_.missions.findings().grid();
   if (grid && hub_.wanted(api::Topic::kGrid) && (republish_ || stamp - grid_at_ >= grid_period_)) {
     grid_at_ = stamp;
     hub_.publish(api::Topic::kGrid, stamp, *grid);

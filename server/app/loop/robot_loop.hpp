@@ -63,6 +63,7 @@ class RobotLoop {
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
   [[nodiscard]] Publisher& publisher() { return publisher_; }
   [[nodiscard]] WorldLink& world() { return world_; }
+  [[nodiscard]] const WorldLink& world() const { return world_; }
   [[nodiscard]] const Trajectory& trajectory() const { return localiser_.trajectory(); }
 
  private:

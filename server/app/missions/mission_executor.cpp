@@ -1,23 +1,16 @@
 #include "server/app/missions/mission_executor.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
+#include "common/api/fleet.hpp"
 #include "common/core/assert.hpp"
 #include "server/app/estimators/estimator.hpp"
 #include "server/app/missions/mission_rules.hpp"
 
 namespace seeker::app {
-namespace {
-
-/// What earlier missions have found and is still listed: more than anybody reads, and far less than a list may hold.
-constexpr std::size_t kMaxEarlierDetections = 1000;
-
-}  // namespace
 
 MissionExecutor::MissionExecutor(const MissionParams& params, BehaviourFactory factory, MissionOutputs outputs)
-    : params_(params), factory_(std::move(factory)), outputs_(std::move(outputs)) {}
+    : params_(params), factory_(std::move(factory)), outputs_(std::move(outputs)), findings_(outputs_.detection) {}
 
 Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request, const std::string& owner,
                                               const Situation& situation, const MissionSoFar& so_far) {
@@ -42,7 +35,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   if (!behaviour) {
     return tl::unexpected<Error>(behaviour.error());
   }
-  take_back(so_far.found, situation.pose.map_epoch);
+  findings_.take_back(so_far.found, situation.pose.map_epoch);
   Active active;
   active.request = request;
   active.owner = owner;
@@ -52,7 +45,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.status.phase = "start";
   active.status.started = situation.now - so_far.running;
   active.status.link_policy = request.link_policy;
-  active.detection_base = highest_detection_id_;
+  active.detection_base = findings_.highest_id();
   active.pose = situation.pose.map_T_base;
   active.so_far = {so_far.start_map, so_far.running};
   if (so_far.start_map) {
@@ -61,9 +54,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.ran_at = situation.now;
   active.map_epoch = situation.pose.map_epoch;
   active_ = std::move(active);
-  if (detections_.size() > kMaxEarlierDetections) {
-    detections_.erase(detections_.begin(), detections_.end() - kMaxEarlierDetections);
-  }
+  findings_.begin_mission();
   event_sequence_ = 0;
   log(situation.now, "mission-started", active_->status.kind + " started");
   report(situation.now);
@@ -210,7 +201,7 @@ void MissionExecutor::apply_link_policy(const Situation& situation, WallTime wal
   api::MissionEnd why = active_->behaviour->pending_end().value_or(
       api::MissionEnd{.outcome = api::Outcome::kLinkLost, .cause = cause, .remedy = remedy, .unreachable = {}});
   active_->behaviour = std::move(*way_back);
-  active_->detection_base = highest_detection_id_;
+  active_->detection_base = findings_.highest_id();
   active_->end_after = std::move(why);
   log(situation.now, "returning", cause, api::Severity::kWarning);
 }
@@ -227,10 +218,10 @@ Decision MissionExecutor::step(const Situation& situation, const api::Fault* blo
     return active_ ? held(situation, "waiting: " + (blocking != nullptr ? blocking->message : situation.pose.cause))
                    : Decision{};
   }
-  count_time(situation.now);
+  active_->count_time(situation.now);
   active_->so_far.start_map = active_->so_far.start_map.value_or(situation.pose.map_T_base.translation());
   Situation here = situation;
-  here.time_left = time_left();
+  here.time_left = active_->time_left();
   if (here.time_left && *here.time_left < Duration::zero()) {
     end(api::Outcome::kTimeLimit, "the time limit of the mission has passed", "give it more with --time-limit",
         situation.now);
@@ -241,14 +232,13 @@ Decision MissionExecutor::step(const Situation& situation, const api::Fault* blo
   return decision;
 }
 
-void MissionExecutor::count_time(RobotTime now) {
-  active_->so_far.running += active_->ran_at ? now - *active_->ran_at : Duration{0};
-  active_->ran_at = now;
+void MissionExecutor::Active::count_time(RobotTime now) {
+  so_far.running += ran_at ? now - *ran_at : Duration{0};
+  ran_at = now;
 }
 
-std::optional<Duration> MissionExecutor::time_left() const {
-  const std::optional<Duration>& limit = active_->request.time_limit;
-  return limit ? std::optional(*limit - active_->so_far.running) : std::nullopt;
+std::optional<Duration> MissionExecutor::Active::time_left() const {
+  return request.time_limit ? std::optional(*request.time_limit - so_far.running) : std::nullopt;
 }
 
 std::optional<MissionSoFar> MissionExecutor::so_far() const {
@@ -256,8 +246,7 @@ std::optional<MissionSoFar> MissionExecutor::so_far() const {
     return std::nullopt;
   }
   MissionSoFar so_far = active_->so_far;
-  std::copy_if(detections_.begin(), detections_.end(), std::back_inserter(so_far.found),
-               [&](const api::Detection& d) { return d.map_epoch == active_->map_epoch; });
+  so_far.found = findings_.detections_of_epoch(active_->map_epoch);
   return so_far;
 }
 
@@ -318,6 +307,51 @@ void MissionExecutor::client_back(const std::string& client) {
   if (active_ && active_->owner == client) {
     active_->lost_since.reset();
   }
+}
+
+void MissionExecutor::map_moved(const MapCorrection& correction, RobotTime now) {
+  if (active_) {
+    const MapMove& move = correction.move;
+    active_->behaviour->map_moved(move);
+    active_->last_pose.reset();
+    active_->pose = move * active_->pose;
+    if (active_->so_far.start_map) {
+      active_->so_far.start_map = move * *active_->so_far.start_map;
+    }
+    active_->map_epoch = correction.to_epoch;
+    if (move.moves()) {
+      log(now, "map-moved", "the map was corrected; what was searched and found moved with it");
+    }
+    collect_detections();  // moved by the behaviour, which knows best how
+  }
+  findings_.map_moved(correction);
+}
+
+void MissionExecutor::collect() {
+  if (std::optional<api::GridReport> grid = active_->behaviour->grid()) {
+    active_->status.cells_searched = static_cast<int>(grid->lists.searched.size());
+    active_->status.cells_unsearched = static_cast<int>(grid->lists.unsearched.size());
+    active_->status.coverage = grid->evidence.summary;
+    findings_.take_grid(std::move(*grid), active_->map_epoch);
+  }
+  collect_detections();
+}
+
+void MissionExecutor::collect_detections() {
+  findings_.take_detections(active_->behaviour->detections(),
+                            {active_->request.id, active_->detection_base, active_->map_epoch});
+}
+
+void MissionExecutor::keep_searched() {
+  if (auto searched = active_->behaviour->searched(active_->pose.translation(), api::kMaxFleetSearchedSide_cells)) {
+    findings_.keep_searched(std::move(*searched), active_->map_epoch);
+  }
+}
+
+std::optional<SearchedFloor> MissionExecutor::searched(const PoseEstimate& at) const {
+  auto now = active_ ? active_->behaviour->searched(at.map_T_base.translation(), api::kMaxFleetSearchedSide_cells)
+                     : std::nullopt;
+  return now ? now : findings_.searched(at.map_epoch);
 }
 
 void MissionExecutor::report(RobotTime now) {

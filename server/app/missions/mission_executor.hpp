@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/api/robot_api.hpp"
-#include "common/core/map_move.hpp"
 #include "server/app/missions/behaviour.hpp"
+#include "server/app/missions/mission_findings.hpp"
 
 namespace seeker::app {
 
@@ -33,13 +33,6 @@ struct MissionOutputs {
   std::function<void(const api::Event&)> event;
   std::function<void(const api::MissionStatus&)> status;
   std::function<void(const api::Detection&)> detection;  ///< new, refined, or withdrawn
-};
-
-/// A correction of the map that is in use.
-struct MapCorrection {
-  MapMove move;                  ///< takes places in the map before to places in the map now; nothing: it only grew
-  std::uint32_t from_epoch = 0;  ///< of the map before: only what belongs to it moves
-  std::uint32_t to_epoch = 0;    ///< of the map now
 };
 
 /// How far a mission has come: what one that was cut off goes on from.
@@ -71,16 +64,13 @@ class MissionExecutor {
   void on_recognition(const Recognition& recognition);
   void on_look(const Result<StereoLook>& look);
   /// What a running mission knows of places moves with the map, and so does what ended ones have found and searched in
-  /// it: others are told of it as long as the map lives. Only grid() of an ended mission keeps its epoch.
+  /// it: others are told of it as long as the map lives. Only the grid of an ended mission keeps its epoch.
   void map_moved(const MapCorrection& correction, RobotTime now);
 
   /// What the behaviour knew when the program was cut off; before its first step.
   void remember(const TopologyMemory& memory);
   void client_lost(const std::string& client, WallTime wall_now);
   void client_back(const std::string& client);
-
-  /// Another map takes the place of the present one: what was found and searched in that is no part of it.
-  void forget_places();
 
   [[nodiscard]] bool running() const { return active_ && active_->status.state == api::MissionState::kRunning; }
   [[nodiscard]] bool present() const { return active_.has_value(); }
@@ -90,14 +80,13 @@ class MissionExecutor {
   [[nodiscard]] const api::MissionRequest* request() const { return active_ ? &active_->request : nullptr; }
   /// The running mission or the last one.
   [[nodiscard]] const std::optional<api::MissionStatus>& last() const { return last_; }
-  [[nodiscard]] const std::optional<api::GridReport>& grid() const { return grid_; }
   /// Of the mission that runs or ran last, and the newest of those before; by rising id.
-  [[nodiscard]] const std::vector<api::Detection>& detections() const { return detections_; }
+  [[nodiscard]] const std::vector<api::Detection>& detections() const { return findings_.detections(); }
+  [[nodiscard]] MissionFindings& findings() { return findings_; }
+  [[nodiscard]] const MissionFindings& findings() const { return findings_; }
   /// What the running search has searched, or the last one of this map epoch; see Behaviour::searched().
   [[nodiscard]] std::optional<SearchedFloor> searched(const PoseEstimate& at) const;
   [[nodiscard]] const Behaviour* behaviour() const { return active_ ? active_->behaviour.get() : nullptr; }
-  /// Ids continue above what an earlier run of the program gave out.
-  void continue_detection_ids(std::uint64_t highest) { highest_detection_id_ = highest; }
 
  private:
   struct Active {
@@ -118,24 +107,20 @@ class MissionExecutor {
     Pose2 pose;                      ///< where it was last, frame `map`
     RobotTime last_report;
     std::uint32_t map_epoch = 0;  ///< that results belong to
+
+    void count_time(RobotTime now);
+    /// Of the mission's limit; nothing: it has none.
+    [[nodiscard]] std::optional<Duration> time_left() const;
   };
 
   [[nodiscard]] Decision held(const Situation& situation, const std::string& activity);
   [[nodiscard]] bool hold_for_trouble(const Situation& situation, const api::Fault* blocking);
-  void count_time(RobotTime now);
-  [[nodiscard]] std::optional<Duration> time_left() const;
   void apply_link_policy(const Situation& situation, WallTime wall_now);
   void take(const Decision& decision, const Situation& situation);
   void finish(const api::MissionEnd& end, RobotTime now);
   [[nodiscard]] api::MissionEnd as_it_counts(api::MissionEnd end) const;
   void collect();
-  void collect_grid();
   void collect_detections();
-  void take(api::Detection detection);
-  void take_back(const std::vector<api::Detection>& found, std::uint32_t map_epoch);
-  void withdraw_all_but(const std::vector<api::Detection>& told);
-  void withdraw_found_again(const std::vector<api::Detection>& told);
-  void withdraw(const std::function<bool(const api::Detection&)>& is_none);
   void keep_searched();
   void report(RobotTime now);
   void log(RobotTime now, const std::string& kind, const std::string& text,
@@ -146,11 +131,7 @@ class MissionExecutor {
   MissionOutputs outputs_;
   std::optional<Active> active_;
   std::optional<api::MissionStatus> last_;
-  std::optional<api::GridReport> grid_;
-  std::vector<api::Detection> detections_;
-  std::optional<SearchedFloor> searched_;  ///< by the last search that ended,
-  std::uint32_t searched_epoch_ = 0;       ///< in the map of this epoch
-  std::uint64_t highest_detection_id_ = 0;
+  MissionFindings findings_;
   std::uint64_t event_sequence_ = 0;
 };
 

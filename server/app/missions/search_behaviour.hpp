@@ -7,7 +7,7 @@
 #include <string>
 
 #include "server/app/missions/behaviour.hpp"
-#include "server/app/missions/map_views.hpp"
+#include "server/app/missions/map_view_finder.hpp"
 #include "server/app/missions/picture_round.hpp"
 #include "server/search/search_mission.hpp"
 #include "server/vision/solids/target_recogniser.hpp"

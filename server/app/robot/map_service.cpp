@@ -7,9 +7,6 @@
 namespace seeker::app {
 namespace {
 
-/// Waiting requests; each may hold a whole map.
-constexpr std::size_t kMaxWaiting = 16;
-
 api::MapSummary summary_of(const store::MapListing& listing) {
   const store::MapFileHeader& header = listing.header;
   return {.name = header.origin.name,
@@ -33,18 +30,6 @@ Result<api::MapSummary> summary_of(const Result<store::MapListing>& listing) {
                  : Result<api::MapSummary>(tl::unexpected<Error>(listing.error()));
 }
 
-/// What the scans say about who made them.
-std::string sensors_of(const LineMap& map) {
-  if (map.keyframes.empty()) {
-    return "no kept scans";
-  }
-  const MapKeyframe& scan = map.keyframes.front();
-  constexpr double kTenth = 10.0;
-  const int range_dm = static_cast<int>(static_cast<double>(scan.range_max_m) * kTenth);
-  return "lidar with " + std::to_string(scan.ranges.size()) + " beams of up to " + std::to_string(range_dm / 10) + "." +
-         std::to_string(range_dm % 10) + " m";
-}
-
 Error with_disk_remedy(const Error& error) {
   return error.code == Errc::kIo ? Error{error.code, error.message + "; free space on the disk of the state folder"}
                                  : error;
@@ -52,24 +37,14 @@ Error with_disk_remedy(const Error& error) {
 
 }  // namespace
 
-MapService::MapService(MapStorage storage, RobotLoop& loop, Mailbox& mailbox)
-    : storage_(std::move(storage)),
-      loop_(loop),
-      mailbox_(mailbox),
-      files_(storage_.folder),
-      checkpoints_(checkpoint_folder()),
-      disk_(kMaxWaiting, "maps") {}
+MapService::MapService(MapStore& store, RobotLoop& loop, Mailbox& mailbox)
+    : store_(store), loop_(loop), mailbox_(mailbox) {}
 
-Status MapService::enqueue(Work work) {
-  if (storage_.folder.empty()) {
-    return fail(Errc::kNotReady, "this robot has no folder to keep maps in; start it with --state FOLDER");
-  }
-  return disk_.post([this, work = std::move(work)] { work(files_); });
-}
+MapService::~MapService() { store_.finish(); }
 
 template <class T>
 void MapService::on_worker(const api::Reply<T>& reply, std::function<Result<T>(const store::MapFiles&)> work) {
-  const Status ok = enqueue([reply, work = std::move(work)](const store::MapFiles& files) { reply(work(files)); });
+  const Status ok = store_.post([reply, work = std::move(work)](const store::MapFiles& files) { reply(work(files)); });
   if (!ok) {
     reply(tl::unexpected<Error>(ok.error()));
   }
@@ -85,8 +60,8 @@ void MapService::save(const std::string& name, bool replace, const api::Reply<ap
     // Saving again under its own name is how a map grows.
     const bool own = map->identity.name == name;
     const auto shared = std::make_shared<const LoopMap>(std::move(*map));
-    const Status ok = enqueue([this, shared, name, replace, own, reply](const store::MapFiles& /*files*/) {
-      write(*shared, name, replace || own, reply);
+    const Status ok = store_.post([this, shared, name, replace, own, reply](const store::MapFiles& files) {
+      write(files, *shared, name, replace || own, reply);
     });
     if (!ok) {
       reply(tl::unexpected<Error>(ok.error()));
@@ -97,23 +72,10 @@ void MapService::save(const std::string& name, bool replace, const api::Reply<ap
   }
 }
 
-store::MapFile MapService::file_of(const LoopMap& from, const std::string& name) const {
-  store::MapFile file;
-  file.map = from.map;
-  file.origin.name = name;
-  file.origin.robot_id = storage_.robot_id;
-  file.origin.software_version = storage_.software_version;
-  file.origin.sensors = sensors_of(from.map);
-  file.origin.saved_unix_s = wall_unix_s();
-  file.origin.created_unix_s =
-      from.identity.created_unix_s != 0 ? from.identity.created_unix_s : file.origin.saved_unix_s;
-  return file;
-}
-
-void MapService::write(const LoopMap& from, const std::string& name, bool replace,
+void MapService::write(const store::MapFiles& files, const LoopMap& from, const std::string& name, bool replace,
                        const api::Reply<api::MapSummary>& reply) {
-  const store::MapFile file = file_of(from, name);
-  const Result<store::MapListing> written = files_.write(file, replace);
+  const store::MapFile file = store_.file_of(from, name);
+  const Result<store::MapListing> written = files.write(file, replace);
   if (!written) {
     reply(tl::unexpected<Error>(with_disk_remedy(written.error())));
     return;
@@ -130,7 +92,7 @@ void MapService::write(const LoopMap& from, const std::string& name, bool replac
 }
 
 void MapService::load(const std::string& name, api::MapUse use, const api::Reply<api::MapSummary>& reply) {
-  const Status ok = enqueue([this, name, use, reply](const store::MapFiles& files) {
+  const Status ok = store_.post([this, name, use, reply](const store::MapFiles& files) {
     Result<store::MapFile> file = files.read(name);
     const Result<store::MapListing> listing = files.inspect(name);
     if (!file || !listing) {

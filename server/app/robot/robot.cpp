@@ -63,7 +63,7 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     if (command == api::MissionCommand::kResume) {
-      robot_.maps_.resume_mission(client_, reply);
+      robot_.checkpoints_.resume_mission(client_, reply);
       return;
     }
     ask(std::move(reply), [this, command] { return loop().commands().command_mission(command, client_); });
@@ -100,10 +100,10 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   }
   void get_grid(api::Reply<api::GridReport> reply) override {
     ask(std::move(reply), [this]() -> Result<api::GridReport> {
-      if (!loop().missions().grid()) {
+      if (!loop().missions().findings().grid()) {
         return fail(Errc::kNotFound, "no search has been started yet, so there are no lists");
       }
-      return *loop().missions().grid();
+      return *loop().missions().findings().grid();
     });
   }
   void get_detections(api::Reply<std::vector<api::Detection>> reply) override {
@@ -185,7 +185,9 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
       loop_(params, std::move(parts), hub_),
       mailbox_(kMailboxCapacity),
       journal_(std::move(journal)),
-      maps_({maps, identity_.robot_id, identity_.software_version}, loop_, mailbox_),
+      map_store_({maps, identity_.robot_id, identity_.software_version}),
+      maps_(map_store_, loop_, mailbox_),
+      checkpoints_(map_store_, loop_, mailbox_),
       landmarks_(std::move(landmarks.library), std::move(landmarks.in_use)) {
   loop_.hooks().on_event = [this](const api::Event& event) {
     tell_log(event);
@@ -198,13 +200,13 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
   }
   if (journal_ && !maps.empty()) {
     loop_.hooks().on_checkpoint = [this](const api::MissionId& mission, Checkpoint checkpoint) {
-      maps_.write_checkpoint(mission, std::move(checkpoint));
+      checkpoints_.write(mission, std::move(checkpoint));
     };
     loop_.hooks().on_place = [this](const api::MissionId& mission, const MissionPlace& place) {
-      maps_.write_place(mission, place);
+      checkpoints_.write_place(mission, place);
     };
-    loop_.hooks().on_checkpoint_unused = [this](const api::MissionId& mission) { maps_.set_checkpoint_aside(mission); };
-    loop_.hooks().on_checkpoints_void = [this] { maps_.drop_checkpoints(); };
+    loop_.hooks().on_checkpoint_unused = [this](const api::MissionId& mission) { checkpoints_.set_aside(mission); };
+    loop_.hooks().on_checkpoints_void = [this] { checkpoints_.drop(); };
   }
 }
 
@@ -283,7 +285,7 @@ void Robot::give_own_seen(const api::Reply<OwnSeen>& reply) {
 }
 
 void Robot::keep_journal() {
-  loop_.missions().continue_detection_ids(journal_->highest_detection_id());
+  loop_.missions().findings().continue_ids(journal_->highest_detection_id());
   loop_.mission_control().offer_unfinished(journal_->unfinished());
   loop_.hooks().on_mission_started = [this](const api::MissionRequest& request) {
     journal_->mission_started(request, loop_.now());

@@ -11,6 +11,7 @@
 #include "server/app/fleet/own_map.hpp"
 #include "server/app/landmarks/landmark_service.hpp"
 #include "server/app/loop/robot_loop.hpp"
+#include "server/app/robot/checkpoint_service.hpp"
 #include "server/app/robot/map_service.hpp"
 #include "server/app/runtime/mailbox.hpp"
 #include "server/app/state/journal.hpp"
@@ -63,7 +64,9 @@ class Robot final : public api::RobotHost {
   RobotLoop loop_;
   Mailbox mailbox_;
   std::unique_ptr<Journal> journal_;
+  MapStore map_store_;
   MapService maps_;
+  CheckpointService checkpoints_;
   LandmarkService landmarks_;
   std::thread thread_;
   std::atomic<bool> client_seen_{false};

@@ -8,13 +8,17 @@ namespace seeker::app {
 DiskWorker::DiskWorker(std::size_t limit, std::string what)
     : limit_(limit), what_(std::move(what)), thread_([this] { serve(); }) {}
 
-DiskWorker::~DiskWorker() {
+DiskWorker::~DiskWorker() { finish(); }
+
+void DiskWorker::finish() {
   {
     const std::lock_guard lock(mutex_);
     quit_ = true;
   }
   wake_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
 }
 
 Status DiskWorker::post(Work work) {

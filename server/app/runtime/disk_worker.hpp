@@ -23,11 +23,12 @@ class DiskWorker {
   DiskWorker(std::size_t limit, std::string what);
   DiskWorker(const DiskWorker&) = delete;
   DiskWorker& operator=(const DiskWorker&) = delete;
-  /// Finishes what was accepted.
   ~DiskWorker();
 
   /// Does it after what was posted before. kBusy when too much waits.
   [[nodiscard]] Status post(Work work);
+  /// Does what was accepted, then ends; harmless when repeated. The end of the worker does so, too.
+  void finish();
 
  private:
   void serve();

@@ -93,7 +93,7 @@ class Observer {
 
   [[nodiscard]] FindScore score(const api::Detection& detection) const {
     FindScore score = score_of(detection, watch_);
-    const auto& grid = loop_.missions().grid();
+    const auto& grid = loop_.missions().findings().grid();
     score.cells_searched = grid ? static_cast<int>(grid->lists.searched.size()) : 0;
     return score;
   }
@@ -132,7 +132,7 @@ void fill_mission(RunRecord& record, const app::RobotLoop& loop, const Observer&
     }
   }
   result.found = end.outcome == api::Outcome::kTargetFound && result.last_find.has_value();
-  record.grid = loop.missions().grid();
+  record.grid = loop.missions().findings().grid();
   record.occupancy = loop.robot_map().occupancy().snapshot();
   record.trajectory = loop.trajectory().poses();
 }

@@ -6,6 +6,7 @@
 
 #include "server/app/composition/device_factory.hpp"
 #include "server/app/estimators/tracker_estimator.hpp"
+#include "server/app/loop/robot_loop.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/maps/fake_map_tracker.hpp"
 #include "tests/support/maps/random_map.hpp"

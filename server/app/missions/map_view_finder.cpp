@@ -1,4 +1,4 @@
-#include "server/app/missions/map_views.hpp"
+#include "server/app/missions/map_view_finder.hpp"
 
 #include <utility>
 

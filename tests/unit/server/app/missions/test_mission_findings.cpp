@@ -22,7 +22,7 @@ TEST_F(MissionResultsTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {
   script->grid = api::GridReport{};
   script->next.phase = "cover";
   static_cast<void>(tick());
-  EXPECT_EQ(executor.grid()->map_epoch, 0U);
+  EXPECT_EQ(executor.findings().grid()->map_epoch, 0U);
   situation.pose.map_epoch = 3;
   situation.pose.map_T_base.x_m = 5.0;
   executor.map_moved({.move = Pose2{5.0, 0.0, 0.0}, .from_epoch = 0, .to_epoch = 3}, situation.now);
@@ -31,14 +31,14 @@ TEST_F(MissionResultsTest, MovedMapMovesTheMissionAndResultsCarryTheirEpoch) {
   EXPECT_EQ(events.back().kind, "map-moved");
   script->next.phase = "approach";
   static_cast<void>(tick());
-  EXPECT_EQ(executor.grid()->map_epoch, 3U);
-  EXPECT_EQ(executor.grid()->evidence.map_epoch, 3U);
+  EXPECT_EQ(executor.findings().grid()->map_epoch, 3U);
+  EXPECT_EQ(executor.findings().grid()->evidence.map_epoch, 3U);
   EXPECT_DOUBLE_EQ(executor.last()->path_length_m, 0.0) << "the robot did not drive where the map moved";
   executor.end(api::Outcome::kOperator, "test", "", situation.now);
   script->moved.reset();
   executor.map_moved({.move = Pose2{1.0, 0.0, 0.0}, .from_epoch = 3, .to_epoch = 4}, situation.now);
   EXPECT_FALSE(script->moved);
-  EXPECT_EQ(executor.grid()->map_epoch, 3U) << "the grid of an ended mission keeps its epoch";
+  EXPECT_EQ(executor.findings().grid()->map_epoch, 3U) << "the grid of an ended mission keeps its epoch";
 }
 
 TEST_F(MissionResultsTest, TheStartStaysWhereThePartOfTheMapStaysThatItLiesIn) {
@@ -182,7 +182,7 @@ TEST_F(MissionResultsTest, FindsOfAnotherMapAreForgottenAndOfEarlierMissionsTheN
   EXPECT_EQ(executor.detections().front().id, 101U);
   EXPECT_EQ(executor.detections().back().id, 1101U);
   executor.end(api::Outcome::kOperator, "test", "", situation.now);
-  executor.forget_places();
+  executor.findings().forget_places();
   EXPECT_TRUE(executor.detections().empty());
 }
 

@@ -1,8 +1,7 @@
-// Maps of missions that are building them, for their resumption after a crash.
+#include "server/app/robot/checkpoint_service.hpp"
 
 #include <utility>
 
-#include "server/app/robot/map_service.hpp"
 #include "server/app/state/kept_files.hpp"
 
 namespace seeker::app {
@@ -16,20 +15,25 @@ std::string name_aside(const api::MissionId& mission, int number) {
 
 }  // namespace
 
-void MapService::write_checkpoint(const api::MissionId& mission, Checkpoint checkpoint) {
+CheckpointService::CheckpointService(MapStore& store, RobotLoop& loop, Mailbox& mailbox)
+    : store_(store), loop_(loop), mailbox_(mailbox), folder_(store.checkpoint_folder()), files_(folder_) {}
+
+CheckpointService::~CheckpointService() { store_.finish(); }
+
+void CheckpointService::write(const api::MissionId& mission, Checkpoint checkpoint) {
   const auto shared = std::make_shared<const Checkpoint>(std::move(checkpoint));
   const auto answer = [this](const Status& written) {
     // A robot that shuts down needs no answer.
     static_cast<void>(mailbox_.post([this, written] { loop_.mission_control().checkpoints().written(written); }));
   };
-  const Status ok = enqueue([this, mission, shared, answer](const store::MapFiles& /*files*/) {
+  const Status ok = store_.post([this, mission, shared, answer](const store::MapFiles& /*files*/) {
     // First, so that no map is without one; a full disk is told with the map.
-    static_cast<void>(keep_place(checkpoint_folder(), mission, shared->place));
-    const Result<store::MapListing> written = checkpoints_.write(file_of(shared->map, mission), true);
+    static_cast<void>(keep_place(folder_, mission, shared->place));
+    const Result<store::MapListing> written = files_.write(store_.file_of(shared->map, mission), true);
     Status kept = written ? Status() : Status(tl::unexpected<Error>(written.error()));
     // After the map: what is remembered of an older one is less, and never of places that the map does not have.
     if (kept && shared->topology) {
-      kept = keep_topology(checkpoint_folder(), mission, *shared->topology, shared->map.map.epoch);
+      kept = keep_topology(folder_, mission, *shared->topology, shared->map.map.epoch);
     }
     answer(kept);
   });
@@ -38,12 +42,12 @@ void MapService::write_checkpoint(const api::MissionId& mission, Checkpoint chec
   }
 }
 
-void MapService::write_place(const api::MissionId& mission, const MissionPlace& place) {
+void CheckpointService::write_place(const api::MissionId& mission, const MissionPlace& place) {
   const auto answer = [this] {
     static_cast<void>(mailbox_.post([this] { loop_.mission_control().checkpoints().place_written(); }));
   };
-  const Status ok = enqueue([this, mission, place, answer](const store::MapFiles& /*files*/) {
-    static_cast<void>(keep_place(checkpoint_folder(), mission, place));  // a full disk is told with the map
+  const Status ok = store_.post([this, mission, place, answer](const store::MapFiles& /*files*/) {
+    static_cast<void>(keep_place(folder_, mission, place));  // a full disk is told with the map
     answer();
   });
   if (!ok) {
@@ -51,9 +55,9 @@ void MapService::write_place(const api::MissionId& mission, const MissionPlace& 
   }
 }
 
-void MapService::set_checkpoint_aside(const api::MissionId& mission) {
-  static_cast<void>(enqueue([this, mission](const store::MapFiles& files) {
-    Result<store::MapFile> file = checkpoints_.read(mission);
+void CheckpointService::set_aside(const api::MissionId& mission) {
+  static_cast<void>(store_.post([this, mission](const store::MapFiles& files) {
+    Result<store::MapFile> file = files_.read(mission);
     Result<store::MapListing> saved = fail(Errc::kNotFound, "there is no map");
     constexpr int kMostNames = 100;
     for (int k = 1; file && !saved && k <= kMostNames; ++k) {
@@ -67,25 +71,25 @@ void MapService::set_checkpoint_aside(const api::MissionId& mission) {
   }));
 }
 
-void MapService::tell(const std::string& kind, const std::string& text, api::Severity severity) {
+void CheckpointService::tell(const std::string& kind, const std::string& text, api::Severity severity) {
   static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.diagnostics().log(kind, text, severity); }));
 }
 
-void MapService::drop_checkpoints() {
+void CheckpointService::drop() {
   // Where they cannot be removed they do no harm: they are looked up by the id of their mission.
-  static_cast<void>(enqueue([this](const store::MapFiles& /*files*/) {
-    const Result<std::vector<store::MapListing>> kept = checkpoints_.list();
+  static_cast<void>(store_.post([this](const store::MapFiles& /*files*/) {
+    const Result<std::vector<store::MapListing>> kept = files_.list();
     for (const store::MapListing& listing : kept ? *kept : std::vector<store::MapListing>()) {
-      static_cast<void>(checkpoints_.remove(listing.header.origin.name));
+      static_cast<void>(files_.remove(listing.header.origin.name));
     }
-    drop_kept(checkpoint_folder());
+    drop_kept(folder_);
   }));
 }
 
-void MapService::resume_mission(const std::string& client, const api::Reply<void>& reply) {
+void CheckpointService::resume_mission(const std::string& client, const api::Reply<void>& reply) {
   const bool posted = mailbox_.post([this, client, reply] {
     const std::optional<api::MissionId> mission = loop_.mission_control().checkpoint_to_resume();
-    if (mission && !storage_.folder.empty()) {
+    if (mission && store_.has_folder()) {
       resume_from(*mission, client, reply);
     } else {
       reply(loop_.commands().command_mission(api::MissionCommand::kResume, client));
@@ -96,12 +100,13 @@ void MapService::resume_mission(const std::string& client, const api::Reply<void
   }
 }
 
-void MapService::resume_from(const api::MissionId& mission, const std::string& client, const api::Reply<void>& reply) {
-  const Status ok = enqueue([this, mission, client, reply](const store::MapFiles& /*files*/) {
-    Result<store::MapFile> file = checkpoints_.read(mission);
+void CheckpointService::resume_from(const api::MissionId& mission, const std::string& client,
+                                    const api::Reply<void>& reply) {
+  const Status ok = store_.post([this, mission, client, reply](const store::MapFiles& /*files*/) {
+    Result<store::MapFile> file = files_.read(mission);
     const MapIdentity identity{"", file ? file->origin.created_unix_s : 0, api::MapUse::kContinue};
     std::string trouble;
-    const KeptState kept = file ? read_kept(checkpoint_folder(), mission, file->map.epoch, trouble) : KeptState{};
+    const KeptState kept = file ? read_kept(folder_, mission, file->map.epoch, trouble) : KeptState{};
     if (!trouble.empty()) {
       tell("resume-without-memory", "the mission goes on in its map, but without all that it remembered: " + trouble,
            api::Severity::kWarning);

@@ -1,4 +1,4 @@
-#include "server/app/runtime/faults.hpp"
+#include "server/app/runtime/fault_list.hpp"
 
 #include <algorithm>
 

@@ -1,0 +1,117 @@
+// The pose and the map's epoch: what follows when the map moves, and in which order readings reach the estimator.
+
+#include <gtest/gtest.h>
+
+#include "server/app/loop/localiser.hpp"
+#include "tests/unit/server/app/loop/fake_robot.hpp"
+
+namespace seeker::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+class LocaliserTest : public ::testing::Test {
+ protected:
+  LocaliserTest() {
+    for (const char* name : {"base", "lidar"}) {
+      diagnostics.components().add(name, "driver", "fake", {});
+    }
+    diagnostics.components().add("pose", "estimator", "fake", {});
+    diagnostics.components().activate_all();
+    estimator->pose.quality = LocalisationQuality::kLocalised;
+  }
+  static Devices devices_of(const LocaliserTest& test) {
+    Devices devices;
+    devices.type = "fake";
+    devices.clock = test.clock;
+    devices.base = test.base;
+    devices.lidar = test.lidar;
+    return devices;
+  }
+  std::optional<MapShift> tick() {
+    clock->time += milliseconds(100);
+    sensing.read();
+    return localiser.localise(sensing, neighbours, clock->time);
+  }
+
+  std::shared_ptr<testing::HandClock> clock = std::make_shared<testing::HandClock>();
+  std::shared_ptr<testing::FakeBase> base = std::make_shared<testing::FakeBase>();
+  std::shared_ptr<testing::FakeLidar> lidar = std::make_shared<testing::FakeLidar>();
+  UpdateHub hub;
+  LoopHooks hooks;
+  Diagnostics diagnostics{clock, hub, hooks};
+  WorldLink world{clock, "fake", milliseconds(100), std::chrono::seconds(10), diagnostics};
+  Sensing sensing{LoopParams{}, devices_of(*this), world, diagnostics};
+  Neighbours neighbours{FleetMotionParams{}};
+  testing::FakeEstimator* estimator = new testing::FakeEstimator;
+  Localiser localiser{LoopParams{}, nav::OccupancyParams{}, std::unique_ptr<Estimator>(estimator), diagnostics};
+};
+
+TEST_F(LocaliserTest, AnEpochThatRisesMovesTheMapByWhatOdometryDoesNotExplain) {
+  base->next = testing::odometry_at(clock->time, {});
+  EXPECT_FALSE(tick());
+  base->next = testing::odometry_at(clock->time, Pose2{0.2, 0.0, 0.0});
+  estimator->pose.map_T_base = Pose2{0.2, 0.5, 0.0};
+  estimator->pose.map_epoch = 1;
+  const std::optional<MapShift> shift = tick();
+  ASSERT_TRUE(shift);
+  EXPECT_EQ(shift->correction.from_epoch, 0U);
+  EXPECT_EQ(shift->correction.to_epoch, 1U);
+  ASSERT_TRUE(shift->new_T_old);
+  EXPECT_NEAR(shift->new_T_old->x_m, 0.0, 1e-9);
+  EXPECT_NEAR(shift->new_T_old->y_m, 0.5, 1e-9);
+}
+
+TEST_F(LocaliserTest, ARobotThatIsFoundLeavesTheMapWhereItIs) {
+  estimator->pose.quality = LocalisationQuality::kLost;
+  base->next = testing::odometry_at(clock->time, {});
+  EXPECT_FALSE(tick());
+  base->next = testing::odometry_at(clock->time, {});
+  estimator->pose = {.stamp = clock->time,
+                     .map_T_base = Pose2{7.0, 0.0, 0.0},
+                     .quality = LocalisationQuality::kLocalised,
+                     .cause = "",
+                     .map_epoch = 1};
+  const std::optional<MapShift> shift = tick();
+  ASSERT_TRUE(shift);
+  EXPECT_FALSE(shift->new_T_old);
+  EXPECT_FALSE(shift->correction.move.moves());
+}
+
+TEST_F(LocaliserTest, ASweepThatArrivesLateComesBetweenTheOdometryBeforeAndAfterIt) {
+  base->next = testing::odometry_at(clock->time, {});
+  EXPECT_FALSE(tick());
+  const RobotTime sweep = clock->time - milliseconds(50);
+  lidar->next = testing::sweep_at(sweep, 3.0F);
+  base->next = testing::odometry_at(clock->time, Pose2{0.1, 0.0, 0.0});
+  EXPECT_FALSE(tick());
+  ASSERT_EQ(estimator->odometry.size(), 3U);
+  EXPECT_EQ(estimator->odometry[1], sweep) << "the odometry at the sweep's own stamp";
+  EXPECT_EQ(estimator->scans.size(), 1U);
+}
+
+TEST_F(LocaliserTest, ARefusedReadingIsAWarningAndTheEstimateGoesOn) {
+  estimator->odometry_ok = fail(Errc::kInvalidArgument, "time runs backwards");
+  base->next = testing::odometry_at(clock->time, {});
+  EXPECT_FALSE(tick());
+  ASSERT_TRUE(diagnostics.faults().find("odometry-refused"));
+  EXPECT_EQ(localiser.pose().quality, LocalisationQuality::kLocalised);
+}
+
+TEST_F(LocaliserTest, NothingIsMappedWhileTheRobotIsNotPlaced) {
+  estimator->pose.quality = LocalisationQuality::kLost;
+  base->next = testing::odometry_at(clock->time, {});
+  lidar->next = testing::sweep_at(clock->time, 3.0F);
+  EXPECT_FALSE(tick());
+  const std::uint64_t before = localiser.map().revision();
+  localiser.map_readings(sensing);
+  EXPECT_EQ(localiser.map().revision(), before);
+  estimator->pose.quality = LocalisationQuality::kLocalised;
+  lidar->next = testing::sweep_at(clock->time, 3.0F);
+  EXPECT_FALSE(tick());
+  localiser.map_readings(sensing);
+  EXPECT_GT(localiser.map().revision(), before);
+}
+
+}  // namespace
+}  // namespace seeker::app

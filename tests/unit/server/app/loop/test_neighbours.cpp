@@ -1,0 +1,67 @@
+// Other robots: where they are now, how long a report holds, what follows the map.
+
+#include <gtest/gtest.h>
+
+#include "server/app/loop/neighbours.hpp"
+
+namespace seeker::app {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+FleetView one_other(const Pose2& map_T_base, const Twist2& velocity) {
+  RobotTopology other;
+  other.robot_id = "other";
+  other.map_T_base = map_T_base;
+  other.velocity = velocity;
+  return {.robot_id = "me", .others = {other}};
+}
+
+const RobotTime kStart{seconds(50)};
+
+TEST(Neighbours, AReportedRobotIsBroughtOnByItsVelocityForTheTimeSince) {
+  Neighbours neighbours(FleetMotionParams{});
+  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {0.5, 0.0}), kStart);
+  const auto movers = neighbours.movers_base(Pose2{1.0, 0.0, 0.0}, std::nullopt, kStart + seconds(1));
+  ASSERT_EQ(movers.size(), 1U);
+  EXPECT_NEAR(movers[0].frame_T_base.x_m, 2.5, 1e-9) << "frame of the robot's base";
+  const FleetMotionParams params;
+  EXPECT_NEAR(movers[0].slack_m, params.slack_m + params.slack_m_s, 1e-9);
+}
+
+TEST(Neighbours, AnOldReportSaysNothing) {
+  Neighbours neighbours(FleetMotionParams{});
+  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {0.5, 0.0}), kStart);
+  const RobotTime later = kStart + FleetMotionParams{}.max_age + milliseconds(1);
+  EXPECT_TRUE(neighbours.movers_base({}, std::nullopt, later).empty());
+  EXPECT_NE(neighbours.fleet(), nullptr) << "where it was may still be asked";
+}
+
+TEST(Neighbours, AMapCorrectionMovesWhatIsKnownOfTheOthers) {
+  Neighbours neighbours(FleetMotionParams{});
+  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kStart);
+  neighbours.map_moved(Pose2{0.0, 1.0, 0.0});
+  EXPECT_NEAR(neighbours.fleet()->others[0].map_T_base.y_m, 1.0, 1e-9);
+  EXPECT_NEAR(neighbours.fleet()->others[0].map_T_base.x_m, 3.0, 1e-9);
+}
+
+TEST(Neighbours, WithoutAnExplorationTheOwnReportIsInactive) {
+  Neighbours neighbours(FleetMotionParams{});
+  neighbours.note_own(nullptr, Pose2{1.0, 2.0, 0.0}, {0.1, 0.0});
+  EXPECT_FALSE(neighbours.own().active);
+  EXPECT_EQ(neighbours.own().map_T_base, (Pose2{1.0, 2.0, 0.0}));
+  EXPECT_EQ(neighbours.own().velocity, (Twist2{0.1, 0.0}));
+}
+
+TEST(Neighbours, AnotherMapVoidsAllPlaces) {
+  Neighbours neighbours(FleetMotionParams{});
+  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kStart);
+  neighbours.note_own(nullptr, Pose2{1.0, 2.0, 0.0}, {});
+  neighbours.forget_places();
+  EXPECT_EQ(neighbours.fleet(), nullptr);
+  EXPECT_EQ(neighbours.own(), RobotTopology{});
+}
+
+}  // namespace
+}  // namespace seeker::app

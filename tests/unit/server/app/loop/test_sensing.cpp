@@ -1,0 +1,109 @@
+// What the devices say: fresh and stale readings, faults of silent and of broken devices, restarts.
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "server/app/loop/sensing.hpp"
+#include "tests/unit/server/app/loop/fake_robot.hpp"
+
+namespace seeker::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+class SensingTest : public ::testing::Test {
+ protected:
+  SensingTest() {
+    for (const char* name : {"base", "lidar"}) {
+      diagnostics.components().add(name, "driver", "fake", {});
+    }
+    diagnostics.components().activate_all();
+    sensing.restart_patience();
+  }
+  static Devices devices_of(const SensingTest& test) {
+    Devices devices;
+    devices.type = "fake";
+    devices.clock = test.clock;
+    devices.base = test.base;
+    devices.lidar = test.lidar;
+    return devices;
+  }
+  void read_after(Duration passed) {
+    clock->time += passed;
+    sensing.read();
+  }
+  [[nodiscard]] bool has_fault(const std::string& id) const { return diagnostics.faults().find(id).has_value(); }
+
+  std::shared_ptr<testing::HandClock> clock = std::make_shared<testing::HandClock>();
+  std::shared_ptr<testing::FakeBase> base = std::make_shared<testing::FakeBase>();
+  std::shared_ptr<testing::FakeLidar> lidar = std::make_shared<testing::FakeLidar>();
+  UpdateHub hub;
+  LoopHooks hooks;
+  Diagnostics diagnostics{clock, hub, hooks};
+  WorldLink world{clock, "fake", milliseconds(100), std::chrono::seconds(10), diagnostics};
+  Sensing sensing{LoopParams{}, devices_of(*this), world, diagnostics};
+};
+
+TEST_F(SensingTest, AReadingIsFreshInTheTickThatBroughtItOnly) {
+  base->next = testing::odometry_at(clock->time, Pose2{1.0, 0.0, 0.0}, {0.2, 0.0});
+  read_after(milliseconds(100));
+  EXPECT_TRUE(sensing.fresh_odometry());
+  EXPECT_FALSE(sensing.fresh_scan());
+  EXPECT_TRUE(sensing.moving());
+  read_after(milliseconds(100));
+  EXPECT_FALSE(sensing.fresh_odometry());
+  ASSERT_NE(sensing.odometry(), nullptr) << "the newest stays known";
+  EXPECT_EQ(sensing.odom_T_base().x_m, 1.0);
+  EXPECT_EQ(sensing.scan(), nullptr);
+}
+
+TEST_F(SensingTest, ASilentDeviceIsAFaultUntilItSpeaksAgain) {
+  read_after(milliseconds(400));
+  EXPECT_FALSE(has_fault("base-silent"));
+  read_after(milliseconds(200));
+  EXPECT_TRUE(has_fault("base-silent")) << "its time-out is 500 ms";
+  EXPECT_FALSE(has_fault("lidar-silent")) << "that of the lidar is a second";
+  base->next = testing::odometry_at(clock->time, {});
+  read_after(milliseconds(100));
+  EXPECT_FALSE(has_fault("base-silent"));
+}
+
+TEST_F(SensingTest, AReadingThatCannotBeIsAFaultAndIsNotTaken) {
+  base->next = testing::odometry_at(clock->time, Pose2{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
+  read_after(milliseconds(100));
+  EXPECT_TRUE(has_fault("base-invalid"));
+  EXPECT_EQ(sensing.odometry(), nullptr);
+  lidar->next = testing::sweep_at(clock->time, -1.0F);
+  read_after(milliseconds(100));
+  EXPECT_TRUE(has_fault("lidar-invalid"));
+  EXPECT_EQ(sensing.scan(), nullptr);
+}
+
+TEST_F(SensingTest, ReadingsOfAWorldThatIsAwayAreItsFaultAlone) {
+  clock->link = fail(Errc::kNotReady, "the link is cut");
+  base->ok = lidar->ok = fail(Errc::kIo, "no answer");
+  read_after(milliseconds(100));
+  EXPECT_TRUE(has_fault("world-lost"));
+  EXPECT_FALSE(has_fault("base-invalid"));
+  clock->link = {};
+  base->ok = lidar->ok = {};
+  EXPECT_TRUE(world.check());
+  read_after(milliseconds(400));
+  EXPECT_TRUE(diagnostics.faults().all().empty()) << "silence counts from the world's return";
+}
+
+TEST_F(SensingTest, OdometryGoesOnWhereTheBaseWasRestarted) {
+  base->next = testing::odometry_at(clock->time, Pose2{2.0, 0.0, 0.0});
+  read_after(milliseconds(100));
+  sensing.base_restarted();
+  base->next = testing::odometry_at(clock->time, Pose2{0.0, 0.0, 0.0});
+  read_after(milliseconds(100));
+  EXPECT_NEAR(sensing.odom_T_base().x_m, 2.0, 1e-12) << "the base counts from zero again";
+  base->next = testing::odometry_at(clock->time, Pose2{0.5, 0.0, 0.0});
+  read_after(milliseconds(100));
+  EXPECT_NEAR(sensing.odom_T_base().x_m, 2.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace seeker::app
