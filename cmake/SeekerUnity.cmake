@@ -5,7 +5,6 @@ set(SEEKER_ALONE
     common/image/svg.cpp
     common/rpc/client_impl.cpp
     common/wire/convert_stream.cpp
-    server/app/fleet/fleet_leader.cpp server/app/fleet/fleet_memory.cpp
     server/app/state/journal.cpp
     server/app/robot/map_service.cpp
     server/emulator/emulator_server.cpp

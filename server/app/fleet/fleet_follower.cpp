@@ -24,6 +24,7 @@ FleetFollower::FleetFollower(FleetFollowerParams params, FleetHost host)
       host_(std::move(host)),
       instance_(net::random_id()),
       main_(params_.main, params_.call_timeout),
+      others_(params_.robot_id, host_),
       last_(fail(Errc::kNotReady, "the main robot has not answered yet")),
       thread_([this] { run(); }) {}
 
@@ -77,7 +78,7 @@ void FleetFollower::note(const Status& outcome) {
 Status FleetFollower::once() {
   if (std::chrono::steady_clock::now() >= announce_at_) {
     if (Status announced = announce(); !announced) {
-      hear(tl::unexpected<Error>(announced.error()));
+      others_.hear(Result<api::FleetShared>(tl::unexpected<Error>(announced.error())));
       return announced;
     }
     announce_at_ = std::chrono::steady_clock::now() + params_.period;
@@ -110,9 +111,7 @@ Status FleetFollower::exchange_seen() {
                                                    .detections = std::move(own->detections),
                                                    .searched = std::move(own->searched)});
   if (others) {
-    floor_ = floor_of(others->floor);
-    searched_ = shared_search(std::move(others->searched), searched_);
-    news_.tell(others->findings, host_);
+    others_.hear(std::move(*others));
     return {};
   }
   return others.error().code == Errc::kNotFound ? Status() : Status(tl::unexpected<Error>(others.error()));
@@ -156,41 +155,12 @@ Status FleetFollower::share() {
     told.topology = api::within_limits(**std::move(own));
   }
   const Result<api::FleetShared> shared = main_.share(told);
-  hear(shared);
+  others_.hear(shared);
   if (!shared && shared.error().code == Errc::kNotFound) {
     announce_at_ = {};  // it has forgotten this robot, or was started anew
     return {};
   }
   return shared ? Status() : Status(tl::unexpected<Error>(shared.error()));
-}
-
-/// Without a link the robot goes on alone, but places that others have been at were seen all the same: it keeps them,
-/// and takes up the goals of the others, since nobody can tell it whether they still go there. The same while the main
-/// robot has not made up its mind yet (it was started anew). What was denied since is dropped.
-void FleetFollower::hear(const Result<api::FleetShared>& shared) {
-  std::optional<FleetView> view = view_;
-  const api::FleetState state = shared ? shared->state : api::FleetState::kWaiting;
-  switch (state) {
-    case api::FleetState::kMerged: view = FleetView{params_.robot_id, shared->others, floor_, searched_}; break;
-    case api::FleetState::kWaiting:
-    case api::FleetState::kInsufficientOverlap:
-      for (std::size_t k = 0; view && k < view->others.size(); ++k) {
-        view->others[k].active = false;
-        view->others[k].velocity.reset();
-      }
-      break;
-    case api::FleetState::kAmbiguous:
-    case api::FleetState::kContradicted:
-    case api::FleetState::kSplit:
-      view.reset();
-      floor_.reset();
-      searched_.reset();
-      break;
-  }
-  if (view != view_) {
-    view_ = view;
-    host_.take_view(std::move(view));
-  }
 }
 
 Status FleetFollower::send(const PackedMap& packed, const api::FleetMissing& missing) {

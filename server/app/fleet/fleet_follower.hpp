@@ -15,8 +15,8 @@
 #include "common/api/fleet.hpp"
 #include "common/rpc/endpoint.hpp"
 #include "common/rpc/fleet_client.hpp"
-#include "server/app/fleet/fleet_news.hpp"
 #include "server/app/fleet/fleet_pieces.hpp"
+#include "server/app/fleet/known_others.hpp"
 #include "server/app/fleet/own_map.hpp"
 
 namespace seeker::app {
@@ -30,7 +30,8 @@ struct FleetFollowerParams {
   Duration call_timeout = std::chrono::seconds(10);  ///< wall time
 };
 
-/// Works on a thread of its own.
+/// Works on a thread of its own, on which it calls its host. Any thread may call status(): a mutex guards what that
+/// thread and the callers share, and neither the host nor the main robot is called while it is locked.
 class FleetFollower {
  public:
   FleetFollower(FleetFollowerParams params, FleetHost host);
@@ -48,7 +49,6 @@ class FleetFollower {
   [[nodiscard]] Status send(const PackedMap& packed, const api::FleetMissing& missing);
   [[nodiscard]] Status share();
   [[nodiscard]] Status exchange_seen();
-  void hear(const Result<api::FleetShared>& shared);
   void note(const Status& outcome);
   [[nodiscard]] bool stopping() const;
 
@@ -62,11 +62,8 @@ class FleetFollower {
   WallTime announce_at_;
   WallTime share_at_;
   WallTime floor_at_;
-  nav::SharedFloor floor_;  ///< what the others have seen, as last heard
-  SharedSearch searched_;   ///< so, too
-  FleetNews news_;
-  std::optional<FleetView> view_;  ///< what the robot was last told of the others
-  mutable std::mutex mutex_;       ///< guards what follows
+  KnownOthers others_;
+  mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable wake_;
   bool stopping_ = false;
   Status last_;

@@ -6,6 +6,7 @@
 
 #include "common/core/angle.hpp"
 #include "common/wire/sha256.hpp"
+#include "server/fleet/merge_memory.hpp"
 #include "server/store/map_file.hpp"
 
 namespace seeker::app {
@@ -97,6 +98,15 @@ Result<LineMap> unpack_map(const api::FleetManifest& manifest, const Pieces& pie
     return tl::unexpected<Error>(valid.error());
   }
   return map;
+}
+
+bool same_frame(const std::vector<api::FleetNode>& a, const std::vector<api::FleetNode>& b) {
+  return std::any_of(a.begin(), a.end(), [&](const api::FleetNode& one) {
+    return std::any_of(b.begin(), b.end(), [&](const api::FleetNode& other) {
+      return one.node.id == other.node.id && one.hash == other.hash &&
+             fleet::same_place(one.node.map_T_node, other.node.map_T_node);
+    });
+  });
 }
 
 }  // namespace seeker::app

@@ -30,4 +30,7 @@ struct PackedMap {
 /// they are no map.
 [[nodiscard]] Result<LineMap> unpack_map(const api::FleetManifest& manifest, const Pieces& pieces);
 
+/// Whether two manifests of a robot have a local map in common, at the same place: else it has begun a new map.
+[[nodiscard]] bool same_frame(const std::vector<api::FleetNode>& a, const std::vector<api::FleetNode>& b);
+
 }  // namespace seeker::app

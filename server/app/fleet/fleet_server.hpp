@@ -18,7 +18,9 @@
 
 namespace seeker::app {
 
-/// One thread does its network work. A connection that sends what is no request is closed; the others do not notice.
+/// One thread does its network work: it alone uses the connections and calls the leader, so that there is no mutex. The
+/// leader's worker hands a joint map over by posting to that thread. start() and the end are for the owner's thread. A
+/// connection that sends what is no request is closed; the others do not notice.
 class FleetServer {
  public:
   /// `leader` must outlive this; its own robot hears of the others every `refresh_period` of wall time.

@@ -1,0 +1,37 @@
+#include "server/app/fleet/known_others.hpp"
+
+namespace seeker::app {
+
+void KnownOthers::hear(api::FleetSightings sightings) {
+  floor_ = floor_of(sightings.floor);
+  searched_ = shared_search(std::move(sightings.searched), searched_);
+  news_.tell(sightings.findings, host_);
+}
+
+void KnownOthers::hear(const Result<api::FleetShared>& shared) {
+  std::optional<FleetView> view = view_;
+  const api::FleetState state = shared ? shared->state : api::FleetState::kWaiting;
+  switch (state) {
+    case api::FleetState::kMerged: view = FleetView{robot_id_, shared->others, floor_, searched_}; break;
+    case api::FleetState::kWaiting:
+    case api::FleetState::kInsufficientOverlap:
+      for (std::size_t k = 0; view && k < view->others.size(); ++k) {
+        view->others[k].active = false;
+        view->others[k].velocity.reset();
+      }
+      break;
+    case api::FleetState::kAmbiguous:
+    case api::FleetState::kContradicted:
+    case api::FleetState::kSplit:
+      view.reset();
+      floor_.reset();
+      searched_.reset();
+      break;
+  }
+  if (view != view_) {
+    view_ = view;
+    host_.take_view(std::move(view));
+  }
+}
+
+}  // namespace seeker::app

@@ -1,0 +1,56 @@
+#include "server/app/fleet/piece_files.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "common/log/log.hpp"
+#include "common/wire/sha256.hpp"
+#include "server/app/fleet/fleet_settings.hpp"
+#include "server/store/atomic_file.hpp"
+
+namespace seeker::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPieceSuffix = ".piece";
+
+std::string piece_name(const api::PieceHash& hash) { return wire::to_hex(hash) + kPieceSuffix; }
+
+}  // namespace
+
+Pieces PieceFiles::load(const api::FleetManifest& manifest) const {
+  const fs::path folder = folder_ / manifest.robot_id;
+  Pieces pieces;
+  for (const api::FleetNode& node : manifest.nodes) {
+    Result<std::vector<std::uint8_t>> piece =
+        store::read_file(folder / piece_name(node.hash), api::kMaxFleetPieceBytes);
+    if (piece && wire::sha256_of(*piece) == node.hash) {
+      pieces[node.hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*piece));
+    }
+  }
+  return pieces;
+}
+
+void PieceFiles::keep(const std::string& robot_id, const api::PieceHash& hash, const PieceBytes& bytes) const {
+  const fs::path folder = folder_ / robot_id;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (const Status kept = store::write_file_atomically(folder / piece_name(hash), *bytes); !kept) {
+    log::warning(kFleetPart, "a piece of '" + robot_id + "' is not kept: " + kept.error().message);
+  }
+}
+
+void PieceFiles::drop_all_but(const std::string& robot_id, const Pieces& needed) const {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / robot_id, error)) {
+    const bool wanted = std::any_of(needed.begin(), needed.end(), [&](const auto& piece) {
+      return entry.path().filename() == piece_name(piece.first);
+    });
+    if (entry.path().extension() == kPieceSuffix && !wanted) {
+      fs::remove(entry.path(), error);
+    }
+  }
+}
+
+}  // namespace seeker::app
