@@ -17,11 +17,14 @@ find_package(SQLite3 REQUIRED)
 find_package(Boost 1.81 REQUIRED)
 
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+# With FreeType, which loads the font.
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo-ft freetype2)
 # fuzzylite.pc has an empty version: ask for none.
 pkg_check_modules(FUZZYLITE REQUIRED IMPORTED_TARGET fuzzylite)
 
 # Header-only.
 find_package(nanoflann REQUIRED)
+find_package(nlohmann_json REQUIRED)
 
 # Debian's OpenCVConfig.cmake belongs to libopencv-dev, which brings GUI and contrib; the single -dev packages
 # have headers and libraries only.

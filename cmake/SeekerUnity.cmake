@@ -1,8 +1,8 @@
 # With SEEKER_UNITY the sources of a target are compiled ten at a time, as one source. Unnamed namespaces are shared then: the
 # second of two sources that use a name for two things, or each for itself, is compiled alone.
 set(SEEKER_ALONE
+    common/image/canvas.cpp
     client/cli/verbs_motion.cpp
-    common/image/svg.cpp
     common/rpc/client_impl.cpp
     common/wire/convert_stream.cpp
     server/app/state/journal.cpp
@@ -32,7 +32,7 @@ set(SEEKER_ALONE
     tests/support/net/chaos_proxy.cpp
     tests/unit/common/image/test_map_picture.cpp
     tests/unit/server/app/maps/test_robot_map.cpp
-    tests/unit/server/app/missions/test_turn_and_look.cpp
+    tests/unit/server/app/missions/test_rotate_and_look.cpp
     tests/unit/server/explore/test_doors.cpp tests/unit/server/explore/test_exploration.cpp
     tests/unit/server/explore/test_exploration_guards.cpp
     tests/unit/server/explore/test_viewpoint_strategies.cpp

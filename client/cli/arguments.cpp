@@ -121,7 +121,7 @@ api::ExploreStrategy parse_explore_strategy(const std::string& name) {
       return strategy;
     }
   }
-  return api::ExploreStrategy::kActive;
+  return api::kDefaultExploreStrategy;
 }
 
 }  // namespace seeker::cli

@@ -1,6 +1,5 @@
 /// \file
-/// What the user asked for, as values. The parser behind it (CLI11) is in parser.cpp and
-/// parser_errors.cpp only.
+/// The parsed command line as values. The parser library (CLI11) is used in parser.cpp and parser_errors.cpp only.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "client/cli/exit_code.hpp"
+#include "common/api/mission.hpp"
 
 namespace seeker::cli {
 
@@ -26,14 +26,14 @@ struct WatchVerb {
   std::vector<std::string> topics;
   double rate_hz = 2.0;
 };
-/// What every mission has.
+/// Options that all missions have.
 struct MissionOptions {
   std::optional<double> time_limit_s;
   std::string link_policy = "stop";
   bool detach = false;
   std::string id;
 };
-/// What is looked for.
+/// Options that name the targets of a search.
 struct TargetOptions {
   std::vector<std::string> targets;
   std::vector<std::string> solids;
@@ -53,7 +53,7 @@ struct SearchVerb : MissionOptions, TargetOptions {
   std::string save;
 };
 struct ExploreVerb : MissionOptions {
-  std::string strategy = "active";
+  std::string strategy{to_string(api::kDefaultExploreStrategy)};
   std::string bound;
   std::vector<std::string> keep_out;
   bool return_to_start = false;
@@ -165,7 +165,7 @@ struct GridVerb {
 };
 struct DetectionsVerb {};
 struct CameraGrabVerb {
-  std::string camera;  ///< empty: the one that the robot looks for targets with
+  std::string camera;  ///< name; empty: the camera by which the robot searches for targets
   std::string out;
 };
 struct ComponentsVerb {
@@ -194,16 +194,16 @@ struct CommandLine {
   Verb verb;
 };
 
-/// The command line, or what to print instead and with which code to end (help, version, a usage error).
+/// The parsed command line, or the text to print and the exit code (help, version, a usage error).
 struct ParsedCommandLine {
   std::optional<CommandLine> command;
   ExitCode exit_code = ExitCode::kOk;
   std::string out;
-  std::string err;    ///< what is wrong, as one sentence without prefix and end of line
-  bool json = false;  ///< --json is on it, also when the rest is wrong
+  std::string err;    ///< the error as one sentence, without prefix and end of line
+  bool json = false;  ///< true: --json was given, even if the rest is wrong
 };
 
-/// `arguments` are those after the program's name; SEEKER_ROBOT gives the default of --robot.
+/// Parses the arguments after the program's name; SEEKER_ROBOT gives the default of --robot.
 [[nodiscard]] ParsedCommandLine parse_command_line(const std::vector<std::string>& arguments);
 
 /// One command with its options and subcommands, as the parser knows them.
@@ -211,18 +211,18 @@ struct CommandTree {
   std::string name;
   std::string description;
   struct Option {
-    std::vector<std::string> names;  ///< with their dashes
+    std::vector<std::string> names;  ///< names of the option, with their dashes
     std::string description;
     bool takes_value = false;
-    std::vector<std::string> values;  ///< what it may be, when that is a list
+    std::vector<std::string> values;  ///< allowed values, where they form a list
   };
   std::vector<Option> options;
   std::vector<CommandTree> commands;
-  std::vector<std::string> words;  ///< values of the positional argument, when that is a list
+  std::vector<std::string> words;  ///< allowed values of the positional argument, where they form a list
 };
 [[nodiscard]] CommandTree command_tree();
 
-/// Script for bash, zsh or fish; kInvalidArgument for another shell.
+/// The completion script for bash, zsh or fish; kInvalidArgument for another shell.
 [[nodiscard]] Result<std::string> completion_script(const std::string& shell);
 
 }  // namespace seeker::cli

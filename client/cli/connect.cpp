@@ -30,7 +30,7 @@ std::string client_name() {
   return name + "-" + std::to_string(::getpid());
 }
 
-/// Told by the client's thread, asked by the verb's.
+/// Written by the client's thread, read by that of the verb.
 class LinkWatch {
  public:
   void note(const rpc::LinkEvent& event) {

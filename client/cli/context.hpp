@@ -1,5 +1,5 @@
 /// \file
-/// What a verb works with: the robot, the streams, the limits. Verbs are functions over it, so that tests run them
+/// The context of a verb: the robot, the output streams, the limits. Verbs are functions of it, so that tests run them
 /// against a robot in memory.
 #pragma once
 
@@ -19,24 +19,24 @@
 namespace seeker::cli {
 
 inline constexpr Duration kDefaultAnswerTime = std::chrono::seconds(5);
-/// How often a waiting verb looks for Ctrl-C and for the link.
+/// Period at which a waiting verb checks for Ctrl-C and for the state of the link.
 inline constexpr Duration kPollPeriod = std::chrono::milliseconds(50);
 
 struct Context {
   std::shared_ptr<api::RobotApi> robot;
-  std::ostream* out = nullptr;  ///< data
-  std::ostream* err = nullptr;  ///< messages and progress
+  std::ostream* out = nullptr;  ///< receives data
+  std::ostream* err = nullptr;  ///< receives messages and progress
   bool json = false;
   bool quiet = false;
   bool verbose = false;
   bool out_is_tty = false;
   bool err_is_tty = false;
   bool colour = false;
-  std::optional<Duration> timeout;     ///< as given with --timeout
-  std::string client_name = "seeker";  ///< as told to the robot: the owner of a lease
-  /// Set by SIGINT.
+  std::optional<Duration> timeout;     ///< wall time, as given with --timeout
+  std::string client_name = "seeker";  ///< name given to the robot, by which it names the owner of a lease
+  /// Whether SIGINT has arrived.
   std::function<bool()> interrupted = [] { return false; };
-  /// The reason when the link is gone for good; nothing while it works or is being made again.
+  /// The reason when the link is lost for good; std::nullopt while it works or is being restored.
   std::function<std::optional<Error>()> link_error = [] { return std::optional<Error>(); };
 
   [[nodiscard]] Duration answer_time() const { return timeout.value_or(kDefaultAnswerTime); }
@@ -45,10 +45,10 @@ struct Context {
 /// Writes one line to stderr unless --quiet.
 void say(const Context& context, std::string_view text);
 
-/// Sleeps in steps; false when interrupted before the end.
+/// Sleeps for a duration of wall time; false when interrupted before its end.
 [[nodiscard]] bool sleep_for(const Context& context, Duration duration);
 
-/// Why a wait ends early: kCancelled (Ctrl-C), kLinkLost.
+/// The reason why a wait must end early: kCancelled (Ctrl-C) or kLinkLost; std::nullopt: none.
 [[nodiscard]] std::optional<Error> broken(const Context& context);
 
 /// Makes a call and waits for the answer. Errors: the robot's, kTimeout, kCancelled (Ctrl-C), kLinkLost.
@@ -69,7 +69,7 @@ template <class T>
   return future.get();
 }
 
-/// Asks with a method of RobotApi that takes nothing but the reply.
+/// Calls a method of RobotApi whose only parameter is the reply.
 template <class T>
 [[nodiscard]] Result<T> ask(const Context& context, void (api::RobotApi::*method)(api::Reply<T>)) {
   return ask<T>(context, [&](api::Reply<T> reply) { (context.robot.get()->*method)(std::move(reply)); });

@@ -52,8 +52,9 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler")
 
 extern "C" void on_hang_up(int /*signal*/) { hung_up = true; }
 
-/// Until the end of the scope the end of the terminal's session ends the driving, not the program: the robot is told to
-/// stand still and the terminal is set back. A mission's client dies of it, and the link policy says what follows.
+/// Until the end of the scope the end of the terminal's session ends the driving, not the program: the robot is
+/// commanded to stand still and the terminal is set back. A mission's client dies of it, and the link policy says what
+/// follows.
 class HangUp {
  public:
   HangUp() {
@@ -151,7 +152,7 @@ Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch) {
       context.robot->drive({velocity, kCommandLife, lease_epoch}, std::move(reply));
     });
     if (sent && interrupted) {
-      return fail(Errc::kCancelled, "interrupted; the robot was told to stand still");
+      return fail(Errc::kCancelled, "interrupted; the robot was commanded to stop");
     }
     if (!sent || quit) {
       return sent;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "client/cli/export_check.hpp"
 #include "client/cli/scene.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
+#include "common/image/export_mark.hpp"
 #include "common/image/segment_export.hpp"
 
 namespace seeker::cli {
@@ -21,8 +23,7 @@ bool wants(const std::vector<std::string>& formats, const char* format) {
 }
 
 Status write_text(const fs::path& path, const std::string& text, Files& files) {
-  Status ok = make_folder_of(path);
-  ok = ok ? image::write_file(path, text) : ok;
+  Status ok = files::write_file(path, text);
   if (ok) {
     files.push_back(path);
   }
@@ -65,7 +66,7 @@ Status write_vectors(const Context& context, const std::string& name, const std:
                                      [](const api::StampedPose& pose) { return pose.stamp > RobotTime(); });
     ok = stamped ? write_text(name + ".tum", trajectory_tum(*trajectory), files)
                  : fail(Errc::kNotReady,
-                        "the robot tells no times of its trajectory: nothing was driven, or its "
+                        "the robot sends no times of its trajectory: it has not driven, or its "
                         "software is older than this program");
   }
   return ok;
@@ -76,7 +77,10 @@ Status write_vectors(const Context& context, const std::string& name, const std:
 Result<Files> export_map_files(const Context& context, const std::string& name,
                                const std::vector<std::string>& formats) {
   Files files;
-  Status ok;
+  Status ok = check_map_export(name, formats);
+  if (!ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
   if (wants(formats, "pgm") || wants(formats, "png")) {
     const Result<Files> pictures = export_map(context, name, {wants(formats, "png"), wants(formats, "pgm")});
     if (!pictures) {
@@ -91,7 +95,8 @@ Result<Files> export_map_files(const Context& context, const std::string& name,
 }
 
 std::string trajectory_tum(const std::vector<api::StampedPose>& trajectory) {
-  std::string text = "# timestamp tx ty tz qx qy qz qw; the robot's base in its frame map, metres, robot time in s\n";
+  std::string text = image::comment_mark(image::kMapExport) +
+                     "# timestamp tx ty tz qx qy qz qw; the robot's base in its frame map, metres, robot time in s\n";
   for (const api::StampedPose& pose : trajectory) {
     const double half_rad = pose.map_T_base.theta_rad / 2.0;
     std::array<char, 160> line{};

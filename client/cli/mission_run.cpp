@@ -5,7 +5,10 @@
 #include <ctime>
 #include <random>
 
+#include <nlohmann/json.hpp>
+
 #include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
 
 namespace seeker::cli {
 namespace {
@@ -108,8 +111,8 @@ bool MissionRun::take(const api::Detection& detection) {
   return detection.withdrawn == is_known;
 }
 
-/// The robot's own list is the newest. It lacks what was found before the robot was started anew, which only the stream
-/// has told.
+/// The robot's own list is the newest. It lacks what was found before the robot was restarted, which only the stream
+/// has reported.
 void MissionRun::take_list(const Context& context) {
   const auto list = ask<std::vector<api::Detection>>(context, &api::RobotApi::get_detections);
   for (const api::Detection& detection : list ? *list : std::vector<api::Detection>()) {
@@ -141,10 +144,7 @@ void MissionRun::show_decision(const Context& context) {
   if (!context.json) {
     say(context, text_of(*decision));
   } else if (decision_lines_) {
-    Json json;
-    json.begin_object().field("mission", report_.status.id).key("decision");
-    write_json(json, *decision);
-    *context.out << json.end_object().str() << '\n' << std::flush;
+    *context.out << json_line({{"mission", report_.status.id}, {"decision", *decision}}) << '\n' << std::flush;
   }
 }
 

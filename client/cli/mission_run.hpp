@@ -11,36 +11,37 @@
 
 namespace seeker::cli {
 
-/// How a mission is followed, and how far.
+/// How a mission is followed, and when it is stopped.
 struct FollowOptions {
-  std::optional<Duration> wall;   ///< then the mission is stopped and the wait fails with kTimeout
-  std::optional<Duration> robot;  ///< then the mission is stopped and its end is the report
-  bool decisions = false;         ///< with --json: print each decision of an exploration as a line of its own
+  std::optional<Duration> wall;   ///< wall time after which the mission is stopped and the wait fails with kTimeout
+  std::optional<Duration> robot;  ///< robot time after which the mission is stopped and its end is reported
+  bool decisions = false;  ///< true, with --json: each decision of an exploration is printed as a line of its own
 };
 
-/// How a mission went.
+/// The end of a mission and its results.
 struct MissionReport {
   api::MissionStatus status;
-  std::vector<api::Detection> detections;  ///< of this mission, the newest state of each
+  std::vector<api::Detection> detections;  ///< the newest state of each detection of this mission
   Duration wall = Duration::zero();
-  bool overran = false;  ///< stopped by us at FollowOptions::robot
+  bool overran = false;  ///< true: it was stopped at FollowOptions::robot
 };
 
-/// A mission that was started by us. Its stream is open, so that nothing between start and follow() is missed.
+/// A mission that this client has started. Its stream is open from the start, so that follow() misses no update.
 class MissionRun {
  public:
-  /// Errors: the robot's refusal, kTimeout, kLinkLost.
+  /// Starts a mission. Errors: the refusal of the robot, kTimeout, kLinkLost.
   [[nodiscard]] static Result<MissionRun> start(const Context& context, const api::MissionRequest& request);
 
   /// Wall time since the start.
   [[nodiscard]] Duration elapsed() const { return std::chrono::steady_clock::now() - started_; }
 
-  /// Shows progress until the end. Ctrl-C and the wall limit ask the robot to stop the mission first.
+  /// Shows progress until the mission has ended. On Ctrl-C and at the wall limit it asks the robot to stop the mission
+  /// first.
   [[nodiscard]] Result<MissionReport> follow(const Context& context, const FollowOptions& options);
 
  private:
   void take(const Context& context, const api::Update& update);
-  /// True when it is new or has been withdrawn.
+  /// Adds a detection, or replaces or removes the one of its id. True when it is new or has been withdrawn.
   bool take(const api::Detection& detection);
   void take_list(const Context& context);
   [[nodiscard]] Status poll(const Context& context);
@@ -54,10 +55,10 @@ class MissionRun {
   MissionReport report_;
   std::string phase_shown_;
   bool decision_lines_ = false;       ///< FollowOptions::decisions
-  std::uint64_t decision_shown_ = 0;  ///< number of the newest
+  std::uint64_t decision_shown_ = 0;  ///< number of the newest decision that was shown
 };
 
-/// An id nobody else has chosen: kind, date, time and some random letters.
+/// A new id of a mission: kind, date, time and some random letters.
 [[nodiscard]] api::MissionId make_mission_id(const std::string& kind);
 
 }  // namespace seeker::cli

@@ -18,7 +18,7 @@ template <class Values>
   return names;
 }
 
-/// The same in one line: "a, b, c".
+/// The names of `values` in one line: "a, b, c".
 template <class Values>
 [[nodiscard]] std::string listed(const Values& values) {
   std::string line;

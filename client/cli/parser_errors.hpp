@@ -1,5 +1,5 @@
 /// \file
-/// Wrong command lines in sentences of ours.
+/// Error messages for wrong command lines.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@ class ParseError;
 
 namespace seeker::cli {
 
-/// The first word, when it is no verb; CLI11 would only say that one is missing. Options before it are passed over with
-/// their values.
+/// The first argument that is no option or value of one, when it is no verb: CLI11 would only report that a verb is
+/// missing.
 [[nodiscard]] std::optional<std::string> unknown_verb(const CLI::App& app, const std::vector<std::string>& arguments);
 
-/// What CLI11 says as one sentence, with where to read on.
+/// The error of CLI11 as one sentence that refers to the help.
 [[nodiscard]] std::string sentence_of(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace seeker::cli

@@ -1,8 +1,10 @@
 #include "client/cli/program.hpp"
 
-#include "client/cli/json.hpp"
+#include <nlohmann/json.hpp>
+
 #include "client/cli/run_script.hpp"
 #include "client/cli/targets.hpp"
+#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 
 #ifndef SEEKER_VERSION
@@ -145,9 +147,7 @@ class Dispatch {
   VerbResult operator()(const VersionVerb&) const {
     const std::string protocol = std::to_string(api::kProtocolMajor) + "." + std::to_string(api::kProtocolMinor);
     if (context_.json) {
-      *context_.out
-          << Json().begin_object().field("version", SEEKER_VERSION).field("protocol", protocol).end_object().str()
-          << '\n';
+      *context_.out << json_line({{"version", SEEKER_VERSION}, {"protocol", protocol}}) << '\n';
     } else {
       *context_.out << "seeker " SEEKER_VERSION ", protocol " << protocol << '\n';
     }
@@ -155,7 +155,7 @@ class Dispatch {
   }
 
  private:
-  /// Reads the mission first: what is wrong with it is told without a robot.
+  /// Reads the mission first, so that its errors are reported without a robot.
   template <class MissionVerb>
   VerbResult with_mission(const MissionVerb& verb,
                           VerbResult (*run)(const Context&, const api::MissionRequest&, const MissionVerb&)) {
@@ -188,11 +188,10 @@ ExitCode report(const Context& context, const Error& error) {
   }
   *context.err << "seeker: " << error.message << '\n' << std::flush;
   if (context.json) {
-    Json json;
-    json.begin_object().key("error").begin_object();
-    json.field("code", to_string(error.code)).field("message", error.message);
-    json.field("exit_code", static_cast<int>(exit_code(error.code))).end_object().end_object();
-    *context.out << json.str() << '\n' << std::flush;
+    const Json told = {{"code", to_string(error.code)},
+                       {"message", error.message},
+                       {"exit_code", static_cast<int>(exit_code(error.code))}};
+    *context.out << json_line({{"error", told}}) << '\n' << std::flush;
   }
   return exit_code(error.code);
 }

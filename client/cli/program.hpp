@@ -1,5 +1,5 @@
 /// \file
-/// The whole program but its process: parsing, connecting, one verb, the exit code.
+/// The program without its process: parsing, connecting, one verb, the exit code.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace seeker::cli {
 
-/// A robot that answers, with what its connection knows.
+/// A connected robot.
 struct Connection {
   std::shared_ptr<api::RobotApi> robot;
   std::string client_name = "seeker";
@@ -23,12 +23,12 @@ struct Connection {
 
 struct ConnectRequest {
   std::string robot;                ///< HOST[:PORT]
-  std::optional<Duration> timeout;  ///< of the connection
-  bool reconnect = false;           ///< the verb lives long: a broken connection is made again
+  std::optional<Duration> timeout;  ///< wall time for the connection
+  bool reconnect = false;           ///< true: a broken connection is made again, for verbs that run long
 };
 using Connector = std::function<Result<Connection>(const ConnectRequest&)>;
 
-/// What the process lends to the program.
+/// The parts of the process that the program uses.
 struct Process {
   std::ostream* out = nullptr;
   std::ostream* err = nullptr;
@@ -36,7 +36,7 @@ struct Process {
   bool err_is_tty = false;
   bool no_colour = false;  ///< NO_COLOR is set
   std::function<bool()> interrupted = [] { return false; };
-  /// Whoever read `out` has had enough, as head does at the end of a pipe.
+  /// Whether the reader of `out` has closed it, as head does at the end of a pipe.
   std::function<bool()> out_ended = [] { return false; };
 };
 

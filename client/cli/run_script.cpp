@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <iomanip>
 
+#include <nlohmann/json.hpp>
+
+#include "client/cli/export_check.hpp"
 #include "client/cli/scene.hpp"
 #include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
 
 namespace seeker::cli {
 namespace {
@@ -100,7 +104,7 @@ class Player {
     return report ? StepResult(std::move(*report)) : tl::unexpected<Error>(report.error());
   }
 
-  /// Single answers have the usual time, whatever --timeout says about the whole.
+  /// Each call has its usual timeout; --timeout limits the whole script.
   [[nodiscard]] Context calls() const {
     Context calm = context_;
     calm.timeout.reset();
@@ -119,30 +123,28 @@ class Player {
 bool ends_script(const Error& error) { return error.code == Errc::kCancelled || error.code == Errc::kLinkLost; }
 
 /// A file that a script may name; left out where it names none.
-void add_path(Json& json, std::string_view key, const std::filesystem::path& file) {
+void add_path(Json& json, const char* key, const std::filesystem::path& file) {
   if (!file.empty()) {
-    json.field(key, file.string());
+    json[key] = file.string();
   }
 }
 
 void print_steps(const Context& context, const Script& script, const std::vector<StepReport>& reports, bool ok) {
-  Json json;
-  json.begin_object().field("script", script.name).field("ok", ok);
+  Json json = {{"script", script.name}, {"ok", ok}};
   add_path(json, "robot", script.robot);
   add_path(json, "world", script.world);
-  json.field("steps_planned", script.steps.size()).key("steps").begin_array();
+  json["steps_planned"] = script.steps.size();
+  Json& steps = json["steps"] = Json::array();
   for (std::size_t i = 0; i < reports.size(); ++i) {
-    json.begin_object()
-        .field("step", i + 1)
-        .field("do", reports[i].kind)
-        .field("ok", reports[i].problem.empty())
-        .field("outcome", reports[i].outcome)
-        .field("problem", reports[i].problem)
-        .field("robot_time_s", to_seconds(reports[i].robot))
-        .field("wall_time_s", to_seconds(reports[i].wall))
-        .end_object();
+    steps.push_back({{"step", i + 1},
+                     {"do", reports[i].kind},
+                     {"ok", reports[i].problem.empty()},
+                     {"outcome", reports[i].outcome},
+                     {"problem", reports[i].problem},
+                     {"robot_time_s", to_seconds(reports[i].robot)},
+                     {"wall_time_s", to_seconds(reports[i].wall)}});
   }
-  *context.out << json.end_array().end_object().str() << '\n';
+  *context.out << json_line(json) << '\n';
 }
 
 void print_line(const Context& context, std::size_t number, const StepReport& report) {
@@ -218,6 +220,13 @@ void print_check(const Context& context, const std::string& file, const Script& 
 
 VerbResult run_script(const Context& context, const Script& script, const std::filesystem::path& folder,
                       const std::vector<std::filesystem::path>& target_folders) {
+  // Told now, not after the mission whose map would be lost.
+  for (const Step& step : script.steps) {
+    const auto* exported = std::get_if<ExportStep>(&step.action);
+    if (const Status free = exported != nullptr ? check_map_export(exported->name) : Status(); !free) {
+      return fail_with_context("map_export", free.error());
+    }
+  }
   Player player(context, folder, target_folders);
   std::vector<StepReport> reports;
   bool ok = true;

@@ -12,19 +12,20 @@
 
 namespace seeker::cli {
 
-/// How one step went.
+/// The outcome of one step.
 struct StepReport {
   std::string kind;
-  std::string outcome;  ///< of its mission, else empty
+  std::string outcome;  ///< outcome of its mission; empty without one
   std::string problem;  ///< which expectation failed; empty when all hold
   Duration robot = Duration::zero();
   Duration wall = Duration::zero();
 };
 
-/// Checks an expectation. `result` is what the step did: its mission's report, nothing for other steps, or its error.
+/// Checks an expectation and returns what does not hold, empty where all does. `result` is the report of the mission of
+/// the step, std::nullopt for other steps, or the error of the step.
 [[nodiscard]] std::string unmet(const Expectation& expect, const Result<std::optional<MissionReport>>& result);
 
-/// Says that a script is sound, as JSON with the keys of one that was played but without steps.
+/// Prints that a script is valid, as JSON with the keys of a script that was played but without steps.
 void print_check(const Context& context, const std::string& file, const Script& script);
 
 /// Plays the steps in order up to the first whose expectation fails; prints a line (or JSON) a step. kOk only when

@@ -1,12 +1,11 @@
 #include "client/cli/scene.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
 
-#include <unistd.h>
-
+#include "client/cli/export_check.hpp"
 #include "client/cli/values.hpp"
+#include "common/files/files.hpp"
+#include "common/image/export_mark.hpp"
 #include "common/image/map_server.hpp"
 #include "common/image/png.hpp"
 
@@ -70,9 +69,10 @@ void add_status(image::MapScene& scene, const api::RobotStatus& status) {
   }
   const api::MissionStatus& mission = *status.mission;
   scene.title = is_search(mission) ? "Search" : "Exploration";
-  // Ids that seeker makes up begin with the kind, which the title tells.
-  const bool told = mission.id.starts_with(mission.kind + "-") && mission.id.size() > mission.kind.size() + 1;
-  scene.facts.emplace_back("mission", told ? mission.id.substr(mission.kind.size() + 1) : mission.id);
+  // Ids that seeker makes begin with the kind, which the title shows already.
+  const bool begins_with_kind =
+      mission.id.starts_with(mission.kind + "-") && mission.id.size() > mission.kind.size() + 1;
+  scene.facts.emplace_back("mission", begins_with_kind ? mission.id.substr(mission.kind.size() + 1) : mission.id);
   scene.facts.emplace_back(
       "outcome", mission.end ? std::string(to_string(mission.end->outcome)) : std::string(to_string(mission.state)));
   scene.facts.emplace_back("path", fixed("%.1f m", mission.path_length_m));
@@ -169,43 +169,36 @@ Result<image::MapScene> fetch_scene(const Context& context, SceneOf of) {
   return scene;
 }
 
-Status make_folder_of(const fs::path& path) {
-  if (path.has_parent_path()) {
-    std::error_code error;
-    fs::create_directories(path.parent_path(), error);
-    if (error) {
-      return fail(Errc::kIo, "cannot make the folder " + path.parent_path().string() + ": " + error.message());
-    }
-  }
-  return {};
-}
-
-Status check_can_write(const std::string& name) {
-  if (Status ok = make_folder_of(name); !ok) {
-    return ok;
-  }
-  const fs::path parent = fs::path(name).parent_path();
-  const fs::path folder = parent.empty() ? fs::path(".") : parent;
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    return fail(Errc::kIo, "cannot write into " + folder.string() + ": " + std::generic_category().message(errno));
-  }
-  for (const char* ending : {".png", ".pgm", ".yaml"}) {
-    const fs::path file = name + ending;
-    std::error_code error;
-    const bool there = fs::exists(file, error);
-    if (there && (fs::is_directory(file, error) || ::access(file.c_str(), W_OK) != 0)) {
-      return fail(Errc::kIo, "cannot write " + file.string() + ": it is there and is kept from being written");
-    }
-  }
-  return {};
-}
-
-Status save_picture(const fs::path& path, const Image& picture) {
+Status save_picture(const fs::path& path, const Image& picture, std::string_view mark) {
   Status ok = make_folder_of(path);
-  return ok ? image::write_png(path, picture) : ok;
+  return ok ? image::write_png(path, picture, mark) : ok;
+}
+
+Status save_scene(const fs::path& path, const image::MapScene& scene) {
+  if (path.extension() != ".svg") {
+    const Result<Image> picture = image::draw_map(scene);
+    return picture ? save_picture(path, *picture, image::kMapExport) : Status(tl::unexpected<Error>(picture.error()));
+  }
+  Result<std::string> drawing = image::map_svg(scene);
+  if (!drawing) {
+    return tl::unexpected<Error>(drawing.error());
+  }
+  drawing->insert(drawing->find('\n') + 1, image::xml_mark(image::kMapExport));  // behind the declaration
+  Status ok = make_folder_of(path);
+  return ok ? files::write_file(path, *drawing) : ok;
 }
 
 Result<std::vector<fs::path>> export_map(const Context& context, const std::string& name, const MapPictures& pictures) {
+  std::vector<std::string> formats;
+  if (pictures.png) {
+    formats.emplace_back("png");
+  }
+  if (pictures.map_server) {
+    formats.emplace_back("pgm");
+  }
+  if (const Status free = check_map_export(name, formats); !free) {
+    return tl::unexpected<Error>(free.error());
+  }
   const Result<image::MapScene> scene = fetch_scene(context, SceneOf::kMission);
   if (!scene) {
     return tl::unexpected<Error>(scene.error());
@@ -213,13 +206,11 @@ Result<std::vector<fs::path>> export_map(const Context& context, const std::stri
   std::vector<fs::path> files;
   Status ok;
   if (pictures.png) {
-    const Result<Image> picture = image::draw_map(*scene);
-    ok = picture ? save_picture(name + ".png", *picture) : Status(tl::unexpected<Error>(picture.error()));
+    ok = save_scene(name + ".png", *scene);
     files.emplace_back(name + ".png");
   }
   if (ok && pictures.map_server && scene->occupancy) {
-    ok = make_folder_of(name);
-    ok = ok ? image::write_map_server(name, *scene->occupancy) : ok;
+    ok = image::write_map_server(name, *scene->occupancy);
     files.emplace_back(name + ".pgm");
     files.emplace_back(name + ".yaml");
   }

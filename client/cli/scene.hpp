@@ -1,45 +1,42 @@
 /// \file
-/// Everything the robot knows about its map, gathered for pictures and exports.
+/// The map of the robot with trajectory, evidence and detections, gathered for pictures and exports.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "client/cli/context.hpp"
 #include "common/image/map_picture.hpp"
 
 namespace seeker::cli {
 
-/// The occupancy as one grid. Error: kTooLarge when the tiles lie too far apart to be one picture.
+/// Fetches the occupancy as one grid. Error: kTooLarge when the tiles lie too far apart for one picture.
 [[nodiscard]] Result<std::optional<Grid<std::uint8_t>>> fetch_occupancy(const Context& context);
 
-/// What a picture is of, when the newest mission is an exploration and the robot still has evidence of a search.
+/// The content of a picture where the newest mission is an exploration and the robot still has evidence of a search.
 enum class SceneOf : std::uint8_t {
-  kMission,  ///< the newest mission: an exploration without evidence, and with what it has found itself
+  kMission,  ///< the newest mission: an exploration without evidence, with its own detections
   kEvidence  ///< the newest evidence, whichever mission gathered it
 };
 
-/// Map, trajectory, grid lists, evidence, detections and pose; what the robot does not have is left out.
+/// Fetches map, trajectory, grid lists, evidence, detections and pose, those that the robot has.
 [[nodiscard]] Result<image::MapScene> fetch_scene(const Context& context, SceneOf of);
 
-/// Which of its pictures export_map() writes.
+/// The pictures that export_map() writes.
 struct MapPictures {
   bool png = true;
   bool map_server = true;  ///< NAME.pgm and NAME.yaml
 };
 
-/// Writes NAME.pgm, NAME.yaml and NAME.png; makes the folder when it is absent. The written files are the answer.
+/// Writes NAME.pgm, NAME.yaml and NAME.png; makes the folder when it is absent. Returns the written files. Error: kIo
+/// before anything is written when one of them exists and is no export of the map (export_check.hpp).
 [[nodiscard]] Result<std::vector<std::filesystem::path>> export_map(const Context& context, const std::string& name,
                                                                     const MapPictures& pictures = {});
 
-/// Makes the folder that a file is to lie in.
-[[nodiscard]] Status make_folder_of(const std::filesystem::path& path);
-
-/// Makes the folder of what export_map() will write as NAME.png, .pgm and .yaml, and says now when they cannot be
-/// written. Error: kIo.
-[[nodiscard]] Status check_can_write(const std::string& name);
-
-/// Writes a picture as PNG into a folder that is made when absent.
-[[nodiscard]] Status save_picture(const std::filesystem::path& path, const Image& picture);
+/// Writes a picture as PNG into a folder that is made when absent, with a mark of common/image/export_mark.hpp.
+[[nodiscard]] Status save_picture(const std::filesystem::path& path, const Image& picture, std::string_view mark);
+/// Draws a scene into such a file, marked as an export of the map: as SVG where its name ends in .svg, else as PNG.
+[[nodiscard]] Status save_scene(const std::filesystem::path& path, const image::MapScene& scene);
 
 }  // namespace seeker::cli

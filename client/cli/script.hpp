@@ -27,7 +27,7 @@ struct SearchStep {
   bool explore = false;
 };
 struct ExploreStep {
-  api::ExploreStrategy strategy = api::ExploreStrategy::kActive;
+  api::ExploreStrategy strategy = api::kDefaultExploreStrategy;
   std::optional<Polygon> bound;
   std::vector<Polygon> keep_out;
   bool return_to_start = false;
@@ -49,7 +49,7 @@ struct LocaliseStep {
   int headings = 12;
 };
 struct RecogniseStep {
-  std::vector<std::string> targets;  ///< as in SearchStep, the next two as well
+  std::vector<std::string> targets;  ///< as in SearchStep
   std::vector<std::string> solids;
   std::string recogniser;
   int headings = 1;
@@ -77,19 +77,19 @@ struct ExportStep {
 using StepAction = std::variant<SearchStep, ExploreStep, GotoStep, SurveyStep, LocaliseStep, RecogniseStep, ReturnStep,
                                 AwaitStep, WaitStep, DriveStep, CommandStep, EstopStep, ExportStep>;
 
-/// What must hold after a step. Empty fields are not looked at.
+/// Conditions that must hold after a step. Empty fields are not checked.
 struct Expectation {
-  std::string outcome;             ///< of the mission, e.g. TARGET_FOUND
+  std::string outcome;             ///< outcome of the mission, e.g. TARGET_FOUND
   std::optional<Duration> within;  ///< robot time of the mission; it is stopped when it takes longer
   std::string error;               ///< the step must fail with this code, e.g. refused
   std::vector<std::string> found;  ///< names of targets among the detections
-  std::optional<double> covered;   ///< least share of the reachable floor, 0..1
+  std::optional<double> covered;   ///< least covered share of the reachable floor, 0..1
 };
 
 struct Step {
   std::string kind;  ///< "search", "goto", ... as in the file
   StepAction action;
-  bool background = false;  ///< of a mission: go on with the next step while it runs
+  bool background = false;  ///< true, for a mission: the next step begins while it runs
   api::LinkPolicy link_policy = api::LinkPolicy::kStop;
   std::optional<Duration> time_limit;
   Expectation expect;
@@ -98,14 +98,14 @@ struct Step {
 struct Script {
   std::string name;
   std::filesystem::path robot;  ///< the robot file that the script was written for; empty: any robot
-  std::filesystem::path world;  ///< the world it plays in; empty: that of the robot file
+  std::filesystem::path world;  ///< the world file that it was written for; empty: that of the robot file
   std::vector<Step> steps;
 };
 
 inline constexpr std::size_t kMaxSteps = 1000;
 
 /// Reads a script; errors name file, line and path. No other file is opened: `robot` and `world` stay as written, and
-/// targets are looked for by check_missions().
+/// check_missions() loads the targets.
 [[nodiscard]] Result<Script> parse_script(std::string_view text, const std::string& name);
 /// Reads a script file; `robot` and `world` become paths that do not depend on its folder. Errors: those of
 /// parse_script(), kNotFound where the script names a robot or world file that is not there.

@@ -1,6 +1,8 @@
 #include "client/cli/show_done.hpp"
 
-#include "client/cli/json.hpp"
+#include <nlohmann/json.hpp>
+
+#include "client/cli/values_json.hpp"
 
 namespace seeker::cli {
 
@@ -9,7 +11,7 @@ VerbResult show_done(const Context& context, const Status& ok, const std::string
     return tl::unexpected<Error>(ok.error());
   }
   if (context.json) {
-    *context.out << Json().begin_object().field("ok", true).field("message", done).end_object().str() << '\n';
+    *context.out << json_line({{"ok", true}, {"message", done}}) << '\n';
   } else {
     *context.out << done << '\n';
   }

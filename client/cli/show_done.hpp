@@ -1,5 +1,5 @@
 /// \file
-/// The answer of a verb that changes something and has no data to tell.
+/// The output of a verb that changes the state of a robot and returns no data.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace seeker::cli {
 
-/// Prints `done`, as JSON {"ok": true, "message": done}, where it worked.
+/// Prints `done`, with --json as {"ok": true, "message": done}, if `ok` holds no error.
 [[nodiscard]] VerbResult show_done(const Context& context, const Status& ok, const std::string& done);
 
 }  // namespace seeker::cli

@@ -12,33 +12,33 @@
 
 namespace seeker::cli {
 
-/// What the command line or a mission script says about all targets, over what their files say.
+/// Properties of all targets from the command line or a mission script; they override those in the files of targets.
 struct TargetDefaults {
-  std::string recogniser;  ///< empty: as the file says
+  std::string recogniser;  ///< name; empty: as in the file
   std::optional<double> width_m;
   std::optional<double> height_m;
   std::optional<double> depth_m;
 };
 
-/// Where a target's NAME is looked for: the given folders, ./config/targets, beside the program, /usr/share/seeker.
+/// The folders in which a target NAME is searched: `given`, ./config/targets, beside the program, /usr/share/seeker.
 [[nodiscard]] std::vector<std::filesystem::path> target_folders(const std::vector<std::string>& given);
 
 /// Reads NAME, FILE.yaml (keys name, picture, width_m, height_m, depth_m, recogniser, solid) or FILE.png. Errors name
-/// the file and, for a YAML, line and key; kNotFound names the folders that were searched and what is there.
+/// the file and, for a YAML, line and key; kNotFound names the searched folders and the targets in them.
 [[nodiscard]] Result<api::TargetSpec> load_target(const std::string& name_or_file, const TargetDefaults& defaults,
                                                   const std::vector<std::filesystem::path>& folders);
 
-/// The same for all of `names`, and the solids of these names (see to_string(SolidKind)) after them.
+/// Loads all targets of `names`, followed by the solids of the names `solids` (see to_string(SolidKind)).
 [[nodiscard]] Result<std::vector<api::TargetSpec>> load_targets(const std::vector<std::string>& names,
                                                                 const std::vector<std::string>& solids,
                                                                 const TargetDefaults& defaults,
                                                                 const std::vector<std::filesystem::path>& folders);
 
-/// Corners "x,y x,y ..." or @FILE with a YAML list [[x, y], ...].
+/// Reads the corners "x,y x,y ..." in m, frame `map`, or @FILE with a YAML list [[x, y], ...].
 [[nodiscard]] Result<Polygon> parse_polygon(const std::string& text);
-/// "x,y".
+/// Reads two numbers "x,y".
 [[nodiscard]] Result<Point2> parse_point(const std::string& text);
-/// "300s", "2.5min", "1h", "200ms" or a plain number of seconds; above 0 and at most 30 days.
+/// Reads "300s", "2.5min", "1h", "200ms" or a plain number of seconds; above 0 and at most 30 days.
 [[nodiscard]] Result<Duration> parse_duration(const std::string& text);
 
 [[nodiscard]] api::LinkPolicy parse_link_policy(const std::string& name);

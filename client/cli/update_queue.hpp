@@ -12,7 +12,7 @@
 
 namespace seeker::cli {
 
-/// Bounded: when a verb does not keep up, the oldest updates are left out and counted.
+/// A bounded queue: when a verb reads too slowly, the oldest updates are dropped and counted.
 class UpdateQueue {
  public:
   static constexpr std::size_t kLimit = 65536;
@@ -29,7 +29,7 @@ class UpdateQueue {
     changed_.notify_one();
   }
 
-  /// The oldest update; nothing when none came in time.
+  /// Waits for an update and returns the oldest; std::nullopt when none came in time.
   [[nodiscard]] std::optional<api::UpdatePtr> pop(Duration wait) {
     std::unique_lock lock(mutex_);
     if (!changed_.wait_for(lock, wait, [this] { return !updates_.empty(); })) {

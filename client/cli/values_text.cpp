@@ -81,8 +81,8 @@ std::string date_of(std::int64_t unix_s) {
   return text.data();
 }
 
-std::string count_of(std::uint64_t count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+std::string count_of(std::uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::string size_of(std::uint64_t bytes) { return fixed("%.1f kB", static_cast<double>(bytes) / 1000.0); }
@@ -146,7 +146,7 @@ std::string text_of(const ExploreDecision& decision) {
   const auto available = std::count_if(decision.candidates.begin(), decision.candidates.end(),
                                        [](const DecisionCandidate& c) { return c.refused.empty(); });
   return "decision " + std::to_string(decision.number) + " (" + decision.rule + ", " + std::to_string(available) +
-         " of " + std::to_string(decision.candidates.size()) + " ways open): " + decision.why;
+         " of " + std::to_string(decision.candidates.size()) + " candidates open): " + decision.why;
 }
 
 std::string text_of(const api::Update& update) {

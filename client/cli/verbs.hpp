@@ -14,7 +14,7 @@ namespace seeker::cli {
 
 using VerbResult = Result<ExitCode>;
 
-/// Reads targets and areas and checks everything that needs no robot.
+/// Reads targets and areas, and checks the request as far as that needs no robot.
 [[nodiscard]] Result<api::MissionRequest> make_request(const SearchVerb& verb);
 [[nodiscard]] Result<api::MissionRequest> make_request(const ExploreVerb& verb);
 [[nodiscard]] Result<api::MissionRequest> make_request(const GotoVerb& verb);
@@ -35,10 +35,10 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult delete_map(const Context& context, const MapDeleteVerb& verb);
 [[nodiscard]] VerbResult download_map(const Context& context, const MapDownloadVerb& verb);
 [[nodiscard]] VerbResult upload_map(const Context& context, const MapUploadVerb& verb);
-/// With --wait: 0 when the robot has found its place, 1 when it is lost.
+/// With --wait the exit code is 0 when the robot is localised and 1 when it is lost.
 [[nodiscard]] VerbResult relocalise(const Context& context, const RelocaliseVerb& verb);
 [[nodiscard]] VerbResult inspect_landmarks(const Context& context, const LandmarksInspectVerb& verb);
-/// A CSV file, and a picture beside it.
+/// Writes a CSV file, and a picture beside it.
 [[nodiscard]] VerbResult export_landmarks(const Context& context, const LandmarksExportVerb& verb);
 [[nodiscard]] VerbResult prune_landmarks(const Context& context, const LandmarksPruneVerb& verb);
 [[nodiscard]] VerbResult revert_landmarks(const Context& context, const LandmarksRevertVerb& verb);
@@ -53,14 +53,14 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult stop(const Context& context);
 [[nodiscard]] VerbResult estop(const Context& context, const EstopVerb& verb);
 [[nodiscard]] VerbResult command_mission(const Context& context, api::MissionCommand command);
-/// Velocity commands of 300 ms life every 100 ms under a lease that is acquired and released; without a velocity
-/// the keyboard drives.
+/// Sends velocity commands that are valid for 300 ms every 100 ms, under a lease that it acquires and releases. Without
+/// a velocity on the command line the keyboard gives it.
 [[nodiscard]] VerbResult drive(const Context& context, const DriveVerb& verb);
-/// One velocity for a time; the part of drive() that mission scripts use. Why the robot's safety held the last command
-/// back; empty where it did not.
+/// Drives at one velocity for a time; the part of drive() that mission scripts use. Returns why the robot's safety
+/// clamped or refused the last command; empty where it did not.
 [[nodiscard]] Result<std::string> drive_for(const Context& context, const Twist2& velocity, Duration duration,
                                             bool take_over);
-/// As long as a key is held (drive_keyboard.cpp); needs a terminal on stdin.
+/// Drives while a key is held (drive_keyboard.cpp); needs a terminal on stdin.
 [[nodiscard]] Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch);
 
 [[nodiscard]] VerbResult search(const Context& context, const api::MissionRequest& request, const SearchVerb& verb);
@@ -70,7 +70,7 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult recognise(const Context& context, const api::MissionRequest& request,
                                    const RecogniseVerb& verb);
 [[nodiscard]] VerbResult go(const Context& context, const api::MissionRequest& request, const GotoVerb& verb);
-/// Prints how a mission ended, with detections, coverage and gaps.
+/// Prints the end of a mission with its detections, coverage and gaps.
 void print_report(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps);
 
 }  // namespace seeker::cli

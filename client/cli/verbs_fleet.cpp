@@ -2,11 +2,14 @@
 
 #include <cstdio>
 
+#include <nlohmann/json.hpp>
+
 #include "client/cli/show_done.hpp"
 #include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 #include "common/core/angle.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/rpc/fleet_client.hpp"
 
 namespace seeker::cli {
@@ -18,42 +21,28 @@ std::string place_of(const Pose2& pose) {
   return text;
 }
 
-void write_json(Json& json, const api::FleetHypothesis& hypothesis) {
-  json.begin_object()
-      .field("x_m", hypothesis.main_T_map.x_m)
-      .field("y_m", hypothesis.main_T_map.y_m)
-      .field("theta_rad", hypothesis.main_T_map.theta_rad)
-      .field("confidence", hypothesis.confidence)
-      .field("shared_wall_m", hypothesis.shared_wall_m)
-      .field("contradiction", hypothesis.contradiction)
-      .field("pairs", hypothesis.pairs)
-      .end_object();
+Json json_of(const api::FleetHypothesis& hypothesis) {
+  Json json = hypothesis.main_T_map;
+  json.update({{"confidence", hypothesis.confidence},
+               {"shared_wall_m", hypothesis.shared_wall_m},
+               {"contradiction", hypothesis.contradiction},
+               {"pairs", hypothesis.pairs}});
+  return json;
 }
 
-void write_json(Json& json, const api::FleetMember& member) {
-  json.begin_object()
-      .field("robot_id", member.robot_id)
-      .field("state", api::to_string(member.state))
-      .field("reason", member.reason)
-      .field("confidence", member.confidence)
-      .field("by_operator", member.by_operator)
-      .field("linked", member.linked)
-      .field("nodes", member.nodes)
-      .field("pieces_missing", member.pieces_missing);
+Json json_of(const api::FleetMember& member) {
+  Json json = {{"robot_id", member.robot_id},     {"state", api::to_string(member.state)},  {"reason", member.reason},
+               {"confidence", member.confidence}, {"by_operator", member.by_operator},      {"linked", member.linked},
+               {"nodes", member.nodes},           {"pieces_missing", member.pieces_missing}};
   if (member.main_T_map) {
-    json.field("x_m", member.main_T_map->x_m)
-        .field("y_m", member.main_T_map->y_m)
-        .field("theta_rad", member.main_T_map->theta_rad);
+    json.update(*member.main_T_map);
   }
-  json.key("hypotheses").begin_array();
+  Json& hypotheses = json["hypotheses"] = Json::array();
   for (const api::FleetHypothesis& hypothesis : member.hypotheses) {
-    write_json(json, hypothesis);
+    hypotheses.push_back(json_of(hypothesis));
   }
-  json.end_array().key("detections").begin_array();
-  for (const api::Detection& detection : member.detections) {
-    write_json(json, detection);
-  }
-  json.end_array().end_object();
+  json["detections"] = member.detections;
+  return json;
 }
 
 void print(const Context& context, const api::FleetMember& member) {
@@ -92,12 +81,11 @@ VerbResult show(const Context& context, const Result<api::FleetStatus>& fleet) {
     }
     return ExitCode::kOk;
   }
-  Json json;
-  json.begin_object().field("revision", fleet->revision).key("members").begin_array();
+  Json members = Json::array();
   for (const api::FleetMember& member : fleet->members) {
-    write_json(json, member);
+    members.push_back(json_of(member));
   }
-  *context.out << json.end_array().end_object().str() << '\n';
+  *context.out << json_line({{"revision", fleet->revision}, {"members", members}}) << '\n';
   return ExitCode::kOk;
 }
 
@@ -140,7 +128,7 @@ VerbResult fleet(const Context& context, const std::string& robot, const FleetMa
   if (!bytes) {
     return tl::unexpected<Error>(bytes.error());
   }
-  return show_done(context, image::write_file(verb.file, *bytes), "wrote " + verb.file);
+  return show_done(context, files::write_file(verb.file, *bytes), "wrote " + verb.file);
 }
 
 }  // namespace seeker::cli

@@ -3,10 +3,15 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
+#include "client/cli/export_check.hpp"
 #include "client/cli/show_done.hpp"
 #include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
+#include "common/image/export_mark.hpp"
 #include "common/image/plot.hpp"
 #include "common/image/png.hpp"
 
@@ -33,7 +38,7 @@ VerbResult show(const Context& context, const Result<api::LandmarkSummary>& data
   if (!database) {
     return tl::unexpected<Error>(database.error());
   }
-  *context.out << (context.json ? to_json(*database) : line_of(*database)) << '\n';
+  *context.out << (context.json ? json_line(Json(*database)) : line_of(*database)) << '\n';
   if (!done.empty()) {
     say(context, done);
   }
@@ -46,10 +51,7 @@ VerbResult list(const Context& context) {
     return tl::unexpected<Error>(databases.error());
   }
   if (context.json) {
-    Json json;
-    json.begin_object();
-    write_list(json, "databases", *databases);
-    *context.out << json.end_object().str() << '\n';
+    *context.out << json_line(Json{{"databases", *databases}}) << '\n';
     return ExitCode::kOk;
   }
   for (const api::LandmarkSummary& database : *databases) {
@@ -93,22 +95,6 @@ Image picture_of(const std::string& name, const std::vector<api::LandmarkPoint>&
 
 }  // namespace
 
-void write_json(Json& json, const api::LandmarkSummary& database) {
-  json.begin_object()
-      .field("name", database.name)
-      .field("robot_id", database.robot_id)
-      .field("software_version", database.software_version)
-      .field("map_name", database.map_name)
-      .field("calibration", database.calibration)
-      .field("created_unix_s", database.created_unix_s)
-      .field("saved_unix_s", database.saved_unix_s)
-      .field("file_bytes", database.file_bytes)
-      .field("revision", database.revision)
-      .field("landmarks", database.landmarks)
-      .field("problem", database.problem)
-      .end_object();
-}
-
 VerbResult inspect_landmarks(const Context& context, const LandmarksInspectVerb& verb) {
   if (verb.name.empty()) {
     return list(context);
@@ -127,9 +113,12 @@ VerbResult export_landmarks(const Context& context, const LandmarksExportVerb& v
     return tl::unexpected<Error>(landmarks.error());
   }
   const fs::path picture = fs::path(verb.file).replace_extension(".png");
-  Status ok = image::write_file(verb.file, csv_of(*landmarks));
+  Status ok = check_replaceable({picture}, image::kLandmarksExport);
   if (ok) {
-    ok = image::write_png(picture, picture_of(verb.name, *landmarks));
+    ok = files::write_file(verb.file, csv_of(*landmarks));
+  }
+  if (ok) {
+    ok = image::write_png(picture, picture_of(verb.name, *landmarks), image::kLandmarksExport);
   }
   return show_done(
       context, ok,

@@ -3,13 +3,16 @@
 #include <filesystem>
 #include <iomanip>
 
+#include <nlohmann/json.hpp>
+
 #include "client/cli/export_files.hpp"
 #include "client/cli/show_done.hpp"
 #include "client/cli/targets.hpp"
 #include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 #include "common/core/angle.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 
 namespace seeker::cli {
 namespace {
@@ -31,7 +34,7 @@ VerbResult show(const Context& context, const Result<api::MapSummary>& map, cons
     return tl::unexpected<Error>(map.error());
   }
   if (context.json) {
-    *context.out << to_json(*map) << '\n';
+    *context.out << json_line(Json(*map)) << '\n';
   } else {
     *context.out << line_of(*map) << '\n';
   }
@@ -43,7 +46,7 @@ VerbResult show(const Context& context, const Result<api::MapSummary>& map, cons
 
 Result<api::MapSummary> upload(const Context& context, const std::string& file, const std::string& name, bool replace,
                                bool check_only) {
-  Result<std::vector<std::uint8_t>> bytes = image::read_file(file, api::kMaxMapTransferBytes);
+  Result<std::vector<std::uint8_t>> bytes = files::read_file(file, api::kMaxMapTransferBytes);
   if (!bytes) {
     return fail_as_usage(bytes.error());
   }
@@ -77,16 +80,13 @@ void print_place(const Context& context, const api::RobotStatus& status, const s
                  << (pose.cause.empty() ? "" : ": " + pose.cause) << '\n';
     return;
   }
-  Json json;
-  json.begin_object().field("quality", to_string(pose.quality)).field("cause", pose.cause);
-  json.key("pose");
-  placed ? write_json(json, pose.map_T_base) : static_cast<void>(json.null());
-  json.key("sigma_m");
-  placed ? json.value(sigma_m(pose.covariance.topLeftCorner<2, 2>())) : json.null();
-  json.key("from_given_m");
-  from_given_m ? json.value(*from_given_m) : json.null();
-  json.field("waited_s", to_seconds(waited));
-  *context.out << json.end_object().str() << '\n';
+  const Json json = {{"quality", to_string(pose.quality)},
+                     {"cause", pose.cause},
+                     {"pose", placed ? Json(pose.map_T_base) : Json()},
+                     {"sigma_m", placed ? Json(sigma_m(pose.covariance.topLeftCorner<2, 2>())) : Json()},
+                     {"from_given_m", or_null(from_given_m)},
+                     {"waited_s", to_seconds(waited)}};
+  *context.out << json_line(json) << '\n';
 }
 
 /// Until the robot has found its place or given up.
@@ -120,25 +120,6 @@ VerbResult wait_for_place(const Context& context, const std::optional<Pose2>& gi
 
 }  // namespace
 
-void write_json(Json& json, const api::MapSummary& map) {
-  json.begin_object()
-      .field("name", map.name)
-      .field("robot_id", map.robot_id)
-      .field("sensors", map.sensors)
-      .field("software_version", map.software_version)
-      .field("created_unix_s", map.created_unix_s)
-      .field("saved_unix_s", map.saved_unix_s)
-      .field("file_bytes", map.file_bytes)
-      .field("epoch", map.epoch)
-      .field("nodes", map.nodes)
-      .field("edges", map.edges)
-      .field("loops", map.loops)
-      .field("segments", map.segments)
-      .field("keyframes", map.keyframes)
-      .field("problem", map.problem)
-      .end_object();
-}
-
 VerbResult save_map(const Context& context, const MapSaveVerb& verb) {
   return show(context,
               ask<api::MapSummary>(context,
@@ -164,10 +145,7 @@ VerbResult list_maps(const Context& context) {
     return tl::unexpected<Error>(maps.error());
   }
   if (context.json) {
-    Json json;
-    json.begin_object();
-    write_list(json, "maps", *maps);
-    *context.out << json.end_object().str() << '\n';
+    *context.out << json_line(Json{{"maps", *maps}}) << '\n';
     return ExitCode::kOk;
   }
   for (const api::MapSummary& map : *maps) {
@@ -214,7 +192,7 @@ VerbResult download_map(const Context& context, const MapDownloadVerb& verb) {
   if (!bytes) {
     return tl::unexpected<Error>(bytes.error());
   }
-  return show_done(context, image::write_file(verb.file, *bytes), "wrote " + verb.file);
+  return show_done(context, files::write_file(verb.file, *bytes), "wrote " + verb.file);
 }
 
 VerbResult upload_map(const Context& context, const MapUploadVerb& verb) {

@@ -1,8 +1,12 @@
 #include <iomanip>
 
+#include <nlohmann/json.hpp>
+
+#include "client/cli/export_check.hpp"
 #include "client/cli/scene.hpp"
 #include "client/cli/targets.hpp"
 #include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 #include "common/core/angle.hpp"
 
@@ -53,34 +57,28 @@ std::vector<api::Gap> fetch_gaps(const Context& context) {
 
 void print_json(const Context& context, const MissionReport& report, const std::vector<api::Gap>& gaps) {
   const api::MissionStatus& m = report.status;
-  Json json;
-  json.begin_object()
-      .field("mission", m.id)
-      .field("kind", m.kind)
-      .field("outcome", to_string(m.end->outcome))
-      .field("cause", m.end->cause)
-      .field("remedy", m.end->remedy)
-      .field("exit_code", static_cast<int>(exit_code(m)));
-  write_list(json, "detections", report.detections);
-  json.key("coverage");
-  if (m.coverage) {
-    write_json(json, *m.coverage);
-  } else {
-    json.null();
-  }
-  write_list(json, "gaps", gaps);
-  write_list(json, "unreachable", m.end->unreachable);
-  json.field("cells_searched", m.cells_searched)
-      .field("cells_unsearched", m.cells_unsearched)
-      .field("path_length_m", m.path_length_m)
-      .field("robot_time_s", to_seconds(m.updated - m.started))
-      .field("wall_time_s", to_seconds(report.wall));
-  *context.out << json.end_object().str() << '\n';
+  const Json json = {{"mission", m.id},
+                     {"kind", m.kind},
+                     {"outcome", to_string(m.end->outcome)},
+                     {"cause", m.end->cause},
+                     {"remedy", m.end->remedy},
+                     {"exit_code", static_cast<int>(exit_code(m))},
+                     {"detections", report.detections},
+                     {"coverage", or_null(m.coverage)},
+                     {"gaps", gaps},
+                     {"unreachable", positions_of(m.end->unreachable)},
+                     {"unreachable_places", m.end->unreachable},
+                     {"cells_searched", m.cells_searched},
+                     {"cells_unsearched", m.cells_unsearched},
+                     {"path_length_m", m.path_length_m},
+                     {"robot_time_s", to_seconds(m.updated - m.started)},
+                     {"wall_time_s", to_seconds(report.wall)}};
+  *context.out << json_line(json) << '\n';
 }
 
 VerbResult run_mission(const Context& context, const api::MissionRequest& request, bool detach,
                        const std::string& save) {
-  if (const Status ok = save.empty() ? Status() : check_can_write(save); !ok) {
+  if (const Status ok = save.empty() ? Status() : check_map_export(save); !ok) {
     return fail_with_context("--save", ok.error());
   }
   Result<MissionRun> run = MissionRun::start(context, request);
@@ -88,8 +86,7 @@ VerbResult run_mission(const Context& context, const api::MissionRequest& reques
     return tl::unexpected<Error>(run.error());
   }
   if (detach) {
-    *context.out << (context.json ? Json().begin_object().field("mission", request.id).end_object().str() : request.id)
-                 << '\n';
+    *context.out << (context.json ? json_line(Json{{"mission", request.id}}) : request.id) << '\n';
     return ExitCode::kOk;
   }
   say(context, "mission " + request.id +
@@ -254,8 +251,8 @@ void print_report(const Context& context, const MissionReport& report, const std
   for (const api::Detection& detection : report.detections) {
     row("found", text_of(detection));
   }
-  for (const Point2& place : m.end->unreachable) {
-    row("unreachable", text_of(place));
+  for (const UnreachablePlace& place : m.end->unreachable) {
+    row("unreachable", describe(place));
   }
   if (m.coverage) {
     row("covered", text_of(*m.coverage));

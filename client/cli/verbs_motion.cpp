@@ -1,4 +1,6 @@
-#include "client/cli/json.hpp"
+#include <nlohmann/json.hpp>
+
+#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 
 namespace seeker::cli {
@@ -10,7 +12,7 @@ constexpr Duration kCommandLife = std::chrono::milliseconds(300);
 /// {"ok":true} or a sentence.
 ExitCode done(const Context& context, std::string_view sentence) {
   if (context.json) {
-    *context.out << Json().begin_object().field("ok", true).field("message", sentence).end_object().str() << '\n';
+    *context.out << json_line({{"ok", true}, {"message", sentence}}) << '\n';
   } else {
     say(context, sentence);
   }
@@ -105,7 +107,7 @@ Result<std::string> drive_for(const Context& context, const Twist2& velocity, Du
   // Standing still is commanded, not waited for.
   const Status stopped = send_velocity(calm, {}, (*lease)->epoch());
   if (context.interrupted()) {
-    return fail(Errc::kCancelled, "interrupted; the robot was told to stand still");
+    return fail(Errc::kCancelled, "interrupted; the robot was commanded to stop");
   }
   if (!stopped || !status) {
     return tl::unexpected<Error>(!stopped ? stopped.error() : status.error());

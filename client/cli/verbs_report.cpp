@@ -1,9 +1,14 @@
 #include <iomanip>
 
+#include <nlohmann/json.hpp>
+
+#include "client/cli/export_check.hpp"
 #include "client/cli/export_files.hpp"
 #include "client/cli/scene.hpp"
 #include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "common/image/export_mark.hpp"
 #include "common/image/png.hpp"
 
 namespace seeker::cli {
@@ -87,12 +92,10 @@ VerbResult show_status(const Context& context) {
     return tl::unexpected<Error>(status.error());
   }
   if (context.json) {
-    Json json;
-    json.begin_object().field("robot_id", info->robot_id).field("software_version", info->software_version);
-    write_list(json, "capabilities", info->capabilities);
-    json.field("robot_radius_m", info->robot_radius_m).field("realtime", info->realtime).key("status");
-    write_json(json, *status);
-    *context.out << json.end_object().str() << '\n';
+    const Json json = {{"robot_id", info->robot_id},         {"software_version", info->software_version},
+                       {"capabilities", info->capabilities}, {"robot_radius_m", info->robot_radius_m},
+                       {"realtime", info->realtime},         {"status", *status}};
+    *context.out << json_line(json) << '\n';
   } else {
     print_status(context, *info, *status);
   }
@@ -114,10 +117,7 @@ VerbResult show_components(const Context& context, const ComponentsVerb& verb) {
     return tl::unexpected<Error>(components.error());
   }
   if (context.json) {
-    Json json;
-    json.begin_object();
-    write_list(json, "components", *components);
-    *context.out << json.end_object().str() << '\n';
+    *context.out << json_line(Json{{"components", *components}}) << '\n';
     return ExitCode::kOk;
   }
   for (const api::ComponentInfo& c : *components) {
@@ -136,10 +136,7 @@ VerbResult show_detections(const Context& context) {
     return tl::unexpected<Error>(detections.error());
   }
   if (context.json) {
-    Json json;
-    json.begin_object();
-    write_list(json, "detections", *detections);
-    *context.out << json.end_object().str() << '\n';
+    *context.out << json_line(Json{{"detections", *detections}}) << '\n';
     return ExitCode::kOk;
   }
   for (const api::Detection& detection : *detections) {
@@ -161,17 +158,13 @@ VerbResult show_grid(const Context& context, const GridVerb& verb) {
     if (!scene) {
       return tl::unexpected<Error>(scene.error());
     }
-    const Result<Image> picture = image::draw_map(*scene);
-    if (!picture) {
-      return tl::unexpected<Error>(picture.error());
-    }
-    if (const Status ok = save_picture(verb.evidence, *picture); !ok) {
+    if (const Status ok = save_scene(verb.evidence, *scene); !ok) {
       return tl::unexpected<Error>(ok.error());
     }
     say(context, "wrote " + verb.evidence);
   }
   if (context.json) {
-    *context.out << to_json(*grid) << '\n';
+    *context.out << json_line(Json(*grid)) << '\n';
     return ExitCode::kOk;
   }
   const api::GridLists& lists = grid->lists;
@@ -198,18 +191,19 @@ VerbResult grab_image(const Context& context, const CameraGrabVerb& verb) {
   }
   const std::string file = verb.out.empty() ? frame->camera + ".png" : verb.out;
   const Image& picture = frame->frame.image;
-  if (const Status ok = save_picture(file, picture); !ok) {
+  // A name that the user gave is theirs to overwrite.
+  Status ok = verb.out.empty() ? check_replaceable({file}, image::kCameraPicture) : Status();
+  ok = ok ? save_picture(file, picture, image::kCameraPicture) : ok;
+  if (!ok) {
     return tl::unexpected<Error>(ok.error());
   }
   if (context.json) {
-    Json json;
-    json.begin_object()
-        .field("file", file)
-        .field("camera", frame->camera)
-        .field("stamp_s", to_seconds(frame->frame.stamp))
-        .field("width_px", picture.width_px())
-        .field("height_px", picture.height_px());
-    *context.out << json.end_object().str() << '\n';
+    const Json json = {{"file", file},
+                       {"camera", frame->camera},
+                       {"stamp_s", to_seconds(frame->frame.stamp)},
+                       {"width_px", picture.width_px()},
+                       {"height_px", picture.height_px()}};
+    *context.out << json_line(json) << '\n';
   } else {
     *context.out << file << '\n';
   }
@@ -221,16 +215,15 @@ VerbResult export_map(const Context& context, const MapExportVerb& verb) {
   if (!files) {
     return tl::unexpected<Error>(files.error());
   }
-  Json json;
-  json.begin_object().key("files").begin_array();
+  Json names = Json::array();
   for (const std::filesystem::path& file : *files) {
-    json.value(file.string());
+    names.push_back(file.string());
     if (!context.json) {
       *context.out << file.string() << '\n';
     }
   }
   if (context.json) {
-    *context.out << json.end_array().end_object().str() << '\n';
+    *context.out << json_line(Json{{"files", names}}) << '\n';
   }
   return ExitCode::kOk;
 }

@@ -2,8 +2,11 @@
 #include <array>
 #include <map>
 
+#include <nlohmann/json.hpp>
+
 #include "client/cli/update_queue.hpp"
 #include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 
 namespace seeker::cli {
@@ -38,7 +41,7 @@ class LiveView {
 
   void show(const api::Update& update) {
     if (context_.json) {
-      *context_.out << to_json(update) << '\n' << std::flush;
+      *context_.out << json_line(Json(update)) << '\n' << std::flush;
       return;
     }
     const std::string line = text_of(update);

@@ -38,7 +38,7 @@ RobotTopology within_limits(RobotTopology robot) {
     return std::any_of(nodes.begin(), nodes.end(), [id](const TopologyNode& node) { return node.id == id; });
   };
   std::erase_if(topology.edges, [&](const TopologyEdge& edge) { return !known(edge.a) || !known(edge.b); });
-  keep_newest(topology.edges, kMaxFleetWays);
+  keep_newest(topology.edges, kMaxFleetTopologyEdges);
   topology.current = known(topology.current) ? topology.current : 0;
   if (robot.target_map && !in_reach(*robot.target_map)) {
     robot.target_map.reset();

@@ -1,5 +1,6 @@
 /// \file
-/// Several robots, one map: what a robot that joins another one announces and sends, and what it gets back (spec S4.7).
+/// Maps of several robots: what a robot that joins the main robot announces and sends, and what it receives (spec
+/// S4.7).
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@
 
 namespace seeker::api {
 
-/// SHA-256 of a piece: its name wherever it goes.
+/// SHA-256 of a piece, by which all robots name it.
 using PieceHash = std::array<std::uint8_t, 32>;
 
 inline constexpr std::size_t kMaxFleetNodes = 10'000;  ///< of one robot
@@ -31,18 +32,19 @@ inline constexpr std::size_t kMaxFleetHypotheses = 16;
 inline constexpr std::size_t kMaxFleetPlaces = 2'000;
 inline constexpr std::size_t kMaxFleetGoals = 4'000;
 inline constexpr std::size_t kMaxFleetSectors = 20'000;
-inline constexpr std::size_t kMaxFleetWays = 10'000;
+inline constexpr std::size_t kMaxFleetTopologyEdges = 10'000;
 inline constexpr int kMaxFleetLayer = 64;
-inline constexpr std::size_t kMaxFleetTiles = 1'024;     ///< of a floor,
-inline constexpr int kMaxFleetFloorSide_tiles = 64;      ///< that is at most so wide and so high: 205 m
+inline constexpr std::size_t kMaxFleetTiles = 1'024;     ///< of the floor of one robot
+inline constexpr int kMaxFleetFloorSide_tiles = 64;      ///< largest width and height of a floor: 205 m
 inline constexpr std::size_t kMaxFleetDetections = 64;   ///< of one robot
-inline constexpr int kMaxFleetSearchedSide_cells = 512;  ///< of what one robot tells that it has searched
-inline constexpr std::size_t kMaxFleetTargets = 64;      ///< that it was for
-inline constexpr double kMaxFleetReach_m = 10'000.0;     ///< a place is not farther from the origin of any map
-inline constexpr double kMaxFleetGoal_m = 200.0;         ///< nor a goal from its place
-inline constexpr double kMaxFleetCovariance_m2 = 1e6;    ///< an entry of a found target's covariance is not larger
+inline constexpr int kMaxFleetSearchedSide_cells = 512;  ///< largest side of the searched floor of one robot
+inline constexpr std::size_t kMaxFleetTargets = 64;      ///< of the searched floor of one robot
+inline constexpr double kMaxFleetReach_m = 10'000.0;     ///< largest distance of a place from the origin of a map
+inline constexpr double kMaxFleetGoal_m = 200.0;         ///< largest distance of a goal from its node
+inline constexpr double kMaxFleetCovariance_m2 = 1e6;    ///< largest entry of the covariance of a detection
 
-/// A local map by its piece: segments and scans in its own frame, so that it stays the same when the map around moves.
+/// A local map and the piece that holds it: segments and scans in the frame of the local map, so that the piece stays
+/// the same when the local map moves.
 struct FleetNode {
   MapNode node;
   PieceHash hash{};
@@ -50,10 +52,11 @@ struct FleetNode {
   friend bool operator==(const FleetNode&, const FleetNode&) = default;
 };
 
-/// Everything a robot has.
+/// The list of all local maps of a robot, with the edges between them.
 struct FleetManifest {
   std::string robot_id;
-  std::uint64_t instance = 0;  ///< random per running program: tells a restart from a namesake
+  std::uint64_t instance =
+      0;  ///< random number of the running program: distinguishes a restart from another robot of this id
   std::uint32_t map_epoch = 0;
   std::uint64_t next_id = 1;  ///< as in LineMap
   std::vector<FleetNode> nodes;
@@ -64,7 +67,7 @@ struct FleetManifest {
 
 struct FleetMissing {
   PieceHash hash{};
-  std::uint64_t offset = 0;  ///< bytes before this are there
+  std::uint64_t offset = 0;  ///< number of bytes that the main robot has already received
   friend bool operator==(const FleetMissing&, const FleetMissing&) = default;
 };
 
@@ -77,22 +80,22 @@ struct FleetChunk {
 };
 
 enum class FleetState : std::uint8_t {
-  kWaiting,  ///< pieces are missing, or are being looked at
+  kWaiting,  ///< pieces are missing, or are being compared
   kMerged,
-  kAmbiguous,  ///< the operator is asked
+  kAmbiguous,  ///< several hypotheses fit; the operator decides
   kInsufficientOverlap,
   kContradicted,  ///< probably another building
   kSplit,         ///< taken out by the operator
 };
 [[nodiscard]] std::string_view to_string(FleetState state);
 
-/// One way in which a robot's map may lie in that of the main one.
+/// One hypothesis of the pose of a robot's map in the map of the main robot.
 struct FleetHypothesis {
   Pose2 main_T_map;
   double confidence = 0.0;  ///< 0 to 1
   double shared_wall_m = 0.0;
-  double contradiction = 0.0;  ///< share, 0 to 1
-  std::uint32_t pairs = 0;     ///< local maps that speak for it
+  double contradiction = 0.0;  ///< share of the walls that the other map denies, 0 to 1
+  std::uint32_t pairs = 0;     ///< number of pairs of local maps that support it
   friend bool operator==(const FleetHypothesis&, const FleetHypothesis&) = default;
 };
 
@@ -102,19 +105,19 @@ struct FleetMember {
   std::string reason;
   double confidence = 0.0;
   bool by_operator = false;
-  bool linked = false;  ///< it has announced itself lately
+  bool linked = false;  ///< true: it has announced itself lately
   std::uint32_t nodes = 0;
   std::uint32_t pieces_missing = 0;
   std::vector<FleetHypothesis> hypotheses;  ///< best first
-  std::optional<Pose2> main_T_map;          ///< where it is merged
-  std::optional<Pose2> main_T_base;         ///< where it is merged and knows its place
-  std::vector<Point2> places;               ///< its local maps, in its own frame `map`
-  std::vector<Detection> detections;  ///< where it is merged: what it has found, in the frame `map` of the main one
+  std::optional<Pose2> main_T_map;          ///< pose of its map; empty where it is not merged
+  std::optional<Pose2> main_T_base;         ///< pose of the robot; empty where it is not merged or not localised
+  std::vector<Point2> places;               ///< positions of its local maps, in its own frame `map`
+  std::vector<Detection> detections;        ///< if it is merged: its detections, in the frame `map` of the main robot
   friend bool operator==(const FleetMember&, const FleetMember&) = default;
 };
 
 struct FleetStatus {
-  std::vector<FleetMember> members;  ///< the main one first
+  std::vector<FleetMember> members;  ///< the main robot first
   std::uint32_t revision = 0;        ///< rises with every change of who is merged and how
   friend bool operator==(const FleetStatus&, const FleetStatus&) = default;
 };
@@ -125,41 +128,41 @@ struct FleetAnswer {
   friend bool operator==(const FleetAnswer&, const FleetAnswer&) = default;
 };
 
-/// Where a robot has been and means to go, in its own frame `map`. Said more often than a manifest.
+/// The topology of a robot, in its own frame `map`: where it has been and where it will go. Sent more often than a
+/// manifest.
 struct FleetShare {
   std::string robot_id;
   std::uint64_t instance = 0;  ///< as in FleetManifest
-  /// Absent when the robot does not know where it is; without places when it has not explored by topology since it was
-  /// started.
+  /// Absent when the robot is not localised; without nodes when it has not explored by topology since it was started.
   std::optional<RobotTopology> topology;
   friend bool operator==(const FleetShare&, const FleetShare&) = default;
 };
 
 struct FleetShared {
-  FleetState state = FleetState::kWaiting;  ///< of the robot that has told
-  std::vector<RobotTopology> others;        ///< where it is merged: all that are, in its own frame `map`
+  FleetState state = FleetState::kWaiting;  ///< of the robot that has sent the share
+  std::vector<RobotTopology> others;        ///< if it is merged: all other merged robots, in its own frame `map`
   friend bool operator==(const FleetShared&, const FleetShared&) = default;
 };
 
-/// What a robot has seen, in its own frame `map`. Said now and then; empty where it does not know its place.
+/// Occupancy, detections and searched floor of a robot, in its own frame `map`. Empty where the robot is not localised.
 struct FleetSeen {
   std::string robot_id;
   std::uint64_t instance = 0;             ///< as in FleetManifest
-  bool placed = false;                    ///< it knows its place; else what it told before holds
-  std::vector<OccupancyTile> tiles;       ///< of the floor, all of them
-  std::vector<Detection> detections;      ///< of its missions since it was started
-  std::optional<SearchedFloor> searched;  ///< by its last search
+  bool placed = false;                    ///< true: the robot is localised; false: its last report stays valid
+  std::vector<OccupancyTile> tiles;       ///< all tiles of its occupancy map
+  std::vector<Detection> detections;      ///< of all its missions since it was started
+  std::optional<SearchedFloor> searched;  ///< of its last search
   friend bool operator==(const FleetSeen&, const FleetSeen&) = default;
 };
 
-/// What another robot has found.
+/// A detection by another robot.
 struct FleetFinding {
   std::string robot_id;
-  Detection detection;  ///< its id is that robot's own
+  Detection detection;  ///< with the id that the other robot has given it
   friend bool operator==(const FleetFinding&, const FleetFinding&) = default;
 };
 
-/// What all other robots that are merged have seen, in the frame `map` of the one that has told; empty where that one
+/// What all other merged robots have reported, in the frame `map` of the robot that receives it; empty where that robot
 /// is not merged.
 struct FleetSightings {
   std::vector<OccupancyTile> floor;
@@ -168,18 +171,20 @@ struct FleetSightings {
   friend bool operator==(const FleetSightings&, const FleetSightings&) = default;
 };
 
-/// Those next to `p_map`, as many as the limits above let through.
+/// The tiles that are nearest to `p_map`, as many as the limits above allow.
 [[nodiscard]] std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const Point2& p_map);
 
 [[nodiscard]] bool in_reach(const Point2& p_map);
-/// Whether a target and the robot that saw it lie within reach, with a covariance that is no nonsense.
+/// Whether a target and the robot that detected it lie within kMaxFleetReach_m, with a covariance within
+/// kMaxFleetCovariance_m2.
 [[nodiscard]] bool in_reach(const Detection& detection);
 
-/// Those within reach with the highest ids, by rising id: ids rise over the programs of a robot, stamps begin anew.
+/// The detections within reach that have the highest ids, by rising id. Ids rise over all runs of a robot program,
+/// while stamps begin at zero in each run.
 [[nodiscard]] std::vector<Detection> within_limits(std::vector<Detection> detections);
 
-/// The same topology within the limits above: places beyond them are left out with what speaks of them, of sectors the
-/// newest of each place stay.
+/// The topology cut to the limits above: nodes and goals beyond them are left out with all that refers to them, and of
+/// the sectors of each node the newest are kept.
 [[nodiscard]] RobotTopology within_limits(RobotTopology robot);
 
 enum class FleetVerb : std::uint8_t { kMerge, kSplit };
@@ -187,7 +192,7 @@ enum class FleetVerb : std::uint8_t { kMerge, kSplit };
 struct FleetDecision {
   std::string robot_id;
   FleetVerb verb = FleetVerb::kMerge;
-  std::uint32_t hypothesis = 0;  ///< of FleetMember::hypotheses
+  std::uint32_t hypothesis = 0;  ///< index into FleetMember::hypotheses
   friend bool operator==(const FleetDecision&, const FleetDecision&) = default;
 };
 

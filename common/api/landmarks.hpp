@@ -1,5 +1,5 @@
 /// \file
-/// Databases of visual landmarks as assets: what a robot keeps of them on disk.
+/// Databases of visual landmarks that a robot keeps on disk.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace seeker::api {
 
-/// A database of landmarks in figures. Times are wall time, seconds since 1970 (UTC).
+/// Summary of a database of landmarks. Times are wall time, seconds since 1970 (UTC).
 struct LandmarkSummary {
   std::string name;  ///< [a-z0-9_-]{1,64}
   std::string robot_id;
@@ -26,13 +26,13 @@ struct LandmarkSummary {
   friend bool operator==(const LandmarkSummary&, const LandmarkSummary&) = default;
 };
 
-/// A point that can be recognised.
+/// One landmark: a point that a camera can recognise.
 struct LandmarkPoint {
   std::uint64_t id = 0;
   Point2 p = Point2::Zero();  ///< in the frame of the database
-  double z_m = 0.0;           ///< above the floor
-  double sigma_m = 0.0;       ///< largest standard deviation of the place
-  std::uint32_t views = 0;    ///< pictures that have shown it
+  double z_m = 0.0;           ///< height above the floor
+  double sigma_m = 0.0;       ///< largest standard deviation of the position
+  std::uint32_t views = 0;    ///< number of pictures that have shown it
 
   friend bool operator==(const LandmarkPoint&, const LandmarkPoint&) = default;
 };

@@ -18,6 +18,7 @@
 #include "common/core/pose2.hpp"
 #include "common/core/solid.hpp"
 #include "common/core/time.hpp"
+#include "common/core/unreachable.hpp"
 
 namespace seeker::api {
 
@@ -34,7 +35,7 @@ enum class RecogniserKind : std::uint8_t {
   kSolid,     ///< a solid by its shape, in turbid water (spec S6): no picture is needed
 };
 
-/// A thing to look for: its picture, or which solid it is, and its size.
+/// A target to search for: its picture, or which solid it is, and its size.
 struct TargetSpec {
   std::string name;      ///< [a-z0-9-]{1,32}, unique in a mission
   Image picture;         ///< upright view of the target, cropped to its border; empty for a solid
@@ -42,7 +43,7 @@ struct TargetSpec {
   double height_m = 0.4;
   double depth_m = 0.0;  ///< of a solid that shows the picture on its sides; 0: flat. Its position is its centre
   RecogniserKind recogniser = RecogniserKind::kTemplate;
-  SolidKind solid = SolidKind::kSphere;  ///< of the recogniser of solids; no other looks at it
+  SolidKind solid = SolidKind::kSphere;  ///< for the recogniser of solids; the others ignore it
 
   friend bool operator==(const TargetSpec&, const TargetSpec&) = default;
 };
@@ -74,24 +75,28 @@ struct SearchMission {
   friend bool operator==(const SearchMission&, const SearchMission&) = default;
 };
 
-/// How an exploration chooses its way: the first two build the map actively, the next three are what they are compared
-/// with; the last one is shared among the robots of a fleet.
+/// How an exploration chooses its goals: the first two build the map actively, the next three are what they are
+/// compared with; the last one is shared among the robots of a fleet. docs/client.md says how long each takes and how
+/// certain the pose is by then.
 enum class ExploreStrategy : std::uint8_t {
-  kActive,       ///< one step of the objective of spec S1.11, out of traps along walls
-  kHorizon,      ///< the same objective over several drives to reachable viewpoints
-  kRoam,         ///< straight on until something is near, then turn
-  kFrontier,     ///< nearest border of the unknown
-  kGain,         ///< most unknown ground in sight for the way
+  kActive,    ///< the published rule: one step of the objective of spec S1.11, out of traps along walls
+  kHorizon,   ///< the same objective over several drives to reachable viewpoints: what is used unless another is named
+  kRoam,      ///< straight on until an obstacle is near, then rotate
+  kFrontier,  ///< nearest frontier
+  kGain,      ///< most unknown floor in sight for the path length
   kTopological,  ///< goals of space trees, kept at the nodes of a topology map (spec S4.4)
 };
 /// All of them, in order.
 inline constexpr std::array kExploreStrategies{ExploreStrategy::kActive, ExploreStrategy::kHorizon,
                                                ExploreStrategy::kRoam,   ExploreStrategy::kFrontier,
                                                ExploreStrategy::kGain,   ExploreStrategy::kTopological};
+/// Maps a building within a percent as completely as the published rule, in a third to a seventh of its time
+/// (docs/results.md).
+inline constexpr ExploreStrategy kDefaultExploreStrategy = ExploreStrategy::kHorizon;
 
 /// Maps a building by itself.
 struct ExploreMission {
-  ExploreStrategy strategy = ExploreStrategy::kActive;
+  ExploreStrategy strategy = kDefaultExploreStrategy;
   std::optional<Polygon> bound;   ///< explore inside only
   std::vector<Polygon> keep_out;  ///< never enter
   bool return_to_start = false;
@@ -198,8 +203,9 @@ enum class MissionState : std::uint8_t { kRunning, kPaused, kEnded };
 struct MissionEnd {
   Outcome outcome = Outcome::kFault;
   std::string cause;
-  std::string remedy;               ///< empty when there is nothing to remedy
-  std::vector<Point2> unreachable;  ///< places that were asked for or found and could not be reached
+  std::string remedy;  ///< empty when there is nothing to remedy
+  /// Places that were asked for or found and could not be reached, each with its cause.
+  std::vector<UnreachablePlace> unreachable;
 
   friend bool operator==(const MissionEnd&, const MissionEnd&) = default;
 };

@@ -1,5 +1,5 @@
 /// \file
-/// What a search produces: grid lists, evidence, detections.
+/// Results of a search: grid lists, evidence, detections.
 #pragma once
 
 #include <cstdint>
@@ -20,19 +20,19 @@ enum class RangeSource : std::uint8_t {
   kSonar,
   kLidar,
   kTriangulation,
-  kFloor,  ///< where the picture shows it to stand on the floor, by the camera's height
+  kFloor,  ///< from the row at which the picture shows it on the floor, by the height of the camera
 };
 [[nodiscard]] std::string_view to_string(RangeSource source);
 
-/// A sighting, or several fused ones, of a target.
+/// A target that was seen: one sighting, or several that were fused.
 struct Detection {
   std::uint64_t id = 0;  ///< never reused
   std::string target;
   RobotTime stamp;    ///< of the newest sighting
   double u_px = 0.0;  ///< column and row in the image of the newest sighting
   double v_px = 0.0;
-  double score = 0.0;              ///< of the recogniser, 0..1
-  Pose2 map_T_base;                ///< where the robot was
+  double score = 0.0;              ///< score of the recogniser, 0..1
+  Pose2 map_T_base;                ///< pose of the robot at the newest sighting
   double bearing_base_rad = 0.0;   ///< alpha' of spec S3.5, eq (4)
   double bearing_map_rad = 0.0;    ///< theta_0 of eq (5)
   std::optional<Point2> position;  ///< of the target's centre in the frame `map`
@@ -40,17 +40,18 @@ struct Detection {
   RangeSource range_source = RangeSource::kNone;
   int sightings = 1;
   std::uint32_t map_epoch = 0;
-  std::string mission;     ///< that has found it
-  bool withdrawn = false;  ///< only in updates: it was taken for the target and is none; no list has it any more
+  std::string mission;     ///< id of the mission that has found it
+  bool withdrawn = false;  ///< in updates only: it has proved to be no target, and no list contains it any more
 
   friend bool operator==(const Detection&, const Detection&) = default;
 };
 
-/// The same after its map has moved: `new_T_old` is the old frame `map` in the new one, or that of one robot in the
-/// frame of another. The epoch stays.
+/// The detection after its map has moved: `new_T_old` is the pose of the old frame `map` in the new one, or of the
+/// frame of one robot in that of another. The epoch stays.
 [[nodiscard]] Detection moved(Detection detection, const Pose2& new_T_old);
 
-/// The two lists of spec S3.3, and what could not be reached.
+/// The lists of searched and unsearched cells of spec S3.3, and the cells that could not be reached. Cell centres,
+/// frame `map`.
 struct GridLists {
   double cell_size_m = 0.8;
   std::vector<Point2> searched;  ///< in the order of the visits
@@ -62,13 +63,14 @@ struct GridLists {
   friend bool operator==(const GridLists&, const GridLists&) = default;
 };
 
-/// The certificate of a search in numbers.
+/// The certificate of a search: how much of the reachable floor was searched, and how well.
 struct CoverageSummary {
-  double reachable_area_m2 = 0.0;  ///< free floor eroded by the robot's radius, now or once connected to the robot
-  double covered_area_m2 = 0.0;    ///< of it, with probability of detection at or above the threshold
+  double reachable_area_m2 =
+      0.0;  ///< free floor eroded by the robot's radius that is, or once was, connected to the robot
+  double covered_area_m2 = 0.0;  ///< part of it with a probability of detection at or above the threshold
   double threshold = 0.5;
-  double mean_probability = 0.0;  ///< over the reachable floor
-  int gaps = 0;                   ///< connected areas below the threshold
+  double mean_probability = 0.0;  ///< of detection, over the reachable floor
+  int gaps = 0;                   ///< number of connected areas below the threshold
 
   friend bool operator==(const CoverageSummary&, const CoverageSummary&) = default;
 };
@@ -84,7 +86,7 @@ struct Gap {
 
 inline constexpr std::uint8_t kNotReachableFloor = 255;
 
-/// Probability that the target would have been seen if it stood in a cell, times 254; kNotReachableFloor elsewhere.
+/// Probability that the target would have been detected if it stood in a cell, times 254; kNotReachableFloor elsewhere.
 struct EvidenceMap {
   Grid<std::uint8_t> probability;
   std::vector<Gap> gaps;

@@ -1,6 +1,6 @@
 /// \file
-/// What one may ask of a robot, in values. Two bodies: the robot itself (server/app) and the remote client
-/// (common/rpc). Handlers, the command line and experiments use nothing else.
+/// The interface of a robot, in plain values. The robot itself implements it (server/app), and so does the remote
+/// client (common/rpc). Handlers, the command line and experiments use no other interface.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,12 @@
 
 namespace seeker::api {
 
-/// Called exactly once, on a thread of the body's choice; it must not block.
+/// Receives the result of a call. It is called exactly once, on a thread that the implementation chooses, and must not
+/// block.
 template <class T>
 using Reply = std::function<void(Result<T>)>;
 
-/// What can be subscribed to.
+/// Streams that a client can subscribe to.
 enum class Topic : std::uint8_t {
   kStatus,     ///< RobotStatus                      LATEST
   kScan,       ///< LaserScan                        LATEST
@@ -40,7 +41,8 @@ enum class Topic : std::uint8_t {
 };
 inline constexpr std::size_t kTopicCount = 10;
 
-/// LATEST: a slow receiver gets the newest and is told how many it missed. RELIABLE: numbered, resumable, complete.
+/// LATEST: a slow receiver gets the newest item and the number of items it missed. RELIABLE: the items are numbered,
+/// complete, and resumable after a reconnect.
 enum class StreamClass : std::uint8_t { kLatest, kReliable };
 [[nodiscard]] StreamClass stream_class(Topic topic);
 [[nodiscard]] std::string_view to_string(Topic topic);
@@ -57,13 +59,15 @@ struct Update {
   Payload payload;
 };
 using UpdatePtr = std::shared_ptr<const Update>;
-/// Called from a thread of the body's choice, in order per topic; it must not block.
+/// Receives the updates of a subscription, in order per topic, on a thread that the implementation chooses; it must not
+/// block.
 using UpdateSink = std::function<void(const UpdatePtr&)>;
 
 struct TopicRequest {
   Topic topic = Topic::kStatus;
-  double max_rate_hz = 0.0;        ///< wall rate for LATEST; 0: every update. A robot in process ignores it.
-  std::uint64_t resume_after = 0;  ///< RELIABLE: deliver from the item after this one; 0: from now on
+  double max_rate_hz =
+      0.0;  ///< LATEST: updates per second of wall time; 0: every update. A robot in process ignores it.
+  std::uint64_t resume_after = 0;  ///< RELIABLE: sequence after which delivery starts; 0: from now on
   friend bool operator==(const TopicRequest&, const TopicRequest&) = default;
 };
 
@@ -76,7 +80,7 @@ class Subscription {
   virtual ~Subscription() = default;
 };
 
-/// A robot as one client sees it. All calls return at once; the answer comes through the reply.
+/// A robot as one client sees it. All calls return at once; the result comes through the reply.
 class RobotApi {
  public:
   RobotApi() = default;
@@ -106,7 +110,8 @@ class RobotApi {
   /// Tiles changed since `revision` (0: all of them).
   virtual void get_tiles(std::uint64_t since_revision, Reply<TileUpdate> reply) = 0;
   virtual void get_grid(Reply<GridReport> reply) = 0;
-  /// Of the present map, by rising id: the running or last mission's, and the newest of those before it.
+  /// Detections in the present map, by rising id: those of the running or last mission, and the newest of those before
+  /// it.
   virtual void get_detections(Reply<std::vector<Detection>> reply) = 0;
   /// Poses of the robot since it was started or a map was loaded, thinned, in the frame `map` as it was then: a loop
   /// closure moves later poses only.
@@ -121,31 +126,31 @@ class RobotApi {
   /// Keeps the present map under a name. kRefused: there is another map of that name and `replace` is false, or it is
   /// the one the robot localises in.
   virtual void save_map(const std::string& name, bool replace, Reply<MapSummary> reply) = 0;
-  /// Replaces the present map; the robot then looks for its place in it. kRefused: the robot moves; kBusy: a mission
-  /// runs; kNotFound, kCorrupt, kUnsupportedVersion: of the file.
+  /// Replaces the present map; the robot then relocalises in it. kRefused: the robot moves; kBusy: a mission
+  /// runs; kNotFound, kCorrupt, kUnsupportedVersion: the file is absent, damaged or too new.
   virtual void load_map(const std::string& name, MapUse use, Reply<MapSummary> reply) = 0;
-  /// By name; damaged ones with their problem.
+  /// All map files, by name; a damaged one has its `problem` set.
   virtual void list_maps(Reply<std::vector<MapSummary>> reply) = 0;
-  /// Figures of one map; with `verify` the whole file is read and checked.
+  /// Summary of one map; with `verify` the whole file is read and checked.
   virtual void inspect_map(const std::string& name, bool verify, Reply<MapSummary> reply) = 0;
   virtual void delete_map(const std::string& name, Reply<void> reply) = 0;
-  /// The bytes of the file. kTooLarge above kMaxMapTransferBytes.
+  /// The bytes of a map file. kTooLarge above kMaxMapTransferBytes.
   virtual void download_map(const std::string& name, Reply<std::vector<std::uint8_t>> reply) = 0;
   virtual void upload_map(const MapUpload& upload, Reply<MapSummary> reply) = 0;
-  /// Looks for the robot near a pose, or everywhere. Answers at once; how it goes is in RobotStatus::pose: kUnknown
-  /// while it looks, then kLocalised, or kLost with the cause. kRefused: the robot moves; kBusy: a mission runs.
+  /// Starts relocalisation near a pose, or in the whole map, and answers at once. RobotStatus::pose has quality
+  /// kUnknown meanwhile, then kLocalised, or kLost with the cause. kRefused: the robot moves; kBusy: a mission runs.
   virtual void relocalise(const std::optional<Pose2>& map_T_base, Reply<void> reply) = 0;
 
   // Databases of landmarks, which `survey` builds and `localise` reads. kNotReady: there is no folder to keep them in.
 
-  /// By name; damaged ones with their problem.
+  /// All databases of landmarks, by name; a damaged one has its `problem` set.
   virtual void list_landmarks(Reply<std::vector<LandmarkSummary>> reply) = 0;
-  /// Figures of one database; with `verify` the whole file is read and checked.
+  /// Summary of one database; with `verify` the whole file is read and checked.
   virtual void inspect_landmarks(const std::string& name, bool verify, Reply<LandmarkSummary> reply) = 0;
   /// All landmarks of a database, by rising id.
   virtual void get_landmarks(const std::string& name, Reply<std::vector<LandmarkPoint>> reply) = 0;
-  /// Deletes those that fewer pictures than `min_views` have shown. kRefused: nothing would be left, or the robot
-  /// localises by this database.
+  /// Deletes the landmarks that fewer pictures than `min_views` have shown. kRefused: no landmark would be left, or the
+  /// robot localises by this database.
   virtual void prune_landmarks(const std::string& name, int min_views, Reply<LandmarkSummary> reply) = 0;
   /// Takes back the last change of a database: an update, or a pruning. kNotReady: there is no version before the
   /// present one; kRefused: the robot localises by this database.
@@ -158,14 +163,14 @@ class RobotApi {
 
 enum class Role : std::uint8_t { kObserver, kOperator, kAdmin };
 
-/// Who is on the other end of a session.
+/// The client on the other end of a session.
 struct Caller {
   std::string client_name;  ///< program and instance, stable over reconnects
   Role role = Role::kOperator;
   friend bool operator==(const Caller&, const Caller&) = default;
 };
 
-/// The robot as the network sees it: opens one RobotApi per client and hears when a client is lost.
+/// The robot as the network server sees it: opens one RobotApi per client and is notified when a client is lost.
 class RobotHost {
  public:
   RobotHost() = default;
@@ -174,7 +179,7 @@ class RobotHost {
   virtual ~RobotHost() = default;
 
   [[nodiscard]] virtual std::shared_ptr<RobotApi> open(const Caller& caller) = 0;
-  /// The client said goodbye.
+  /// The client has ended its session on purpose.
   virtual void closed(const Caller& caller) = 0;
   /// The client is silent or its connection broke; link policies apply. A later open() with the same name undoes it.
   virtual void lost(const Caller& caller, const std::string& why) = 0;

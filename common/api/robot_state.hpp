@@ -1,5 +1,5 @@
 /// \file
-/// The robot's own state as values.
+/// State of a robot as values.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace seeker::api {
 inline constexpr std::uint32_t kProtocolMajor = 1;
 inline constexpr std::uint32_t kProtocolMinor = 3;
 
-/// Who the robot is: answered before anything else.
+/// Identity and capabilities of a robot, as sent in the answer to hello.
 struct RobotInfo {
   std::string robot_id;  ///< as in validate_robot_id()
   std::string software_version;
@@ -55,7 +55,7 @@ struct ComponentInfo {
 enum class Severity : std::uint8_t { kInfo, kWarning, kError, kCritical };
 [[nodiscard]] std::string_view to_string(Severity severity);
 
-/// Something is wrong now. It goes away when its cause does.
+/// A fault that is present now; it ends when its cause does.
 struct Fault {
   std::string id;  ///< stable, e.g. "sonar-silent"
   std::string component;
@@ -67,21 +67,21 @@ struct Fault {
   friend bool operator==(const Fault&, const Fault&) = default;
 };
 
-/// Who may command motion.
+/// State of the lease, the right to command motion.
 struct LeaseState {
-  std::string owner;         ///< client name; empty: nobody
+  std::string owner;         ///< name of the client that holds it; empty: no client
   std::uint64_t epoch = 0;   ///< rises with every change of owner
-  std::string requested_by;  ///< somebody asks the owner for the lease
+  std::string requested_by;  ///< name of the client that asks the owner for the lease; empty: no client
 
   friend bool operator==(const LeaseState&, const LeaseState&) = default;
 };
 
 enum class LeaseAction : std::uint8_t { kAcquire, kRequest, kGrant, kDeny, kTakeOver, kRelease };
 
-/// A mission that was running when the robot's program ended; resuming goes on with it.
+/// A mission that was running when the robot program ended, and that can be resumed.
 struct CutOffMission {
   MissionId id;
-  std::string kind;  ///< of its task, as in MissionStatus
+  std::string kind;  ///< kind of its task, as in MissionStatus
 
   friend bool operator==(const CutOffMission&, const CutOffMission&) = default;
 };
@@ -91,23 +91,23 @@ struct RobotStatus {
   PoseEstimate pose;
   Pose2 odom_T_base;
   Twist2 velocity;
-  std::optional<double> battery_v;  ///< absent where the base does not tell
-  bool estop = false;               ///< latched emergency stop
+  std::optional<double> battery_v;  ///< voltage of the battery; absent where the base does not report it
+  bool estop = false;               ///< true: the emergency stop is latched
   bool motors_armed = false;
   LeaseState lease;
-  std::optional<MissionStatus> mission;  ///< running, paused or the last one
+  std::optional<MissionStatus> mission;  ///< the running or paused mission, or the last one
   std::vector<Fault> faults;
   std::string safety;                     ///< why the last command was clamped or refused; empty when it was not
-  double clock_speed = 1.0;               ///< robot seconds per wall second asked for; 0: as fast as possible
-  std::optional<TickTiming> timing;       ///< of the loop; absent where no wall clock paces it
-  std::uint64_t map_revision = 0;         ///< of the occupancy
+  double clock_speed = 1.0;               ///< requested robot seconds per wall second; 0: as fast as possible
+  std::optional<TickTiming> timing;       ///< lateness of the loop; absent where no wall clock paces it
+  std::uint64_t map_revision = 0;         ///< revision of the occupancy map
   std::optional<LineMapStatus> line_map;  ///< absent where the estimator keeps no map of segments
-  std::optional<CutOffMission> cut_off;   ///< until it goes on or another mission is started
+  std::optional<CutOffMission> cut_off;   ///< until it is resumed or another mission is started
 
   friend bool operator==(const RobotStatus&, const RobotStatus&) = default;
 };
 
-/// Where the robot believed it was at a time.
+/// The estimated pose of the robot at one time.
 struct StampedPose {
   RobotTime stamp;
   Pose2 map_T_base;
@@ -136,7 +136,7 @@ struct ImageFrame {
   friend bool operator==(const ImageFrame&, const ImageFrame&) = default;
 };
 
-/// A velocity for as long as `ttl` only; the robot stops when no newer one came.
+/// A velocity that is valid for `ttl`; the robot stops when no newer command arrives in that time.
 struct DriveCommand {
   Twist2 velocity;
   Duration ttl = std::chrono::milliseconds(300);
@@ -144,12 +144,12 @@ struct DriveCommand {
 
   friend bool operator==(const DriveCommand&, const DriveCommand&) = default;
 };
-/// A longer life would defeat the purpose of a perishable command.
+/// Largest DriveCommand::ttl, so that a robot without a link stops soon.
 inline constexpr Duration kMaxDriveTtl = std::chrono::seconds(1);
 
-/// Tiles changed since a revision.
+/// Tiles that have changed since a revision.
 struct TileUpdate {
-  std::uint64_t revision = 0;  ///< of the whole map; ask for changes since it next time
+  std::uint64_t revision = 0;  ///< of the whole map; the next request names it
   std::uint32_t map_epoch = 0;
   std::vector<OccupancyTile> tiles;
 

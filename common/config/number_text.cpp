@@ -7,7 +7,7 @@
 namespace seeker::config {
 namespace {
 
-/// People write a sign before a way to the left or right, be it + or -.
+/// People write a sign before a distance to the left or right, be it + or -.
 std::optional<double> number(std::string_view text) { return finite_in(text.starts_with('+') ? text.substr(1) : text); }
 
 std::string unless(bool good, const std::string& wanted, const std::string& text) {

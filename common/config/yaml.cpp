@@ -21,7 +21,7 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Sets the value of "a.b.c=text" in the tree; maps on the way are made when absent.
+/// Sets the value of "a.b.c=text" in the tree; absent maps on its path are added.
 Status apply_override(const YAML::Node& root, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -296,8 +296,8 @@ class Document::Reader final : public Fields {
     stack_.pop_back();
   }
 
-  /// The first error of a section as a whole, told when no key of it is unknown: "is missing" says little of a key that
-  /// is there and mistyped.
+  /// The first error of a section as a whole, reported when no key of it is unknown: "is missing" explains little of a
+  /// key that is there and mistyped.
   void complain(const YAML::Node& node, std::string_view key, std::string_view message) {
     if (!failed_ && !stack_.back().complaint) {
       stack_.back().complaint = error_of(node, key, message);

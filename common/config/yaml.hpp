@@ -18,7 +18,7 @@ namespace seeker::config {
 /// Largest file read.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{4} << 20U;
 
-/// One parsed document; reads structs out of it.
+/// One parsed document, from which structs are read.
 class Document {
  public:
   /// `name` is used in messages. `overrides` are "a.b.c=value" and win over the text.
@@ -30,7 +30,7 @@ class Document {
   Document& operator=(Document&&) noexcept;
   ~Document();
 
-  /// Fills `value` through describe(); every key of the document must have been asked for.
+  /// Fills `value` through describe(); a key of the document that describe() does not name is an error.
   template <class T>
   [[nodiscard]] Status read(T& value) const {
     Session session(*this);

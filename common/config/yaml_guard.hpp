@@ -1,5 +1,5 @@
 /// \file
-/// A first look at YAML text, before a document is built from it. Internal to this folder.
+/// A check of YAML text before a document is built from it. Internal to this folder.
 #pragma once
 
 #include <string>

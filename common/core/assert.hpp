@@ -1,10 +1,10 @@
 /// \file
-/// Checks for bugs of our own, active in every build. Never used for what comes from outside (use Result).
+/// Checks for bugs of the program, active in every build. Input from outside is checked with Result instead.
 #pragma once
 
 namespace seeker {
 
-/// Prints the failed condition with its place and aborts.
+/// Prints the failed condition with its file and line, and aborts.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line);
 
 }  // namespace seeker

@@ -1,5 +1,6 @@
 /// \file
-/// FNV-1a, 64 bits: tells values apart and finds damage, the same on every machine; protects nothing.
+/// FNV-1a hash of 64 bits, to distinguish values and to find damage. Equal input gives the same hash on every machine.
+/// It gives no protection against an attacker.
 #pragma once
 
 #include <bit>
@@ -14,7 +15,7 @@ class Fnv1a {
     constexpr std::uint64_t kPrime = 0x100000001b3ULL;
     hash_ = (hash_ ^ byte) * kPrime;
   }
-  /// Lowest byte first.
+  /// Adds the eight bytes of the value, lowest byte first.
   void add(std::uint64_t value) {
     for (unsigned shift = 0; shift < 64U; shift += 8U) {
       add_byte(static_cast<std::uint8_t>(value >> shift));
@@ -22,7 +23,7 @@ class Fnv1a {
   }
   void add(std::int64_t value) { add(std::bit_cast<std::uint64_t>(value)); }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  /// Its bytes alone: who adds several texts marks their ends.
+  /// Adds the bytes of the text and no end mark: a caller that adds several texts separates them.
   void add(std::string_view text) {
     for (const char c : text) {
       add_byte(static_cast<std::uint8_t>(c));

@@ -49,12 +49,12 @@ struct MapKeyframe {
 };
 inline constexpr double kKeyframeRangeStep_m = 0.002;
 inline constexpr std::uint16_t kKeyframeNoReturn = 0xFFFF;
-inline constexpr std::uint16_t kKeyframeUnusable = 0;  ///< the beam's quality was 0: it says nothing
+inline constexpr std::uint16_t kKeyframeUnusable = 0;  ///< the beam had quality 0 and measured no range
 
 [[nodiscard]] MapKeyframe pack_keyframe(const LaserScan& scan, std::uint32_t node, const Pose2& node_T_base);
 [[nodiscard]] LaserScan unpack_scan(const MapKeyframe& keyframe);
 
-/// A local map's place in the whole.
+/// A local map: its pose in the frame `map`.
 struct MapNode {
   std::uint32_t id = 0;
   Pose2 map_T_node;
@@ -63,19 +63,19 @@ struct MapNode {
   friend bool operator==(const MapNode&, const MapNode&) = default;
 };
 
-/// A measured relation between two local maps.
+/// A measured displacement between two local maps.
 struct MapEdge {
-  std::uint32_t from = 0;  ///< ids of nodes
+  std::uint32_t from = 0;  ///< ids of the two local maps
   std::uint32_t to = 0;
   Pose2 from_T_to;
   Matrix3 covariance = Matrix3::Identity();  ///< of (x, y, theta) in the frame of `from`
-  bool loop = false;                         ///< a loop closure; else the way driven from one to the next
-  bool enabled = true;                       ///< undone or contradicted loops stay, switched off
+  bool loop = false;                         ///< a loop closure; false: the displacement driven from one to the next
+  bool enabled = true;  ///< false: a loop closure that was undone or contradicted, kept but not used
 
   friend bool operator==(const MapEdge&, const MapEdge&) = default;
 };
 
-/// Everything one needs to show, save, continue, and localise in a map.
+/// A whole map: all that is needed to show it, save it, continue it, and localise in it.
 struct LineMap {
   std::uint32_t epoch = 0;     ///< rises when a loop closure or a merge moves the map
   std::uint64_t next_id = 1;   ///< for the next segment
@@ -87,12 +87,12 @@ struct LineMap {
   friend bool operator==(const LineMap&, const LineMap&) = default;
 };
 
-/// Refuses what cannot be a map: ids that are 0, repeated, unknown or not below next_id; poses or covariances that are
-/// not finite or not symmetric positive semi-definite; local maps that no enabled relation joins to the first; lengths
-/// below 0; scans without beams or with too many.
+/// Refuses maps with ids that are 0, repeated, unknown or not below next_id; with poses or covariances that are
+/// not finite or not symmetric positive semi-definite; with local maps that no enabled edge joins to the first one;
+/// with lengths below 0; or with scans that have no beams or more than kMaxScanBeams.
 [[nodiscard]] Status validate(const LineMap& map);
 
-/// Names of kept maps are [a-z0-9_-]{1,64}: also safe as the name of a file.
+/// Checks the name of a kept map: [a-z0-9_-]{1,64}, which is also safe as the name of a file.
 [[nodiscard]] Status validate_map_name(std::string_view name);
 
 }  // namespace seeker

@@ -1,5 +1,5 @@
 /// \file
-/// How a correction moved the places of a map.
+/// The displacement of the places of a map by a correction, such as a loop closure.
 #pragma once
 
 #include <vector>
@@ -8,24 +8,25 @@
 
 namespace seeker {
 
-/// A map bends: each piece of it moves as a whole, and a place moves as the nearest piece does. Where the start of a
-/// building is held, its far end may move by metres when a loop closes.
+/// A correction deforms a map: each piece of it moves as a rigid body, and a place moves with the nearest piece. When a
+/// loop closes, the start of the map is held and its far end may move by metres.
 class MapMove {
  public:
   struct Piece {
-    Point2 p_old = Point2::Zero();  ///< where it lies, in the map before
-    Pose2 new_T_old;                ///< takes its places in the map before to the map now
+    Point2 p_old = Point2::Zero();  ///< position of the piece in the map before the correction
+    Pose2 new_T_old;                ///< maps its points from before the correction to after it
   };
 
-  /// Nothing moves.
+  /// The correction that leaves every place where it is.
   MapMove() = default;
-  /// Everything moves as a whole.
+  /// The whole map moves as one rigid body.
   MapMove(const Pose2& new_T_old);  // NOLINT(google-explicit-constructor): it is a special case
-  /// Of two pieces as near as each other the first counts. None: nothing moves.
+  /// One displacement for each piece; of two pieces at the same distance the first counts. An empty list moves no
+  /// place.
   explicit MapMove(std::vector<Piece> pieces);
 
   [[nodiscard]] bool moves() const;
-  /// The motion of the piece that the place belongs to.
+  /// Displacement of the piece that is nearest to the place.
   [[nodiscard]] Pose2 at(const Point2& p_old) const;
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
@@ -33,10 +34,10 @@ class MapMove {
   std::vector<Piece> pieces_;
 };
 
-/// A place of the map before, in the map now.
+/// Maps a point, or a pose, from before the correction to after it.
 [[nodiscard]] Point2 operator*(const MapMove& move, const Point2& p_old);
 [[nodiscard]] Pose2 operator*(const MapMove& move, const Pose2& old_T_x);
-/// Takes places of the map now to the map before: exact away from where pieces meet.
+/// The correction from the new map to the old one: exact except near the borders between pieces.
 [[nodiscard]] MapMove inverse(const MapMove& move);
 
 }  // namespace seeker

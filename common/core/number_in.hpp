@@ -1,5 +1,5 @@
 /// \file
-/// Numbers in text that came from outside.
+/// Numbers in text that comes from files, devices and users.
 #pragma once
 
 #include <charconv>
@@ -10,8 +10,9 @@
 
 namespace seeker {
 
-/// The number that `text` is from end to end; nothing where it is none, has something beside it or does not fit into T.
-/// The same in every locale. "inf" and "nan" are numbers of floating point: finite_in() is without them.
+/// Reads `text` as one number, in the same notation in every locale. std::nullopt where it is no number, has characters
+/// before or after the number, or does not fit into T. "inf" and "nan" are floating-point numbers here; finite_in()
+/// refuses them.
 template <class T>
 [[nodiscard]] std::optional<T> number_in(std::string_view text) {
   T value{};

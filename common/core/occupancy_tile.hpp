@@ -26,11 +26,11 @@ struct OccupancyTile {
   friend bool operator==(const OccupancyTile&, const OccupancyTile&) = default;
 };
 
-/// The tiles pasted into one grid that just holds them; nothing for an empty list.
+/// Joins tiles into the smallest grid that holds them all; std::nullopt for an empty list.
 [[nodiscard]] std::optional<Grid<std::uint8_t>> assemble(const std::vector<OccupancyTile>& tiles);
 
-/// The grid cut into tiles, without those that nothing is known of. Its resolution must be that of tiles, and its cells
-/// must lie on multiples of it.
+/// Cuts a grid into tiles and leaves out those with unknown cells only. The grid must have the resolution of tiles, and
+/// its origin must lie on a multiple of it.
 [[nodiscard]] std::vector<OccupancyTile> cut(const Grid<std::uint8_t>& grid);
 
 }  // namespace seeker

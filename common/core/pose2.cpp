@@ -40,7 +40,7 @@ Pose2 integrate(const Twist2& twist, double tau_s) {
 Twist2 twist_between(const Pose2& a_T_from, const Pose2& a_T_to, double tau_s) {
   const Pose2 step = inverse(a_T_from) * a_T_to;
   const double half_rad = 0.5 * wrap_angle(step.theta_rad);
-  // The way along the arc whose chord the step is.
+  // Ratio of the length of the arc to that of its chord, which the step is.
   constexpr double kSmallAngle = 1e-6;
   const double arc = std::abs(half_rad) > kSmallAngle ? half_rad / std::sin(half_rad) : 1.0;
   return {std::copysign(step.translation().norm(), step.x_m) * arc / tau_s, 2.0 * half_rad / tau_s};

@@ -31,16 +31,16 @@ struct Twist2 {
   friend bool operator==(const Twist2&, const Twist2&) = default;
 };
 
-/// Composition: the paper's a (+) b. The angle of the result is wrapped.
+/// Composition of two transforms, a (+) b of spec S0.3. The angle of the result is wrapped.
 [[nodiscard]] Pose2 operator*(const Pose2& a_T_b, const Pose2& b_T_c);
 /// Transforms a point from b to a.
 [[nodiscard]] Point2 operator*(const Pose2& a_T_b, const Point2& p_b);
-/// The paper's (-) a.
+/// Inverse of a transform, (-) a of spec S0.3.
 [[nodiscard]] Pose2 inverse(const Pose2& a_T_b);
 /// Motion of the base over `tau_s` seconds of constant twist (spec S1.3): exact on the arc.
 [[nodiscard]] Pose2 integrate(const Twist2& twist, double tau_s);
 /// The constant twist that leads from one pose to the other in `tau_s` > 0 seconds, along an arc: the inverse of
-/// integrate() for turns below pi.
+/// integrate() for rotations below pi.
 [[nodiscard]] Twist2 twist_between(const Pose2& a_T_from, const Pose2& a_T_to, double tau_s);
 
 /// d(a (+) b)/da and d(a (+) b)/db (spec S0.3: J1, J2).
@@ -62,7 +62,7 @@ struct UncertainPose {
 [[nodiscard]] UncertainPose invert(const UncertainPose& a_T_b);
 
 [[nodiscard]] double distance_m(const Pose2& a, const Pose2& b);
-/// How far `pose` lies off `from`, both in one frame: (x, y, theta) in that frame, theta the short way round.
+/// Difference of two poses of one frame, `pose` minus `from`: (x, y, theta) in that frame, theta wrapped to (-pi, pi].
 [[nodiscard]] Eigen::Vector3d offset_of(const Pose2& pose, const Pose2& from);
 /// Bearing of point p_a (in the frame the pose is given in) seen from the pose, wrapped.
 [[nodiscard]] double bearing_to(const Pose2& a_T_b, const Point2& p_a);

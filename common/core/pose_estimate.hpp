@@ -1,5 +1,5 @@
 /// \file
-/// Where the robot believes it is, and how much it believes it.
+/// The estimated pose of the robot with its uncertainty.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace seeker {
 
-/// One enum for the quality of localisation, everywhere.
+/// Quality of the localisation of a robot.
 enum class LocalisationQuality : std::uint8_t { kUnknown, kLocalised, kDegraded, kLost };
 
 [[nodiscard]] std::string_view to_string(LocalisationQuality quality);
 
-/// Whether a pose is the robot's place in the map. Else it may be in any frame: that of a part which is mapped while
-/// the robot is looked for, say.
+/// Whether a pose of this quality is the robot's pose in the frame `map`. A pose of another quality may be in any
+/// frame, such as that of a part which is mapped during relocalisation.
 [[nodiscard]] constexpr bool is_placed(LocalisationQuality quality) {
   return quality == LocalisationQuality::kLocalised || quality == LocalisationQuality::kDegraded;
 }

@@ -18,16 +18,16 @@ enum class Errc : std::uint8_t {
   kParse,               ///< text or bytes do not follow their format
   kNotFound,            ///< no such file, component, mission, target
   kUnsupportedVersion,  ///< the other side or the file is newer than this program
-  kCorrupt,             ///< checksum or structure says that data were damaged
+  kCorrupt,             ///< checksum or structure shows that data were damaged
   kIo,                  ///< the operating system refused to read or write
   kTimeout,             ///< no answer in time
   kCancelled,           ///< stopped on request
-  kRefused,             ///< the robot says no (lease, emergency stop, safety)
+  kRefused,             ///< the robot does not allow it (lease, emergency stop, safety)
   kBusy,                ///< another mission or owner is active
   kNotReady,            ///< not in a state to do this yet
   kLinkLost,            ///< no connection, or it broke
   kTooLarge,            ///< over a stated limit
-  kUnreachable,         ///< no way leads there
+  kUnreachable,         ///< no path leads to the goal
   kInternal,            ///< a fault on the other side
 };
 

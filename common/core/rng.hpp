@@ -1,5 +1,6 @@
 /// \file
-/// The one random generator. Always an argument, always seeded, the seed always printed by whoever chose it.
+/// The random generator of all code. It is always passed as an argument and always seeded; the program that chooses the
+/// seed prints it.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ inline constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 inline constexpr std::size_t kMaxScanBeams = 8192;
 
 /// One sweep of a planar laser scanner. Beam i points to `angle_min_rad + i * angle_step_rad` in the frame `laser`;
-/// a negative step is a scanner that turns clockwise.
+/// a negative step is that of a scanner which rotates clockwise.
 struct LaserScan {
   RobotTime stamp;
   double angle_min_rad = 0.0;
@@ -26,8 +26,8 @@ struct LaserScan {
   double range_min_m = 0.0;
   double range_max_m = 0.0;
   Pose2 base_T_laser;
-  std::vector<float> ranges_m;        ///< kNoReturn where nothing came back
-  std::vector<std::uint8_t> quality;  ///< empty, or one value per beam; higher is better, 0 unusable
+  std::vector<float> ranges_m;        ///< one value per beam; kNoReturn where no echo came back
+  std::vector<std::uint8_t> quality;  ///< empty, or one value per beam; higher is better, 0 is unusable
 
   [[nodiscard]] double angle_rad(std::size_t beam) const {
     return angle_min_rad + static_cast<double>(beam) * angle_step_rad;
@@ -35,13 +35,14 @@ struct LaserScan {
   friend bool operator==(const LaserScan&, const LaserScan&) = default;
 };
 
-/// Refuses what no estimator may see: NaN, negative ranges, no angle step, more beams than kMaxScanBeams.
+/// Refuses scans that estimators must not receive: with NaN, negative ranges, no angle step, or more beams than
+/// kMaxScanBeams.
 [[nodiscard]] Status validate(const LaserScan& scan);
 
-/// Valid returns as points in the frame `base`.
+/// Positions of all valid returns in the frame `base`.
 [[nodiscard]] std::vector<Point2> points_in_base(const LaserScan& scan);
 
-/// One ultrasonic transducer: where it sits on the base and what it read.
+/// One ultrasonic transducer: its pose on the base and the range it measured.
 struct SonarReading {
   Pose2 base_T_sonar;  ///< x axis of the sonar = axis of its cone
   float range_m = kNoReturn;

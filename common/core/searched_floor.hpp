@@ -1,5 +1,5 @@
 /// \file
-/// What a robot has searched, as others are told.
+/// The floor that a robot has searched, in the form in which robots of a fleet exchange it.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace seeker {
 
-inline constexpr double kMaxSearchedCell_m = 1.0;  ///< a cell of searched floor is not larger
+inline constexpr double kMaxSearchedCell_m = 1.0;  ///< largest side of a cell of searched floor
 
-/// Proof that targets would have been seen, by the looks of one robot.
+/// Probability that targets would have been detected by the looks of one robot, cell by cell.
 struct SearchedFloor {
-  std::vector<std::string> targets;  ///< names of all that the looks were for
-  Pose2 map_T_grid;  ///< of the frame that the grid lies in: moving the floor leaves the cells as they are
-  /// That each of the targets would have been seen if it stood in a cell, times 254. Never null where it is told; it is
-  /// shared, since floors of buildings are large and go through many hands.
+  std::vector<std::string> targets;  ///< names of all targets that the looks were for
+  Pose2 map_T_grid;                  ///< pose of the grid's frame: it changes when the map moves, the cells do not
+  /// Probability that each of the targets would have been detected if it stood in a cell, times 254. Never null in a
+  /// report. The grid is shared and not copied, since floors of buildings are large.
   std::shared_ptr<const Grid<std::uint8_t>> probability;
 
-  /// By what the grids say, not by where they lie in memory.
+  /// Compares the cells of the grids, not their addresses.
   friend bool operator==(const SearchedFloor& a, const SearchedFloor& b) {
     const bool same_cells =
         a.probability == b.probability || (a.probability && b.probability && *a.probability == *b.probability);
@@ -30,7 +30,7 @@ struct SearchedFloor {
   }
 };
 
-/// Of several robots; null: nothing is told.
+/// The searched floor of several robots; null: no robot has reported any.
 using SharedSearch = std::shared_ptr<const std::vector<SearchedFloor>>;
 
 }  // namespace seeker

@@ -1,5 +1,5 @@
 /// \file
-/// The solids that a recogniser can tell from each other (spec S6, in the order of the paper's Table 2).
+/// The solids that a recogniser distinguishes (spec S6, in the order of the paper's Table 2).
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline constexpr std::array kSolidKinds{SolidKind::kSphere, SolidKind::kTriangul
   return "sphere";
 }
 
-/// The solid of this name, if there is one.
+/// The solid of this name; std::nullopt for any other name.
 [[nodiscard]] constexpr std::optional<SolidKind> solid_named(std::string_view name) {
   for (const SolidKind solid : kSolidKinds) {
     if (to_string(solid) == name) {

@@ -24,14 +24,15 @@ struct StereoGeometry {
   friend bool operator==(const StereoGeometry&, const StereoGeometry&) = default;
 };
 
-/// Refuses what is no camera: not finite, empty pictures, a principal point outside them, no focal length or baseline.
+/// Refuses numbers that are not finite, pictures without pixels, a principal point outside the picture, and a focal
+/// length or baseline that is not positive.
 [[nodiscard]] Status validate(const StereoGeometry& geometry);
 
-/// Tells calibrations apart: pictures and landmarks of one must not be used with another. Equal geometries have equal
-/// hashes on every machine.
+/// Identifies a calibration, since pictures and landmarks of one calibration must not be used with another. Equal
+/// geometries have equal hashes on every machine.
 [[nodiscard]] std::uint64_t calibration_hash(const StereoGeometry& geometry);
 
-/// Both eyes, rectified, of one moment.
+/// The rectified pictures of both eyes, exposed at the same time.
 struct StereoFrame {
   RobotTime stamp;
   Image left;

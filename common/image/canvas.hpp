@@ -1,12 +1,15 @@
 /// \file
-/// Anti-aliased drawing on a colour image. Coordinates are pixels: x is the column, y the row, (0, 0) the corner
-/// of the first pixel and (0.5, 0.5) its centre. What lies outside is clipped; what is not finite is left out.
+/// Anti-aliased drawing by Cairo, as pixels or as a vector drawing (SVG): what is drawn is the same. Coordinates are
+/// pixels: x is the column, y the row, (0, 0) the corner of the first pixel and (0.5, 0.5) its centre. What lies
+/// outside is clipped; what is not finite is left out.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/core/image.hpp"
 #include "common/core/pose2.hpp"
@@ -44,18 +47,31 @@ struct Rect {
 
 class Canvas {
  public:
+  /// Of pixels; at most 32767 a side.
   Canvas(int width_px, int height_px, Colour background);
   /// Draws on a picture; a grey one is made a colour one.
   explicit Canvas(const Image& picture);
+  /// Of shapes, which svg() gives as a document.
+  [[nodiscard]] static Canvas vector(int width_px, int height_px, Colour background);
+  Canvas(Canvas&& other) noexcept;
+  Canvas& operator=(Canvas&& other) noexcept;
+  ~Canvas();
 
-  [[nodiscard]] const Image& image() const { return image_; }
-  [[nodiscard]] int width_px() const { return image_.width_px(); }
-  [[nodiscard]] int height_px() const { return image_.height_px(); }
+  /// A part of this canvas that clips what is drawn on it; its (0, 0) is the corner of `part`.
+  [[nodiscard]] Canvas window(const Rect& part);
 
-  void set_pixel(int u, int v, Colour colour);
+  /// The picture; of a canvas of pixels.
+  [[nodiscard]] Image image() const;
   [[nodiscard]] Colour pixel(int u, int v) const;
-  /// Lays `colour` over one pixel; outside the image nothing happens.
-  void blend(int u, int v, Colour colour, double alpha);
+  /// The document; of a canvas of shapes, on which nothing can be drawn afterwards.
+  [[nodiscard]] std::string svg();
+  [[nodiscard]] int width_px() const;
+  [[nodiscard]] int height_px() const;
+
+  /// Colours of a picture by column and row; none where it is transparent.
+  using PixelColours = std::function<std::optional<Colour>(int u, int v)>;
+  /// Lays a picture over whole pixels with its upper left corner at column `left`, row `top`.
+  void picture(int left_px, int top_px, int width_px, int height_px, const PixelColours& colour_at, double alpha = 1.0);
 
   void fill_rect(const Rect& rect, Colour colour, double alpha = 1.0);
   void rect(const Rect& rect, const Stroke& stroke);
@@ -71,14 +87,19 @@ class Canvas {
   void arrow(const Point2& from, const Point2& to, const Stroke& stroke, double head_px = 8.0);
   /// The curve of `sigmas` standard deviations of a Gaussian with this covariance in pixels^2.
   void ellipse(const Point2& centre, const Matrix2& covariance_px2, double sigmas, const Stroke& stroke);
-  /// One line of text with its baseline's left end, middle or right end at `at`.
+  /// One line of text with its baseline's left end, middle or right end at `at`. Bytes that are not UTF-8 are skipped.
   void text(const Point2& at, std::string_view text, const TextStyle& style);
 
  private:
-  Image image_;
+  struct Drawing;
+  explicit Canvas(std::unique_ptr<Drawing> drawing);
+  void outline(const Stroke& stroke, double length_px);
+
+  std::unique_ptr<Drawing> drawing_;
 };
 
-/// Length of a text as Canvas::text() draws it.
+/// Length of a text as Canvas::text() draws it: in DejaVu Sans (Debian package fonts-dejavu-core), in the font whose
+/// file the environment variable SEEKER_FONT names, or, where there is no such file, in plain strokes.
 [[nodiscard]] double text_width_px(std::string_view text, double size_px);
 
 }  // namespace seeker::image

@@ -1,6 +1,7 @@
 #include "common/image/colour.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -48,17 +49,6 @@ Colour red_to_green(double t) {
   constexpr std::array<Colour, 5> kAnchors{
       {{215, 72, 50}, {244, 150, 86}, {250, 222, 140}, {150, 206, 130}, {46, 150, 96}}};
   return through(kAnchors, t);
-}
-
-std::array<char, 8> hex(Colour colour) {
-  constexpr std::array<char, 17> kDigits{"0123456789abcdef"};
-  std::array<char, 8> text{'#'};
-  std::size_t at = 1;
-  for (const unsigned channel : {colour.red, colour.green, colour.blue}) {
-    text[at++] = kDigits[channel >> 4U];
-    text[at++] = kDigits[channel & 15U];
-  }
-  return text;
 }
 
 }  // namespace seeker::image

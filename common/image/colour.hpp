@@ -1,9 +1,8 @@
 /// \file
-/// Colours and colour maps of the figures. The palette keeps its order of lightness in greyscale and is told apart
+/// Colours and colour maps of the figures. The palette keeps its order of lightness in greyscale and is distinguishable
 /// with the common colour deficiencies (after Okabe and Ito, "Color Universal Design", 2008).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -36,7 +35,5 @@ inline constexpr Colour kSky{72, 164, 218};
 [[nodiscard]] Colour viridis(double t);
 /// Red (0) over pale yellow (0.5) to green (1): what is missing and what is done; t is clamped.
 [[nodiscard]] Colour red_to_green(double t);
-/// "#rrggbb", for SVG.
-[[nodiscard]] std::array<char, 8> hex(Colour colour);
 
 }  // namespace seeker::image

@@ -9,7 +9,7 @@
 
 #include <jpeglib.h>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 
 namespace seeker::image {
@@ -91,7 +91,7 @@ Result<Image> decode_jpeg(std::span<const std::uint8_t> bytes) {
 }
 
 Result<Image> read_picture(const std::filesystem::path& path) {
-  const Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path);
   if (!bytes) {
     return tl::unexpected(bytes.error());
   }

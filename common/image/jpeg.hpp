@@ -15,7 +15,7 @@ namespace seeker::image {
 /// shortened one, kTooLarge beyond kMaxImageSide_px.
 [[nodiscard]] Result<Image> decode_jpeg(std::span<const std::uint8_t> bytes);
 
-/// A PNG or a JPEG, by its first bytes, whatever the file's name is. Errors: those of decode_png() or decode_jpeg()
+/// A PNG or a JPEG, by its first bytes, for any name of the file. Errors: those of decode_png() or decode_jpeg()
 /// with the file's name, kNotFound, kIo.
 [[nodiscard]] Result<Image> read_picture(const std::filesystem::path& path);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "common/core/angle.hpp"
@@ -30,25 +32,22 @@ std::uint8_t value_under(const Grid<std::uint8_t>& grid, const Point2& low, cons
   return best < 0 ? kUnknownCell : static_cast<std::uint8_t>(best);
 }
 
-/// Calls draw(u, v, value) for every pixel with a known value.
-template <class Draw>
-void for_each_pixel(const MapView& view, const Grid<std::uint8_t>& grid, Draw draw) {
+/// Lays colours of the known values of a grid over the view.
+void draw_grid(Canvas& canvas, const MapView& view, const Grid<std::uint8_t>& grid,
+               const std::function<Colour(std::uint8_t)>& colour_of, double alpha) {
   const bool shrinks = grid.frame().resolution_m * view.px_per_m < 1.0;
-  for (int v = 0; v < view.height_px; ++v) {
-    for (int u = 0; u < view.width_px; ++u) {
-      std::uint8_t value = kUnknownCell;
-      if (shrinks) {
-        const Point2 a = view.to_map(Point2(u, v + 1.0));
-        value = value_under(grid, a, view.to_map(Point2(u + 1.0, v)));
-      } else {
-        const CellIndex c = grid.frame().cell_of(view.to_map(Point2(u + 0.5, v + 0.5)));
-        value = grid.contains(c) ? grid[c] : kUnknownCell;
-      }
-      if (value != kUnknownCell) {
-        draw(u, v, value);
-      }
+  const auto colour_at = [&](int u, int v) -> std::optional<Colour> {
+    std::uint8_t value = kUnknownCell;
+    if (shrinks) {
+      const Point2 a = view.to_map(Point2(u, v + 1.0));
+      value = value_under(grid, a, view.to_map(Point2(u + 1.0, v)));
+    } else {
+      const CellIndex c = grid.frame().cell_of(view.to_map(Point2(u + 0.5, v + 0.5)));
+      value = grid.contains(c) ? grid[c] : kUnknownCell;
     }
-  }
+    return value == kUnknownCell ? std::nullopt : std::optional<Colour>(colour_of(value));
+  };
+  canvas.picture(0, 0, view.width_px, view.height_px, colour_at, alpha);
 }
 
 std::vector<Point2> to_px(const MapView& view, const std::vector<Point2>& points) {
@@ -86,18 +85,17 @@ void draw_detection(Canvas& canvas, const MapView& view, const DetectionMark& ma
 }  // namespace
 
 void draw_occupancy(Canvas& canvas, const MapView& view, const Grid<std::uint8_t>& occupancy) {
-  for_each_pixel(view, occupancy, [&](int u, int v, std::uint8_t value) {
+  const auto colour_of = [](std::uint8_t value) {
     const double p = probability(value);
     // Steepened about 1/2: cells seen once or twice already look free or occupied.
-    const double shade = std::clamp((p - 0.3) / 0.4, 0.0, 1.0);
-    canvas.set_pixel(u, v, mix(look::kFree, look::kWall, shade));
-  });
+    return mix(look::kFree, look::kWall, std::clamp((p - 0.3) / 0.4, 0.0, 1.0));
+  };
+  draw_grid(canvas, view, occupancy, colour_of, 1.0);
 }
 
 void draw_evidence(Canvas& canvas, const MapView& view, const Grid<std::uint8_t>& evidence) {
-  for_each_pixel(view, evidence, [&](int u, int v, std::uint8_t value) {
-    canvas.blend(u, v, red_to_green(probability(value)), look::kEvidenceAlpha);
-  });
+  const auto colour_of = [](std::uint8_t value) { return red_to_green(probability(value)); };
+  draw_grid(canvas, view, evidence, colour_of, look::kEvidenceAlpha);
 }
 
 void draw_areas(Canvas& canvas, const MapView& view, const MapScene& scene) {

@@ -181,13 +181,43 @@ double write_panel(Canvas& canvas, double left_px, const MapScene& scene) {
   return panel.bottom_px();
 }
 
-void paste(Canvas& canvas, const Image& picture, int left_px, int top_px) {
-  for (int v = 0; v < picture.height_px(); ++v) {
-    for (int u = 0; u < picture.width_px(); ++u) {
-      const std::uint8_t* p = picture.at(u, v);
-      canvas.set_pixel(left_px + u, top_px + v, {p[0], p[1], p[2]});
-    }
+/// The map with its marks; what lies outside of the view is clipped.
+void draw_layers(Canvas& canvas, const MapView& view, const MapScene& scene) {
+  if (scene.occupancy) {
+    draw_occupancy(canvas, view, *scene.occupancy);
   }
+  if (scene.evidence) {
+    draw_evidence(canvas, view, *scene.evidence);
+  }
+  draw_areas(canvas, view, scene);
+  draw_cells(canvas, view, scene);
+  draw_paths(canvas, view, scene);
+  draw_gaps(canvas, view, scene.gaps);
+  draw_detections(canvas, view, scene.detections);
+  if (scene.robot) {
+    draw_robot(canvas, view, *scene.robot, scene.robot_radius_m);
+  }
+  draw_scale_bar(canvas, view);
+}
+
+/// The map beside its panel, on the canvas that `new_canvas` makes in the size that both need.
+Result<Canvas> draw_scene(const MapScene& scene, const MapPictureOptions& options,
+                          Canvas (*new_canvas)(int width_px, int height_px)) {
+  const Result<MapView> view = fit_view(scene, options);
+  if (!view) {
+    return tl::unexpected(view.error());
+  }
+  // The panel is measured on a canvas of one pixel first: drawing clips, the layout does not.
+  Canvas measure(1, 1, kWhite);
+  const int panel_px = static_cast<int>(write_panel(measure, 0.0, scene));
+  const int height_px = std::max(view->height_px, panel_px);
+  Canvas canvas = new_canvas(view->width_px + kPanelWidth_px, height_px);
+  const int top_px = (height_px - view->height_px) / 2;
+  Canvas map = canvas.window(
+      {0.0, static_cast<double>(top_px), static_cast<double>(view->width_px), static_cast<double>(view->height_px)});
+  draw_layers(map, *view, scene);
+  write_panel(canvas, view->width_px, scene);
+  return canvas;
 }
 
 }  // namespace
@@ -213,35 +243,13 @@ std::vector<std::pair<std::string, std::string>> gap_rows(const std::vector<GapM
 }
 
 Result<Image> draw_map(const MapScene& scene, const MapPictureOptions& options) {
-  const Result<MapView> view = fit_view(scene, options);
-  if (!view) {
-    return tl::unexpected(view.error());
-  }
-  Canvas map(view->width_px, view->height_px, look::kUnknown);
-  if (scene.occupancy) {
-    draw_occupancy(map, *view, *scene.occupancy);
-  }
-  if (scene.evidence) {
-    draw_evidence(map, *view, *scene.evidence);
-  }
-  draw_areas(map, *view, scene);
-  draw_cells(map, *view, scene);
-  draw_paths(map, *view, scene);
-  draw_gaps(map, *view, scene.gaps);
-  draw_detections(map, *view, scene.detections);
-  if (scene.robot) {
-    draw_robot(map, *view, *scene.robot, scene.robot_radius_m);
-  }
-  draw_scale_bar(map, *view);
+  const auto pixels = [](int width_px, int height_px) { return Canvas(width_px, height_px, look::kUnknown); };
+  return draw_scene(scene, options, pixels).map([](const Canvas& canvas) { return canvas.image(); });
+}
 
-  // The panel is measured on a canvas of one pixel first: drawing clips, the layout does not.
-  Canvas measure(1, 1, kWhite);
-  const int panel_px = static_cast<int>(write_panel(measure, 0.0, scene));
-  const int height_px = std::max(view->height_px, panel_px);
-  Canvas canvas(view->width_px + kPanelWidth_px, height_px, look::kUnknown);
-  paste(canvas, map.image(), 0, (height_px - view->height_px) / 2);
-  write_panel(canvas, view->width_px, scene);
-  return canvas.image();
+Result<std::string> map_svg(const MapScene& scene, const MapPictureOptions& options) {
+  const auto shapes = [](int width_px, int height_px) { return Canvas::vector(width_px, height_px, look::kUnknown); };
+  return draw_scene(scene, options, shapes).map([](Canvas&& canvas) { return canvas.svg(); });
 }
 
 }  // namespace seeker::image

@@ -15,7 +15,7 @@
 
 namespace seeker::image {
 
-/// A found thing. All points in the frame `map`.
+/// A detected target. All points in the frame `map`.
 struct DetectionMark {
   std::string name;
   std::optional<Point2> position;
@@ -69,5 +69,7 @@ struct MapPictureOptions {
 
 /// Draws the scene. Error: kNotReady when it holds nothing that has a place; kTooLarge beyond 5 km.
 [[nodiscard]] Result<Image> draw_map(const MapScene& scene, const MapPictureOptions& options = {});
+/// draw_map() as an SVG document; the grids in it are pixels.
+[[nodiscard]] Result<std::string> map_svg(const MapScene& scene, const MapPictureOptions& options = {});
 
 }  // namespace seeker::image

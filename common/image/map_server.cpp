@@ -4,7 +4,8 @@
 #include <cstdio>
 
 #include "common/core/occupancy_tile.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
+#include "common/image/export_mark.hpp"
 #include "common/image/pgm.hpp"
 
 namespace seeker::image {
@@ -42,7 +43,7 @@ std::string map_server_yaml(const std::string& pgm_name, const GridFrame& frame)
   for (const char c : pgm_name) {
     quoted += c == '\'' ? std::string("''") : std::string(1, c);
   }
-  return "image: '" + quoted + "'\nmode: trinary\n" + numbers.data();
+  return comment_mark(kMapExport) + "image: '" + quoted + "'\nmode: trinary\n" + numbers.data();
 }
 
 Status write_map_server(const std::filesystem::path& prefix, const Grid<std::uint8_t>& occupancy) {
@@ -50,10 +51,10 @@ Status write_map_server(const std::filesystem::path& prefix, const Grid<std::uin
     return fail(Errc::kNotReady, "there is no map yet: nothing to write; let the robot sense or move first");
   }
   const std::filesystem::path pgm = prefix.string() + ".pgm";
-  if (Status ok = write_pgm(pgm, map_server_image(occupancy)); !ok) {
+  if (Status ok = write_pgm(pgm, map_server_image(occupancy), comment_mark(kMapExport)); !ok) {
     return ok;
   }
-  return write_file(prefix.string() + ".yaml", map_server_yaml(pgm.filename().string(), occupancy.frame()));
+  return files::write_file(prefix.string() + ".yaml", map_server_yaml(pgm.filename().string(), occupancy.frame()));
 }
 
 }  // namespace seeker::image

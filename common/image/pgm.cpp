@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 
 namespace seeker::image {
@@ -85,7 +85,7 @@ Result<Image> decode_pgm(std::span<const std::uint8_t> bytes) {
 }
 
 Result<Image> read_pgm(const std::filesystem::path& path) {
-  const Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path);
   if (!bytes) {
     return tl::unexpected(bytes.error());
   }
@@ -96,24 +96,24 @@ Result<Image> read_pgm(const std::filesystem::path& path) {
   return image;
 }
 
-std::vector<std::uint8_t> encode_pgm(const Image& image) {
+std::vector<std::uint8_t> encode_pgm(const Image& image, const std::string& comment_lines) {
   const Image grey = to_grey(image);
   const std::string header =
-      "P5\n" + std::to_string(grey.width_px()) + " " + std::to_string(grey.height_px()) + "\n255\n";
+      "P5\n" + comment_lines + std::to_string(grey.width_px()) + " " + std::to_string(grey.height_px()) + "\n255\n";
   std::vector<std::uint8_t> bytes(header.begin(), header.end());
   bytes.insert(bytes.end(), grey.data().begin(), grey.data().end());
   return bytes;
 }
 
-Status write_pgm(const std::filesystem::path& path, const Image& image) {
+Status write_pgm(const std::filesystem::path& path, const Image& image, const std::string& comment_lines) {
   if (image.empty()) {
     return fail(Errc::kInvalidArgument, path.string() + ": an image without pixels cannot be written as PGM");
   }
-  return write_file(path, encode_pgm(image));
+  return files::write_file(path, encode_pgm(image, comment_lines));
 }
 
 Result<Image> read_image(const std::filesystem::path& path) {
-  const Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path);
   if (!bytes) {
     return tl::unexpected(bytes.error());
   }

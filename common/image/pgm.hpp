@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/core/image.hpp"
@@ -16,11 +17,12 @@ namespace seeker::image {
 [[nodiscard]] Result<Image> decode_pgm(std::span<const std::uint8_t> bytes);
 [[nodiscard]] Result<Image> read_pgm(const std::filesystem::path& path);
 
-/// Grey images only; a colour image is converted.
-[[nodiscard]] std::vector<std::uint8_t> encode_pgm(const Image& image);
-[[nodiscard]] Status write_pgm(const std::filesystem::path& path, const Image& image);
+/// Grey images only; a colour image is converted. `comment_lines`: lines that begin with '#', for the header.
+[[nodiscard]] std::vector<std::uint8_t> encode_pgm(const Image& image, const std::string& comment_lines = {});
+[[nodiscard]] Status write_pgm(const std::filesystem::path& path, const Image& image,
+                               const std::string& comment_lines = {});
 
-/// Reads a .png or a .pgm, told apart by their first bytes.
+/// Reads a .png or a .pgm, distinguished by their first bytes.
 [[nodiscard]] Result<Image> read_image(const std::filesystem::path& path);
 
 }  // namespace seeker::image

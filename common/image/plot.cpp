@@ -191,19 +191,6 @@ void draw_series(Canvas& canvas, const Frame& frame, const Chart& chart) {
   }
 }
 
-/// Lays what `labels` has outside of the axes over what a given range cut off there.
-void restore_margins(Canvas& canvas, const Canvas& labels, const Rect& area) {
-  for (int v = 0; v < canvas.height_px(); ++v) {
-    for (int u = 0; u < canvas.width_px(); ++u) {
-      const bool inside =
-          u >= area.x_px && u < area.x_px + area.width_px && v >= area.y_px && v < area.y_px + area.height_px;
-      if (!inside) {
-        canvas.set_pixel(u, v, labels.pixel(u, v));
-      }
-    }
-  }
-}
-
 void draw_sample(Canvas& canvas, const Point2& middle, const Series& series, Colour colour) {
   if (series.style == SeriesStyle::kBars) {
     canvas.fill_rect({middle.x() - 10.0, middle.y() - 6.0, 20.0, 12.0}, colour);
@@ -268,12 +255,14 @@ std::vector<double> ticks(double low, double high, int count) {
 
 Image draw_chart(const Chart& chart, int width_px, int height_px) {
   const Frame frame = frame_of(chart, width_px, height_px);
-  Canvas axes(width_px, height_px, kWhite);
-  draw_x_axis(axes, frame, chart);
-  draw_y_axis(axes, frame, chart);
-  Canvas canvas(axes.image());
-  draw_series(canvas, frame, chart);
-  restore_margins(canvas, axes, frame.area);
+  Canvas canvas(width_px, height_px, kWhite);
+  draw_x_axis(canvas, frame, chart);
+  draw_y_axis(canvas, frame, chart);
+  // A given range cuts off what lies beyond the axes.
+  Canvas inside = canvas.window(frame.area);
+  Frame inner = frame;
+  inner.area.x_px = inner.area.y_px = 0.0;
+  draw_series(inside, inner, chart);
   const Rect& area = frame.area;
   canvas.rect(area, {kGrey, 1.2});
   canvas.text(Point2(area.x_px + area.width_px / 2.0, kTop_px - 18.0), chart.title,

@@ -5,7 +5,8 @@
 
 #include <png.h>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
+#include "common/image/png_chunks.hpp"
 
 namespace seeker::image {
 namespace {
@@ -64,7 +65,7 @@ Result<Image> decode_png(std::span<const std::uint8_t> bytes) {
 }
 
 Result<Image> read_png(const std::filesystem::path& path) {
-  const Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path);
   if (!bytes) {
     return tl::unexpected(bytes.error());
   }
@@ -75,7 +76,7 @@ Result<Image> read_png(const std::filesystem::path& path) {
   return image;
 }
 
-Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
+Result<std::vector<std::uint8_t>> encode_png(const Image& image, std::string_view software) {
   if (image.empty()) {
     return fail(Errc::kInvalidArgument, "an image without pixels cannot be written as PNG");
   }
@@ -92,15 +93,18 @@ Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
     return fail(Errc::kInternal, "libpng cannot encode the image (" + png.message() + ")");
   }
   bytes.resize(size);
+  if (!software.empty()) {
+    insert_png_software(bytes, software);
+  }
   return bytes;
 }
 
-Status write_png(const std::filesystem::path& path, const Image& image) {
-  const Result<std::vector<std::uint8_t>> bytes = encode_png(image);
+Status write_png(const std::filesystem::path& path, const Image& image, std::string_view software) {
+  const Result<std::vector<std::uint8_t>> bytes = encode_png(image, software);
   if (!bytes) {
     return fail_with_context(path.string(), bytes.error());
   }
-  return write_file(path, *bytes);
+  return files::write_file(path, *bytes);
 }
 
 }  // namespace seeker::image

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/core/image.hpp"
@@ -18,10 +19,10 @@ namespace seeker::image {
 /// decode_png() of a file; its errors name the file. Also kNotFound, kIo.
 [[nodiscard]] Result<Image> read_png(const std::filesystem::path& path);
 
-/// The image as the bytes of a PNG file. Errors: kInvalidArgument for an image without pixels, kTooLarge beyond
-/// kMaxImageSide_px.
-[[nodiscard]] Result<std::vector<std::uint8_t>> encode_png(const Image& image);
-/// Atomic (see write_file()). Errors: those of encode_png(), kIo.
-[[nodiscard]] Status write_png(const std::filesystem::path& path, const Image& image);
+/// The image as the bytes of a PNG file; `software`, if not empty, is written into it as the program that made it (see
+/// export_mark.hpp). Errors: kInvalidArgument for an image without pixels, kTooLarge beyond kMaxImageSide_px.
+[[nodiscard]] Result<std::vector<std::uint8_t>> encode_png(const Image& image, std::string_view software = {});
+/// Atomic (see files::write_file()). Errors: those of encode_png(), kIo.
+[[nodiscard]] Status write_png(const std::filesystem::path& path, const Image& image, std::string_view software = {});
 
 }  // namespace seeker::image

@@ -6,7 +6,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "common/image/svg.hpp"
+#include "common/image/canvas.hpp"
+#include "common/image/export_mark.hpp"
 
 namespace seeker::image {
 namespace {
@@ -54,18 +55,19 @@ double bar_length_m(double longest_m) {
   return decade;
 }
 
-void draw_scale_bar(Svg& svg, const View& view) {
+void draw_scale_bar(Canvas& canvas, const View& view) {
   constexpr double kLongest_px = 220.0;
   constexpr double kText_px = 9.0;
   const double length_m = bar_length_m(kLongest_px / view.px_per_m);
   const Point2 left(kMargin_px, view.height_px - kMargin_px / 3.0);
   const Point2 right = left + Point2(length_m * view.px_per_m, 0.0);
-  svg.line(left, right, {kBlack, 3.0});
-  svg.text(right + Point2(kText_px, kText_px / 2.0), number(length_m, "%g") + " m", {kBlack, kText_px});
+  canvas.line(left, right, {kBlack, 3.0});
+  canvas.text(right + Point2(kText_px, kText_px / 2.0), number(length_m, "%g") + " m", {kBlack, kText_px});
 }
 
-void draw_end(Svg& svg, const Point2& at, bool real) {
-  svg.circle(at, kEndRadius_px, real ? kBlue : kWhite, 1.0, {kBlue, 1.0});
+void draw_end(Canvas& canvas, const Point2& at, bool real) {
+  canvas.fill_circle(at, kEndRadius_px, real ? kBlue : kWhite);
+  canvas.circle(at, kEndRadius_px, {kBlue, 1.0});
 }
 
 double sigma(double variance) { return std::sqrt(std::max(0.0, variance)); }
@@ -90,26 +92,32 @@ Result<std::string> segments_svg(const SegmentScene& scene) {
   view.low = extent.low;
   view.px_per_m = kLargestSide_px / size_m.maxCoeff();
   view.height_px = size_m.y() * view.px_per_m + 2.0 * kMargin_px;
-  Svg svg(size_m.x() * view.px_per_m + 2.0 * kMargin_px, view.height_px);
+  Canvas canvas = Canvas::vector(static_cast<int>(std::ceil(size_m.x() * view.px_per_m + 2.0 * kMargin_px)),
+                                 static_cast<int>(std::ceil(view.height_px)), kWhite);
   std::vector<Point2> way;
   for (const Pose2& pose : scene.trajectory) {
     way.push_back(view(pose.translation()));
   }
   if (way.size() > 1) {
-    svg.polyline(way, {kOrange, 1.5, LineStyle::kDashed});
+    canvas.polyline(way, {kOrange, 1.5, LineStyle::kDashed});
   }
   for (const MapSegment& segment : scene.segments) {
-    svg.line(view(segment.left()), view(segment.right()), {kBlack, 2.0});
-    draw_end(svg, view(segment.left()), segment.left_real);
-    draw_end(svg, view(segment.right()), segment.right_real);
+    canvas.line(view(segment.left()), view(segment.right()), {kBlack, 2.0});
+    draw_end(canvas, view(segment.left()), segment.left_real);
+    draw_end(canvas, view(segment.right()), segment.right_real);
   }
-  draw_scale_bar(svg, view);
-  svg.text({kMargin_px, kMargin_px / 2.0}, scene.title, {kBlack, 11.0});
-  return svg.str();
+  draw_scale_bar(canvas, view);
+  canvas.text({kMargin_px, kMargin_px / 2.0}, scene.title, {kBlack, 11.0});
+  Result<std::string> text = canvas.svg();
+  if (text) {
+    text->insert(text->find('\n') + 1, xml_mark(kMapExport));  // behind the declaration
+  }
+  return text;
 }
 
 std::string segments_geojson(const std::vector<MapSegment>& segments) {
-  std::string text = "{\"type\":\"FeatureCollection\",\"coordinate_frame\":\"map, local metres\",\"features\":[";
+  std::string text = "{\"type\":\"FeatureCollection\"," + json_mark(kMapExport) +
+                     ",\"coordinate_frame\":\"map, local metres\",\"features\":[";
   const char* separator = "\n";
   for (const MapSegment& segment : segments) {
     const auto point = [](const Point2& p) { return "[" + number(p.x()) + "," + number(p.y()) + "]"; };

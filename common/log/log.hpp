@@ -1,6 +1,6 @@
 /// \file
-/// Logging outside the algorithms: one process-wide sink, lines of text with a level and the part that speaks.
-/// The library behind it is an implementation detail (spdlog, in log.cpp only).
+/// Logging outside the algorithms: one process-wide sink for lines of text, each with a level and the part that logs
+/// it. The library behind it is an implementation detail (spdlog, in log.cpp only).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace seeker::log {
 
 enum class Level : std::uint8_t { kDebug, kInfo, kWarning, kError, kOff };
 
-/// One line; `part` is the folder or component that speaks, e.g. "server/net".
+/// One line; `part` is the folder or component that logs it, e.g. "server/net".
 struct Line {
   Level level = Level::kInfo;
   std::string part;
@@ -23,10 +23,10 @@ struct Line {
 /// Called under a lock, one line at a time, on the thread that logs.
 using Sink = std::function<void(const Line&)>;
 
-/// Lines below this level are not made. Default: kInfo.
+/// Sets the level below which lines are dropped. Default: kInfo.
 void set_level(Level level);
 [[nodiscard]] Level level();
-/// "debug", "info", "warning", "error", "off"; nothing for any other text.
+/// Reads "debug", "info", "warning", "error" or "off"; std::nullopt for any other text.
 [[nodiscard]] std::optional<Level> parse_level(std::string_view text);
 
 void debug(std::string_view part, std::string_view text);

@@ -1,5 +1,5 @@
 /// \file
-/// Making a connection, once or until it works.
+/// Connecting to an address, once or repeatedly until it succeeds.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@
 namespace seeker::net {
 
 struct ConnectionParams {
-  std::size_t max_frame_bytes = wire::kMaxFrameBytes;  ///< of payload, received
+  std::size_t max_frame_bytes = wire::kMaxFrameBytes;  ///< largest payload of a received frame
   Duration write_timeout = std::chrono::seconds(10);   ///< wall time for one frame to leave
 };
 
@@ -29,18 +29,18 @@ class Connection : public std::enable_shared_from_this<Connection> {
  public:
   struct Handlers {
     std::function<void(std::string_view payload)> on_frame;
-    /// The next frame to write, nothing when there is none now (call wake() later).
+    /// Returns the next frame to write; std::nullopt when there is none now (then call wake() later).
     std::function<std::optional<wire::OutFrame>()> next_frame;
     std::function<void(std::size_t bytes)> on_sent;
-    /// Exactly once, unless close() was called before. The peer's orderly end is kLinkLost too. An oversized frame is
-    /// kTooLarge and leaves the writing side open: call finish() or close().
+    /// Called exactly once, unless close() was called before. An orderly end by the peer is kLinkLost, too. An
+    /// oversized frame is kTooLarge and leaves the writing side open: call finish() or close().
     std::function<void(const Error&)> on_end;
   };
 
   Connection(Transport transport, ConnectionParams params);
 
   void start(Handlers handlers);
-  /// There is something to write.
+  /// Tries to write again, after next_frame() has returned no frame.
   void wake();
   /// Takes no more frames, writes what next_frame() still gives, waits for the other side to close, and closes; all of
   /// it within `linger` of wall time. No handler but next_frame is called afterwards.

@@ -1,5 +1,5 @@
 /// \file
-/// One request, one reply, and wait: for programs that do one thing after the other.
+/// One request and one reply at a time, with a wait between them: for programs that make one call after the other.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,15 @@ namespace seeker::net {
 /// Calls come from one thread, which does the network work while it waits.
 class Exchange {
  public:
-  /// kLinkLost, kTimeout.
+  /// Connects to a server. Errors: kLinkLost, kTimeout.
   [[nodiscard]] static Result<std::unique_ptr<Exchange>> connect(const std::string& host, std::uint16_t port,
                                                                  Duration timeout);
   Exchange(const Exchange&) = delete;
   Exchange& operator=(const Exchange&) = delete;
   ~Exchange();
 
-  /// The payload of the answer. After an error the connection is of no use any more: kLinkLost, kTimeout, kTooLarge.
+  /// Sends a request and returns the payload of the reply. Errors: kLinkLost, kTimeout, kTooLarge; the connection
+  /// cannot be used after one.
   [[nodiscard]] Result<std::string> ask(std::string payload, Duration timeout);
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// What waits to leave a connection whose peer asks one thing at a time.
+/// Frames that wait to be sent to a peer that makes one request at a time.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace seeker::net {
 
-/// Oldest first, bounded: a peer that asks on without reading the answers is told by push().
+/// A bounded queue, oldest frame first. push() detects a peer that makes requests without reading the replies.
 class FrameQueue {
  public:
   explicit FrameQueue(std::size_t most) : most_(most) {}
 
-  /// False where as many wait as may; the frame is not taken then.
+  /// Adds a frame. False where the queue is full; the frame is not added then.
   [[nodiscard]] bool push(wire::OutFrame frame) {
     if (frames_.size() >= most_) {
       return false;
@@ -24,7 +24,7 @@ class FrameQueue {
     frames_.push_back(std::move(frame));
     return true;
   }
-  /// For Connection::Handlers::next_frame.
+  /// Removes the oldest frame; the handler Connection::Handlers::next_frame.
   [[nodiscard]] std::optional<wire::OutFrame> pop() {
     if (frames_.empty()) {
       return std::nullopt;

@@ -1,5 +1,5 @@
 /// \file
-/// Where connections come in.
+/// Accepting connections.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +15,19 @@
 
 namespace seeker::net {
 
-/// Lets connections in until it is closed. After one that could not be taken in (no file descriptor left) it rests a
-/// moment and goes on. All calls, and `on_socket`, are made on the io_context's single thread once that runs; the
-/// listener outlives what runs there.
+/// Accepts connections until it is closed. After a connection that could not be accepted (no file descriptor left) it
+/// waits a moment and continues. All calls, and `on_socket`, are made on the io_context's single thread once that runs;
+/// the listener outlives what runs there.
 class Listener {
  public:
-  /// `part`: whose log a failure goes into; its characters must outlive this.
+  /// `part` names the component in log lines about failures; its characters must outlive the listener.
   Listener(boost::asio::io_context& io, std::string_view part,
            std::function<void(boost::asio::ip::tcp::socket)> on_socket);
 
-  /// Opens an interface of this machine; port 0 takes any free one. The answer is the port; kIo and kInvalidArgument
-  /// name the address and the cause.
+  /// Opens an interface of this machine and returns its port; port 0 takes any free one. The errors kIo and
+  /// kInvalidArgument name the address and the cause.
   [[nodiscard]] Result<std::uint16_t> open(const std::string& address, std::uint16_t port);
-  /// From now on; what has come since open() included.
+  /// Starts to accept connections, those that have arrived since open() included.
   void accept();
   void close();
 

@@ -1,5 +1,5 @@
 /// \file
-/// Numbers that tell one running program from another.
+/// Random numbers that distinguish running programs.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace seeker::net {
 
-/// Never 0.
+/// A random number other than 0.
 [[nodiscard]] inline std::uint64_t random_id() {
   std::random_device device;
   const std::uint64_t id = (std::uint64_t{device()} << 32U) | device();

@@ -1,5 +1,5 @@
 /// \file
-/// From the responses of a call to the reply of the one who called.
+/// Conversion of the responses of a call to the reply of its caller.
 #pragma once
 
 #include <utility>
@@ -15,14 +15,14 @@ namespace seeker::rpc {
 namespace pb = ::seeker::v1;
 using Responses = std::vector<pb::Response>;
 
-/// The reply of a call without value.
+/// The handler of responses for a call that returns no value.
 inline wire::ClientSession::Answer empty_answer(api::Reply<void> reply) {
   return [reply = std::move(reply)](Result<Responses> responses) {
     reply(responses ? wire::outcome(responses->front()) : Status(tl::unexpected<Error>(responses.error())));
   };
 }
 
-/// The reply of a call with a value that `read` takes out of the successful responses.
+/// The handler of responses for a call that returns a value, which `read` takes out of successful responses.
 template <class T, class Read>
 wire::ClientSession::Answer value_answer(api::Reply<T> reply, Read read) {
   return [reply = std::move(reply), read](Result<Responses> responses) {

@@ -88,7 +88,7 @@ void RobotClient::Impl::sync_time(api::Reply<TimeSync> reply) {
       return;
     }
     const pb::ResponseHeader& header = responses->front().header();
-    // t1..t4 of the exchange: the way there and back is what the robot did not take itself.
+    // t1..t4 of the exchange: the round trip is the exchange without the time that the robot took.
     const Duration t1(header.client_time_ns());
     const Duration t2(header.robot_received_time_ns());
     const Duration t3(header.robot_sent_time_ns());

@@ -274,9 +274,9 @@ void RobotClient::Impl::tick() {
     if (session_ && session_->open()) {
       const bool stale = session_->stale(now);
       if (stale && link() == LinkState::kConnected) {
-        set_link(LinkState::kStale, "nothing was heard from the robot for more than a heartbeat");
+        set_link(LinkState::kStale, "no frame was received from the robot for more than a heartbeat");
       } else if (!stale && link() == LinkState::kStale) {
-        set_link(LinkState::kConnected, "the robot is heard again");
+        set_link(LinkState::kConnected, "frames of the robot are received again");
       }
     }
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Inside of RobotClient: one thread, one connection at a time, subscriptions that outlive connections.
+/// Implementation of RobotClient: one thread, one connection at a time, subscriptions that outlive connections.
 #pragma once
 
 #include <map>
@@ -31,7 +31,7 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
 
   /// Starts the thread and waits for the first hello.
   Status open();
-  /// Goodbye, and the end of the thread. On the client's own thread it does not wait for itself.
+  /// Ends the session on purpose and ends the thread. Called on the client's own thread, it does not wait for that.
   void shut_down();
 
   void call(seeker::v1::Request request, wire::ClientSession::Answer answer);
@@ -71,11 +71,11 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   net::Backoff backoff_;
   std::shared_ptr<net::Connection> connection_;
   std::optional<wire::ClientSession> session_;
-  std::uint64_t connection_number_ = 0;  ///< tells late handlers of a former connection
+  std::uint64_t connection_number_ = 0;  ///< distinguishes late handlers of a former connection
   wire::Outbox outbox_;
   std::map<std::uint64_t, std::shared_ptr<ClientStream>> streams_;
   std::uint64_t next_stream_ = 1;
-  std::uint64_t stream_id_ = 0;  ///< of the run that was connected last
+  std::uint64_t stream_id_ = 0;  ///< stream id of the run of the robot that was connected last
   bool was_open_ = false;
   bool closing_ = false;
   std::function<void(Status)> on_first_;

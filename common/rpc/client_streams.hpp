@@ -1,5 +1,5 @@
 /// \file
-/// One subscription of a client: what was asked for, what was delivered, who gets it.
+/// One subscription of a client: the requested topics, the delivered items, and the sink.
 #pragma once
 
 #include <cstdint>
@@ -20,26 +20,26 @@ class ClientStream {
 
   [[nodiscard]] std::uint64_t id() const { return id_; }
   [[nodiscard]] bool wants(api::Topic topic) const;
-  /// Asks for everything after what was delivered.
+  /// Request for all items after the delivered ones.
   [[nodiscard]] seeker::v1::SubscribeRequest request() const;
-  /// The robot told where each topic begins.
+  /// Takes over the response of the robot, which states where each topic begins.
   void on_subscribed(const seeker::v1::SubscribeResponse& response, std::uint64_t stream_id);
-  /// The robot was started again: its revisions count anew.
+  /// To be called when the robot was started again: its revisions begin at zero.
   void forget_segments() { segments_revision_ = 0; }
-  /// Hands the update on, unless it was delivered before.
+  /// Hands the update to the sink, unless it was delivered before.
   void deliver(const api::UpdatePtr& update);
-  /// Afterwards the sink is not called any more. Waits for a call that is running, unless it is the caller's own.
+  /// Ends the calls of the sink. Waits for a call that is running, unless it is made from that call.
   void cancel();
-  /// Of the map as far as it was delivered; 0: nothing was.
+  /// Revision up to which tiles were delivered; 0: none were.
   [[nodiscard]] std::uint64_t tiles_revision() const { return tiles_revision_; }
-  /// As above, of the segments.
+  /// Revision up to which segments were delivered; 0: none were.
   [[nodiscard]] std::uint64_t segments_revision() const { return segments_revision_; }
 
  private:
   struct Topic {
     api::TopicRequest request;
-    std::uint64_t position = 0;  ///< RELIABLE: sequence delivered last
-    std::uint64_t run = 0;       ///< that the position belongs to; 0: not known
+    std::uint64_t position = 0;  ///< RELIABLE: sequence of the last delivered item
+    std::uint64_t run = 0;       ///< run of the robot that the position belongs to; 0: not known
   };
 
   std::uint64_t id_;
@@ -51,7 +51,7 @@ class ClientStream {
   api::UpdateSink sink_;
 };
 
-/// What RobotClient::subscribe refuses.
+/// Checks the topics of a subscription, as RobotClient::subscribe() does.
 [[nodiscard]] Status validate_topics(const std::vector<api::TopicRequest>& topics);
 
 }  // namespace seeker::rpc

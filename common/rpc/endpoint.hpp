@@ -1,5 +1,5 @@
 /// \file
-/// Where a robot listens, as people write it.
+/// Address of a robot in the notation of command lines.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Endpoint {
 /// Reads "host", "host:port", "1.2.3.4:port", "[::1]" or "[::1]:port". An IPv6 address without brackets is refused,
 /// since its last group could be a port.
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
-/// The same notation, always with the port.
+/// Writes the notation that parse_endpoint() reads, always with the port.
 [[nodiscard]] std::string to_string(const Endpoint& endpoint);
 
 }  // namespace seeker::rpc

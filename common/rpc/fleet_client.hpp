@@ -1,5 +1,5 @@
 /// \file
-/// Calls to the main robot of a fleet, one after the other.
+/// Calls to the main robot of a fleet, one after another.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace seeker::rpc {
 
 inline constexpr std::uint16_t kDefaultFleetPort = 7473;
 
-/// Used by one thread, which waits for each answer. After an error of the link the next call connects again.
+/// Used by one thread, which waits for each reply. After an error of the link the next call connects again.
 class FleetClient {
  public:
   FleetClient(Endpoint main, Duration call_timeout);
@@ -22,14 +22,16 @@ class FleetClient {
   FleetClient& operator=(FleetClient&& other) noexcept;
   ~FleetClient();
 
-  /// Tells what a robot has. kRefused: another robot has this id.
+  /// Sends the manifest of a robot. kRefused: another robot has this id.
   [[nodiscard]] Result<api::FleetAnswer> announce(const api::FleetManifest& manifest);
-  /// Tells where a robot has been and means to go, and hears of the others. kNotFound: it has to announce itself first;
+  /// Sends the topology of a robot and receives those of the others. kNotFound: the robot has to announce itself first;
   /// kRefused: another robot has this id.
   [[nodiscard]] Result<api::FleetShared> share(const api::FleetShare& share);
-  /// Tells what a robot has seen, and hears what the others have. kNotFound: as above.
+  /// Sends what a robot has observed and receives what the others have. kNotFound: the robot has to announce itself
+  /// first.
   [[nodiscard]] Result<api::FleetSightings> seen(const api::FleetSeen& seen);
-  /// Bytes of the piece that are there afterwards. kCorrupt, kNotFound, kTooLarge.
+  /// Sends a part of a piece and returns the number of its bytes that the main robot has then. kCorrupt, kNotFound,
+  /// kTooLarge.
   [[nodiscard]] Result<std::uint64_t> send(const api::FleetChunk& chunk);
   [[nodiscard]] Result<api::FleetStatus> status();
   [[nodiscard]] Result<api::FleetStatus> decide(const api::FleetDecision& decision);

@@ -23,7 +23,7 @@ struct LeaseKeeper::State {
     {
       const std::lock_guard lock(mutex);
       const bool ours = status.lease.owner == params.client_name && status.lease.epoch == epoch;
-      // A status from before the acquisition tells nothing.
+      // A status from before the acquisition does not count.
       if (!held || ours || status.lease.epoch < epoch) {
         return;
       }

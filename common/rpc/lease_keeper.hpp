@@ -1,5 +1,5 @@
 /// \file
-/// Holds the lease of a robot while it lives.
+/// An object that holds the lease of a robot during its lifetime.
 #pragma once
 
 #include <chrono>
@@ -13,28 +13,28 @@
 namespace seeker::rpc {
 
 struct LeaseKeeperParams {
-  std::string client_name;                     ///< as given to the robot: the owner to be
-  bool take_over = false;                      ///< take it from another owner; for people only
+  std::string client_name;                     ///< name given to the robot, which becomes the owner of the lease
+  bool take_over = false;                      ///< true: take the lease from another owner; for people only
   Duration timeout = std::chrono::seconds(5);  ///< wall time for each call
-  /// Told once, on the thread that delivers updates, when somebody else owns the lease or nobody does.
+  /// Called once, on the thread that delivers updates, when the lease has another owner or none.
   std::function<void(const api::LeaseState&)> on_lost;
 };
 
-/// Acquired lease, released when destroyed. Watches the robot's status and tells when the lease is gone. Do not create
-/// or destroy it on the thread that delivers replies: both wait.
+/// An acquired lease, which is released when this is destroyed. Watches the robot's status and reports when the lease
+/// is lost. Do not create or destroy it on the thread that delivers replies, since both wait for a reply.
 class LeaseKeeper {
  public:
-  /// Errors: kBusy names the present owner; else as the call's.
+  /// Acquires the lease. kBusy names the present owner; other errors are those of the call.
   [[nodiscard]] static Result<std::unique_ptr<LeaseKeeper>> acquire(std::shared_ptr<api::RobotApi> robot,
                                                                     LeaseKeeperParams params);
   LeaseKeeper(const LeaseKeeper&) = delete;
   LeaseKeeper& operator=(const LeaseKeeper&) = delete;
   ~LeaseKeeper();
 
-  /// Goes into DriveCommand::lease_epoch.
+  /// Epoch of the lease, for DriveCommand::lease_epoch.
   [[nodiscard]] std::uint64_t epoch() const;
   [[nodiscard]] bool held() const;
-  /// Gives it back before the end. Harmless when repeated.
+  /// Releases the lease early. Further calls have no effect.
   Status release();
 
  private:

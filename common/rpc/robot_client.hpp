@@ -1,5 +1,5 @@
 /// \file
-/// A robot over the network: RobotApi over one connection that is kept up and made again.
+/// A robot over the network: RobotApi over one connection, which is made again when it breaks.
 #pragma once
 
 #include <chrono>
@@ -19,13 +19,13 @@ namespace seeker::rpc {
 /// State of the link as the client sees it.
 enum class LinkState : std::uint8_t {
   kConnected,  ///< hello was exchanged; calls and streams work
-  kStale,      ///< nothing was heard for longer than a heartbeat: what is shown may be old
+  kStale,      ///< no frame was received for longer than a heartbeat: shown values may be old
   kLost,       ///< the connection broke or is silent; the client tries again if allowed to
-  kClosed,     ///< for good: closed by us, refused by the robot, or out of attempts
+  kClosed,     ///< for good: closed by this client, refused by the robot, or out of attempts
 };
 [[nodiscard]] std::string_view to_string(LinkState state);
 
-/// A change of the link, told on the client's thread.
+/// A change of the link, reported on the client's thread.
 struct LinkEvent {
   LinkState state = LinkState::kConnected;
   std::string why;               ///< cause and remedy for people; empty when connected for the first time
@@ -50,11 +50,11 @@ struct ClientParams {
   std::function<void(const LinkEvent&)> on_link;  ///< on the client's thread; must not block
 };
 
-/// Estimate of the offset between the robot's and this machine's clock, from the exchange with the shortest way.
+/// Estimate of the offset between the robot's and this machine's clock, from the exchange with the shortest round trip.
 struct TimeSync {
   Duration robot_minus_local = Duration::zero();  ///< robot time = local steady clock + this
   Duration round_trip = Duration::zero();
-  bool realtime = true;  ///< false: robot time does not run with the wall clock, the offset says nothing
+  bool realtime = true;  ///< false: robot time does not run with the wall clock, and the offset has no meaning
 };
 
 /// RobotApi over TCP. Calls may come from any thread; replies, sinks and link events are called on the client's own
@@ -62,23 +62,24 @@ struct TimeSync {
 /// kLinkLost when the connection broke while it was open (it may or may not have been carried out).
 ///
 /// Subscriptions survive a reconnect: RELIABLE topics resume after the last item that was delivered, so that nothing
-/// is lost or delivered twice; where the robot no longer keeps the items, Update::dropped tells how many are missing.
+/// is lost or delivered twice; where the robot no longer keeps the items, Update::dropped is the number of missing
+/// ones.
 class RobotClient final : public api::RobotApi {
  public:
   /// Connects and exchanges hello; waits at most `connect_timeout`. Errors: kLinkLost (nobody answers there),
   /// kTimeout, kUnsupportedVersion, kRefused, kBusy, kNotFound (another robot), kInvalidArgument (name).
   [[nodiscard]] static Result<std::shared_ptr<RobotClient>> connect(const Endpoint& endpoint, ClientParams params);
-  /// Says goodbye: link policies of missions do not apply.
+  /// Ends the session on purpose: link policies of missions do not apply.
   ~RobotClient() override;
 
-  /// As told in hello, without asking again.
+  /// Identity of the robot as received in hello, without another call.
   [[nodiscard]] api::RobotInfo robot() const;
-  /// Granted by the robot.
+  /// Role that the robot has granted.
   [[nodiscard]] api::Role role() const;
   [[nodiscard]] LinkState link() const;
-  /// Says goodbye and ends all calls with kCancelled. Harmless when repeated.
+  /// Ends the session on purpose and all open calls with kCancelled. Further calls have no effect.
   void close();
-  /// Compares the clocks once; the best estimate so far is the answer.
+  /// Compares the clocks once; replies with the best estimate so far.
   void sync_time(api::Reply<TimeSync> reply);
 
   void get_info(api::Reply<api::RobotInfo> reply) override;

@@ -1,5 +1,5 @@
 /// \file
-/// Turns a call with a reply into one that waits: for programs that do one thing after the other.
+/// Calls that wait for their reply, for programs that make one call after the other.
 #pragma once
 
 #include <functional>

@@ -30,7 +30,7 @@ const Backlog::Item* Backlog::after(std::uint64_t sequence) const {
 std::uint64_t Backlog::missing_after(std::uint64_t sequence) const {
   const Item* next = after(sequence);
   const std::uint64_t upto = next != nullptr ? next->sequence - 1 : last_;
-  // What the source numbered before it was first heard was never ours to keep.
+  // Items that the source numbered before the first one received never belonged to this backlog.
   const std::uint64_t from = std::max(sequence, first_ever_ == 0 ? 0 : first_ever_ - 1);
   return upto > from ? upto - from : 0;
 }

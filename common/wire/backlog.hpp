@@ -1,5 +1,5 @@
 /// \file
-/// What is kept of a RELIABLE topic, encoded once, for clients that resume or lag behind.
+/// The newest items of a RELIABLE topic, encoded once, for clients that resume or lag behind.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace seeker::wire {
 
-/// A ring: the oldest items go when there are too many or too many bytes. Receivers hold positions, not copies.
+/// A ring of items: the oldest are dropped when there are too many items or bytes. Receivers hold positions, not
+/// copies.
 class Backlog {
  public:
   struct Item {
@@ -20,13 +21,13 @@ class Backlog {
 
   Backlog(std::size_t max_items, std::size_t max_bytes) : max_items_(max_items), max_bytes_(max_bytes) {}
 
-  /// Sequences rise; a step above one is a loss at the source that receivers are told of.
+  /// Adds an item. Sequences rise; a step above one is a loss at the source, which is reported to receivers.
   void push(std::uint64_t sequence, SharedBody body);
   /// The first item after a sequence; null when there is none yet.
   [[nodiscard]] const Item* after(std::uint64_t sequence) const;
   /// Sequence of the newest item ever pushed; 0: none.
   [[nodiscard]] std::uint64_t last() const { return last_; }
-  /// Items after `sequence` that are gone.
+  /// Number of items after `sequence` that are not kept any more.
   [[nodiscard]] std::uint64_t missing_after(std::uint64_t sequence) const;
   [[nodiscard]] std::size_t size() const { return items_.size(); }
 

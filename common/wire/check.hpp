@@ -1,5 +1,5 @@
 /// \file
-/// Collects the first thing that is wrong with a message, with the path of the field.
+/// Collects the first error in a message, with the path of its field.
 #pragma once
 
 #include <cmath>
@@ -13,11 +13,11 @@
 
 namespace seeker::wire {
 
-/// Passed through all readers of a message. After the first failure further ones are ignored, and readers may go on
-/// with defaults: the result is thrown away.
+/// Passed through all readers of a message. After the first error further ones are ignored, and readers may continue
+/// with defaults, since the value that they make is discarded.
 class Check {
  public:
-  /// Extends the path while it lives.
+  /// Extends the path of fields during its lifetime.
   class Scope {
    public:
     Scope(Check& check, std::string_view name, std::size_t index) : check_(check), length_(check.path_.size()) {
@@ -85,7 +85,7 @@ class Check {
     }
     return static_cast<int>(value);
   }
-  /// Enumerators on the wire are ours plus one, since zero means unspecified.
+  /// Reads an enumerator: on the wire it is one larger than in E, since zero means unspecified there.
   template <class E>
   void enumerator(std::string_view field, int value, E last, E& out) {
     if (value < 1 || value > static_cast<int>(last) + 1) {

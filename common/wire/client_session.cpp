@@ -157,7 +157,7 @@ ClientStep ClientSession::on_tick(WallTime now) {
                                             " s; check the link, or allow more time"));
   }
   if (liveness_.lost(now)) {
-    return end_with(Errc::kLinkLost, "nothing was heard from the robot for " +
+    return end_with(Errc::kLinkLost, "no frame was received from the robot for " +
                                          std::to_string(to_seconds(params_.liveness.lost_after)) +
                                          " s; check network and robot");
   }

@@ -24,36 +24,36 @@ struct ClientSessionParams {
   LivenessParams liveness;
 };
 
-/// What is to be done after one input.
+/// What the client has to do after one input.
 struct ClientStep {
   std::optional<seeker::v1::Envelope> send;
-  bool opened = false;  ///< the robot accepted hello
+  bool opened = false;  ///< true: the robot has accepted hello
   std::optional<seeker::v1::StreamUpdate> update;
-  std::optional<Error> end;  ///< the connection is to be closed
-  bool final_end = false;    ///< trying again would not help
+  std::optional<Error> end;  ///< why the connection is to be closed; empty: it is not
+  bool final_end = false;    ///< true: another attempt to connect would fail as well
 };
 
 class ClientSession {
  public:
-  /// Called once. A call with several responses gets them together.
+  /// Receives all responses of a call together; called once.
   using Answer = std::function<void(Result<std::vector<seeker::v1::Response>>)>;
 
   ClientSession(ClientSessionParams params, WallTime now);
 
-  /// The first message.
+  /// The first message of the client.
   [[nodiscard]] seeker::v1::Envelope hello() const;
   /// Completes the header of a request and remembers who waits for its answer.
   [[nodiscard]] seeker::v1::Envelope call(seeker::v1::Request request, WallTime now, Duration timeout, Answer answer);
   [[nodiscard]] ClientStep on_payload(std::string_view payload, WallTime now);
   [[nodiscard]] ClientStep on_tick(WallTime now);
   void on_sent(WallTime now) { liveness_.on_sent(now); }
-  /// Ends all open calls.
+  /// Ends all open calls with `error`.
   void fail_all(const Error& error);
 
   [[nodiscard]] bool open() const { return open_; }
   [[nodiscard]] bool stale(WallTime now) const { return liveness_.stale(now); }
   [[nodiscard]] std::size_t open_calls() const { return pending_.size(); }
-  /// Of the accepted hello.
+  /// Identity of the robot, from the accepted hello.
   [[nodiscard]] const api::RobotInfo& robot() const { return robot_; }
   [[nodiscard]] api::Role role() const { return role_; }
   [[nodiscard]] std::uint64_t stream_id() const { return stream_id_; }

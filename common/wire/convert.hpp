@@ -1,6 +1,6 @@
 /// \file
-/// Values to messages and back. write() never fails: it cuts texts that are too long and replaces what is not UTF-8.
-/// read() trusts nothing: counts, numbers, enumerators and sizes are checked, and the error names the field.
+/// Conversion of values to messages and back. write() never fails: it cuts texts that are too long and replaces bytes
+/// that are not UTF-8. read() checks all counts, numbers, enumerators and sizes, and its error names the field.
 #pragma once
 
 #include <string>
@@ -15,13 +15,17 @@ namespace seeker::wire {
 
 namespace pb = ::seeker::v1;
 
-/// At most kMaxTextBytes (or `limit`) of valid UTF-8.
+/// Cuts a text to `limit` bytes of valid UTF-8.
 [[nodiscard]] std::string clean_text(std::string_view text, std::size_t limit = kMaxTextBytes);
 
 template <class E>
 [[nodiscard]] int wire_enum(E value) {
   return static_cast<int>(value) + 1;
 }
+
+/// The places of a mission's end that could not be reached, as points and with their causes.
+void write_unreachable(const std::vector<UnreachablePlace>& from, pb::MissionEnd* to);
+void read_unreachable(const pb::MissionEnd& from, std::vector<UnreachablePlace>& to, Check& check);
 
 void write(const Pose2& from, pb::Pose2* to);
 void write(const Twist2& from, pb::Twist2* to);
@@ -32,7 +36,7 @@ void read(const pb::Pose2& from, Pose2& to, Check& check);
 void read(const pb::Twist2& from, Twist2& to, Check& check);
 void read(const pb::Point2& from, Point2& to, Check& check);
 void read(const pb::PointList& from, std::vector<Point2>& to, Check& check, std::size_t limit = kMaxListPoints);
-/// Stamps are zero where the other side does not tell them.
+/// Reads poses; stamps that the other side does not send are zero.
 void read(const pb::PoseList& from, std::vector<api::StampedPose>& to, Check& check);
 
 void write(const LaserScan& from, pb::LaserScan* to);
@@ -50,7 +54,7 @@ void read(const pb::Tile& from, OccupancyTile& to, Check& check);
 void read(const pb::TileUpdate& from, api::TileUpdate& to, Check& check);
 
 void write(const MapSegment& from, pb::Segment* to);
-/// At most kMaxSegmentsPerUpdate entries travel in one message: see api::split().
+/// Writes at most kMaxSegmentsPerUpdate entries, the most that one message may have: see api::split().
 void write(const api::SegmentUpdate& from, pb::SegmentUpdate* to);
 void write(const api::MapSummary& from, pb::MapSummary* to);
 void write(const api::LineMapStatus& from, pb::LineMapStatus* to);
@@ -73,7 +77,7 @@ void read(const pb::Detection& from, api::Detection& to, Check& check);
 void read(const pb::CoverageSummary& from, api::CoverageSummary& to, Check& check);
 void read(const pb::GridReport& from, api::GridReport& to, Check& check);
 
-/// Candidates beyond kMaxDecisionCandidates are left out.
+/// Writes at most kMaxDecisionCandidates candidates.
 void write(const ExploreDecision& from, pb::ExploreDecision* to);
 void write(const api::MissionRequest& from, pb::MissionRequest* to);
 void write(const api::MissionStatus& from, pb::MissionStatus* to);
@@ -96,15 +100,15 @@ void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check);
 void read(const pb::Event& from, api::Event& to, Check& check);
 void read(const pb::DriveCommand& from, api::DriveCommand& to, Check& check);
 
-/// Everything but subscription id and drop count, which differ between receivers.
+/// Writes an update except its subscription id and drop count, which differ between receivers.
 void write(const api::Update& from, pb::StreamUpdate* to);
-/// `subscription_id` is not a matter of the value.
+/// Reads an update; its `subscription_id` is not a part of the value.
 void read(const pb::StreamUpdate& from, api::Update& to, Check& check);
 
 void write(const api::TopicRequest& from, pb::TopicRequest* to);
 void read(const pb::TopicRequest& from, api::TopicRequest& to, Check& check);
 
-/// The value of a message, or the first thing that is wrong with it.
+/// The value of a message, or the first error in it.
 template <class T, class M>
 [[nodiscard]] Result<T> from_message(const M& message) {
   Check check;
@@ -123,7 +127,7 @@ template <class M, class T>
   return message;
 }
 
-/// A sub-message that must be there.
+/// Reads a sub-message that must be present.
 template <class M, class T>
 void read_required(bool present, const M& from, T& to, std::string_view field, Check& check) {
   if (check.require(field, present)) {

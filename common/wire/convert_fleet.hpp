@@ -1,5 +1,5 @@
 /// \file
-/// Values of a fleet to messages and back, as in convert.hpp.
+/// Conversion of the values of a fleet to messages and back, as in convert.hpp.
 #pragma once
 
 #include "common/api/fleet.hpp"
@@ -13,21 +13,22 @@ inline constexpr std::uint32_t kFleetProtocol = 2;
 void write(const api::FleetManifest& from, v1::FleetManifest* to);
 void write(const api::FleetMissing& from, v1::FleetMissing* to);
 void write(const api::FleetChunk& from, v1::FleetChunk* to);
-/// Sectors travel as single precision.
+/// Writes a topology; sectors are sent in single precision.
 void write(const RobotTopology& from, v1::FleetTopology* to);
 void write(const api::FleetShare& from, v1::FleetShare* to);
-/// Into the fields of a reply that answer a share.
+/// Writes the fields of a reply to a share.
 void write(const api::FleetShared& from, v1::FleetReply* to);
 void write(const SearchedFloor& from, v1::SearchedFloor* to);
 void write(const api::FleetSeen& from, v1::FleetSeen* to);
-/// Into the fields of a reply that answers what was seen.
+/// Writes the fields of a reply to what a robot has seen.
 void write(const api::FleetSightings& from, v1::FleetReply* to);
 void write(const api::FleetStatus& from, v1::FleetStatus* to);
 void write(const api::FleetDecision& from, v1::FleetDecision* to);
 void read(const v1::FleetManifest& from, api::FleetManifest& to, Check& check);
 void read(const v1::FleetMissing& from, api::FleetMissing& to, Check& check);
 void read(const v1::FleetChunk& from, api::FleetChunk& to, Check& check);
-/// Ids must rise, ways and the present place must be of places that are there, and all of it must lie within reach.
+/// Reads a topology. Ids must rise, edges and the present node must refer to nodes of the message, and all positions
+/// must lie within reach (see api::in_reach()).
 void read(const v1::FleetTopology& from, RobotTopology& to, Check& check);
 void read(const v1::FleetShare& from, api::FleetShare& to, Check& check);
 void read(const v1::FleetReply& from, api::FleetShared& to, Check& check);

@@ -13,7 +13,7 @@ namespace seeker::wire {
 namespace {
 
 constexpr int kSectorNumbers = 5;
-constexpr int kWayNumbers = 2;
+constexpr int kEdgeNumbers = 2;
 /// A full turn in single precision may be a little more than in double.
 constexpr double kMaxSpan_rad = kTwoPi + 1e-5;
 /// Of a robot of a fleet.
@@ -113,10 +113,10 @@ bool check_counts(const pb::FleetTopology& from, Check& check) {
   }
   return check.count("places", static_cast<std::size_t>(from.places_size()), api::kMaxFleetPlaces) &&
          check.count("goals", goals, api::kMaxFleetGoals) && check.count("sectors", sectors, api::kMaxFleetSectors) &&
-         check.count("ways", static_cast<std::size_t>(from.ways_size() / kWayNumbers), api::kMaxFleetWays);
+         check.count("edges", static_cast<std::size_t>(from.edges_size() / kEdgeNumbers), api::kMaxFleetTopologyEdges);
 }
 
-void read_ways(const pb::FleetTopology& from, Topology& to, Check& check) {
+void read_edges(const pb::FleetTopology& from, Topology& to, Check& check) {
   std::set<std::uint64_t> known;
   for (const TopologyNode& node : to.nodes) {
     if (node.id == 0 || (!known.empty() && node.id <= *known.rbegin())) {
@@ -124,14 +124,14 @@ void read_ways(const pb::FleetTopology& from, Topology& to, Check& check) {
     }
     known.insert(node.id);
   }
-  if (from.ways_size() % kWayNumbers != 0) {
-    check.refuse("ways", Errc::kInvalidArgument, "does not have two places each");
+  if (from.edges_size() % kEdgeNumbers != 0) {
+    check.refuse("edges", Errc::kInvalidArgument, "does not have two places each");
     return;
   }
-  for (int k = 0; k < from.ways_size(); k += kWayNumbers) {
-    to.edges.push_back({from.ways(k), from.ways(k + 1)});
-    if (!known.contains(from.ways(k)) || !known.contains(from.ways(k + 1))) {
-      check.refuse("ways", Errc::kInvalidArgument, "leads to a place that is not there");
+  for (int k = 0; k < from.edges_size(); k += kEdgeNumbers) {
+    to.edges.push_back({from.edges(k), from.edges(k + 1)});
+    if (!known.contains(from.edges(k)) || !known.contains(from.edges(k + 1))) {
+      check.refuse("edges", Errc::kInvalidArgument, "leads to a place that is not there");
     }
   }
   to.current = from.current();
@@ -182,8 +182,8 @@ void write(const RobotTopology& from, pb::FleetTopology* to) {
     write_place(node, to->add_places());
   }
   for (const TopologyEdge& edge : from.topology.edges) {
-    to->add_ways(edge.a);
-    to->add_ways(edge.b);
+    to->add_edges(edge.a);
+    to->add_edges(edge.b);
   }
   to->set_current(from.topology.current);
   if (from.target_map) {
@@ -205,7 +205,7 @@ void read(const pb::FleetTopology& from, RobotTopology& to, Check& check) {
     const auto scope = check.in("places", static_cast<std::size_t>(k));
     read_place(from.places(k), to.topology.nodes.emplace_back(), check);
   }
-  read_ways(from, to.topology, check);
+  read_edges(from, to.topology, check);
   if (from.has_target_map()) {
     to.target_map = read_point(true, from.target_map(), "target_map", check);
   }
@@ -235,7 +235,7 @@ void read(const pb::FleetShare& from, api::FleetShare& to, Check& check) {
     const auto scope = check.in("topology");
     read(from.topology(), to.topology.emplace(), check);
     if (check.ok() && to.topology->robot_id != to.robot_id) {
-      check.refuse("robot_id", Errc::kInvalidArgument, "is not the robot that tells");
+      check.refuse("robot_id", Errc::kInvalidArgument, "is not the robot that sends it");
     }
   }
 }

@@ -194,15 +194,14 @@ void write_end(const api::MissionEnd& from, pb::MissionEnd* to) {
   to->set_outcome(static_cast<pb::Outcome>(wire_enum(from.outcome)));
   to->set_cause(clean_text(from.cause));
   to->set_remedy(clean_text(from.remedy));
-  write(from.unreachable, to->mutable_unreachable());
+  write_unreachable(from.unreachable, to);
 }
 
 void read_end(const pb::MissionEnd& from, api::MissionEnd& to, Check& check) {
   check.enumerator("outcome", from.outcome(), api::Outcome::kFault, to.outcome);
   to.cause = check.text("cause", from.cause());
   to.remedy = check.text("remedy", from.remedy());
-  const auto scope = check.in("unreachable");
-  read(from.unreachable(), to.unreachable, check);
+  read_unreachable(from, to.unreachable, check);
 }
 
 }  // namespace

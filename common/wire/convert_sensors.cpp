@@ -7,7 +7,7 @@ namespace {
 RobotTime time_of(std::int64_t ns) { return RobotTime(Duration(ns)); }
 std::int64_t ns_of(RobotTime time) { return time.time_since_epoch().count(); }
 
-/// The sensor's own rules, told in our words.
+/// The rules of the sensor itself, as an error of this message.
 template <class T>
 void obey(const T& scan, Check& check) {
   if (const Status valid = validate(scan); check.ok() && !valid) {

@@ -13,17 +13,17 @@
 
 namespace seeker::wire {
 
-/// Parses any message of our protocols. kParse: it is none. kTooLarge: more messages inside than kMaxMessagesPerFrame,
-/// which is counted before any of them is built.
+/// Parses a message. kParse: the bytes are no such message. kTooLarge: it holds more messages than
+/// kMaxMessagesPerFrame; they are counted before any of them is built.
 [[nodiscard]] Status parse_within_limits(std::string_view payload, google::protobuf::Message& message);
 
-/// kParse: not an Envelope, or an empty one. kTooLarge as above.
+/// Parses an Envelope. kParse: it is none, or an empty one. kTooLarge: as parse_within_limits().
 [[nodiscard]] Result<seeker::v1::Envelope> parse_envelope(std::string_view payload);
 
-/// kTooLarge when the message does not fit into one frame.
+/// Makes the frame of an Envelope. kTooLarge: it does not fit into one frame.
 [[nodiscard]] Result<OutFrame> frame_of(const seeker::v1::Envelope& envelope);
 
-/// A StreamUpdate without subscription id and drop count: what all receivers share.
+/// The bytes of a StreamUpdate without subscription id and drop count, which all receivers share.
 using SharedBody = std::shared_ptr<const std::string>;
 [[nodiscard]] SharedBody encode_body(const api::Update& update);
 

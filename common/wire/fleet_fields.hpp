@@ -13,10 +13,10 @@
 
 namespace seeker::wire {
 
-/// As in api::validate_robot_id().
+/// Reads the id of a robot; it must be valid as in api::validate_robot_id().
 [[nodiscard]] std::string read_robot_id(const std::string& id, Check& check);
 
-/// Nine numbers, row by row, of a field `covariance`.
+/// A field `covariance`: nine numbers, row by row.
 using CovarianceField = google::protobuf::RepeatedField<double>;
 void write_covariance(const Matrix3& from, CovarianceField* to);
 void read_covariance(const CovarianceField& from, Matrix3& to, Check& check);
@@ -25,7 +25,7 @@ void read_covariance(const CovarianceField& from, Matrix3& to, Check& check);
 using DetectionField = google::protobuf::RepeatedPtrField<v1::Detection>;
 void write_detections(const std::vector<api::Detection>& from, DetectionField* to);
 void read_detections(const DetectionField& from, std::vector<api::Detection>& to, Check& check);
-/// Refuses what lies out of reach or has a covariance beyond all reason.
+/// Refuses a detection that is not in_reach(): too far away, or with too large a covariance.
 void check_reach(const api::Detection& detection, Check& check);
 
 }  // namespace seeker::wire

@@ -1,5 +1,5 @@
 /// \file
-/// Frames: a 4-byte big-endian length and that many bytes.
+/// Frames: a big-endian length of four bytes, followed by a payload of that many bytes.
 #pragma once
 
 #include <array>
@@ -34,12 +34,12 @@ class FrameDecoder {
  public:
   explicit FrameDecoder(std::size_t max_payload_bytes = kMaxFrameBytes) : max_payload_bytes_(max_payload_bytes) {}
 
-  /// Takes bytes as they come. kTooLarge: the peer announced too large a frame; the connection is unusable from then
-  /// on.
+  /// Takes received bytes, in any portions. kTooLarge: the peer has announced too large a frame; the connection cannot
+  /// be used any more.
   [[nodiscard]] Status feed(std::string_view bytes);
-  /// The next complete payload; valid until the next feed(). Nothing: feed more.
+  /// The next complete payload, which stays valid until the next feed(); std::nullopt when more bytes are needed.
   [[nodiscard]] std::optional<std::string_view> next();
-  /// Bytes held that were not handed out yet.
+  /// Number of bytes that were fed and not returned by next() yet.
   [[nodiscard]] std::size_t pending_bytes() const { return buffer_.size() - begin_; }
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// Is the other side there, and does it know that we are? Wall time is an argument.
+/// Decides from the times of frames whether the peer is alive and when to send a heartbeat. Wall time is an argument.
 #pragma once
 
 #include <chrono>
@@ -12,8 +12,8 @@ namespace seeker::wire {
 using WallTime = std::chrono::time_point<std::chrono::steady_clock, Duration>;
 
 struct LivenessParams {
-  Duration heartbeat = std::chrono::seconds(1);   ///< something is sent at least this often
-  Duration lost_after = std::chrono::seconds(3);  ///< nothing was received for so long
+  Duration heartbeat = std::chrono::seconds(1);   ///< longest time without a frame sent
+  Duration lost_after = std::chrono::seconds(3);  ///< time without a received frame after which the peer is lost
 };
 
 class Liveness {
@@ -23,9 +23,9 @@ class Liveness {
   void set_params(LivenessParams params) { params_ = params; }
   void on_received(WallTime now) { received_ = now; }
   void on_sent(WallTime now) { sent_ = now; }
-  /// Any frame is a sign of life, so that a heartbeat is only due on a quiet link.
+  /// Whether to send a heartbeat. Every frame counts as one, so that heartbeats are sent on a quiet link only.
   [[nodiscard]] bool heartbeat_due(WallTime now) const { return now - sent_ >= params_.heartbeat; }
-  /// Longer than one and a half heartbeats without a sign of life.
+  /// Whether no frame was received for more than one and a half heartbeats.
   [[nodiscard]] bool stale(WallTime now) const { return now - received_ >= params_.heartbeat * 3 / 2; }
   [[nodiscard]] bool lost(WallTime now) const { return now - received_ >= params_.lost_after; }
 

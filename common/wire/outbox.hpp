@@ -1,5 +1,5 @@
 /// \file
-/// Frames of one connection that must be sent in order and are few: answers, heartbeats, hello, close.
+/// The few frames of one connection that must be sent in order: responses, heartbeats, hello, close.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class Outbox {
  public:
   Outbox(std::size_t max_frames, std::size_t max_bytes) : max_frames_(max_frames), max_bytes_(max_bytes) {}
 
-  /// False: full; the receiver does not read. One frame is always taken, however large.
+  /// Adds a frame. False: the queue is full, since the receiver does not read. One frame always fits, however large.
   [[nodiscard]] bool push(OutFrame frame) {
     if (!frames_.empty() && (frames_.size() >= max_frames_ || bytes_ + frame.size() > max_bytes_)) {
       return false;
@@ -24,7 +24,7 @@ class Outbox {
     frames_.push_back(std::move(frame));
     return true;
   }
-  /// For what must get out even when the queue is full: it replaces everything that waits.
+  /// Replaces all waiting frames by one that must be sent even when the queue is full.
   void replace_all(OutFrame frame) {
     frames_.clear();
     bytes_ = frame.size();

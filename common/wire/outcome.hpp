@@ -1,5 +1,5 @@
 /// \file
-/// How a call ended, on the wire and as a value. The status enums of the responses share their names with Errc
+/// The outcome of a call, on the wire and as a value. The status enums of the responses share their names with Errc
 /// (kNotFound = STATUS_NOT_FOUND = CODE_NOT_FOUND), so one rule serves all calls; a test holds them together.
 #pragma once
 
@@ -18,12 +18,12 @@ using CallNumber = int;
 void set_outcome(seeker::v1::Response& response, CallNumber call, const Status& outcome);
 /// A common error without a call's result, e.g. CODE_RATE_LIMITED.
 void set_common_error(seeker::v1::Response& response, seeker::v1::CommonError::Code code, const std::string& message);
-/// Reads it back. A response without status, or with one that is not known here, is kInternal.
+/// Reads the outcome of a response. A status that is absent or not known here is kInternal.
 [[nodiscard]] Status outcome(const seeker::v1::Response& response);
-/// The common error alone, for protocols that have nothing else.
+/// Writes the common error alone, for protocols without a status of each call.
 void set_error(seeker::v1::CommonError& error, const Status& outcome);
 [[nodiscard]] Status status_of(const seeker::v1::CommonError& error);
-/// kInvalidArgument for STATUS_INVALID_ARGUMENT, and so on; nothing for OK, UNSPECIFIED and unknown names.
+/// Sets `code` to kInvalidArgument for STATUS_INVALID_ARGUMENT, and so on. False for OK, UNSPECIFIED and unknown names.
 [[nodiscard]] bool errc_of(const std::string& enumerator, Errc& code);
 /// "get_info" and so on; "unknown" for a number that is no call.
 [[nodiscard]] std::string call_name(CallNumber call);

@@ -30,6 +30,7 @@ bool is_urgent(const pb::Request& request) {
   return request.call_case() == pb::Request::kStop || (request.has_set_estop() && request.set_estop().engaged());
 }
 
+// No default: a new call that is forgotten here does not compile.
 api::Role required_role(const pb::Request& request) {
   switch (request.call_case()) {
     case pb::Request::kRestartComponent:
@@ -46,8 +47,29 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kRelocalise:
     case pb::Request::kDrive: return api::Role::kOperator;
     case pb::Request::kSetEstop: return request.set_estop().engaged() ? api::Role::kObserver : api::Role::kOperator;
-    default: return api::Role::kObserver;
+    case pb::Request::kGetInfo:
+    case pb::Request::kGetStatus:
+    case pb::Request::kListComponents:
+    case pb::Request::kGetMission:
+    case pb::Request::kStop:
+    case pb::Request::kGetTiles:
+    case pb::Request::kGetGrid:
+    case pb::Request::kGetDetections:
+    case pb::Request::kGetTrajectory:
+    case pb::Request::kGrabImage:
+    case pb::Request::kSubscribe:
+    case pb::Request::kUnsubscribe:
+    case pb::Request::kTimeSync:
+    case pb::Request::kListMaps:
+    case pb::Request::kInspectMap:
+    case pb::Request::kDownloadMap:
+    case pb::Request::kGetSegments:
+    case pb::Request::kListLandmarks:
+    case pb::Request::kInspectLandmarks:
+    case pb::Request::kGetLandmarks:
+    case pb::Request::CALL_NOT_SET: return api::Role::kObserver;
   }
+  return api::Role::kAdmin;  // a number that this version does not know
 }
 
 void begin_response(const pb::RequestHeader& request, const std::string& robot_id, RobotTime received, RobotTime now,
@@ -203,7 +225,7 @@ ServerStep ServerSession::on_tick(WallTime now, RobotTime robot_now, bool has_su
                                                    : ServerStep{};
   }
   if (liveness_.lost(now)) {
-    return end_with(pb::Close::REASON_SILENT, "nothing was heard from the client for " +
+    return end_with(pb::Close::REASON_SILENT, "no frame was received from the client for " +
                                                   std::to_string(to_seconds(params_.liveness.lost_after)) + " s");
   }
   if (params_.idle_limit > Duration::zero() && !has_subscriptions && now - last_request_ >= params_.idle_limit) {

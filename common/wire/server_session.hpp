@@ -1,5 +1,6 @@
 /// \file
-/// The robot's side of one session as a state machine: bytes and time in, what to do out. No sockets.
+/// The robot's side of one session as a state machine without sockets: its inputs are messages and times, its outputs
+/// what to do.
 #pragma once
 
 #include <cstddef>
@@ -20,28 +21,28 @@ struct ServerSessionParams {
   std::uint64_t stream_id = 0;
   LivenessParams liveness;
   Duration hello_timeout = std::chrono::seconds(3);
-  Duration idle_limit = Duration::zero();  ///< zero: none
+  Duration idle_limit = Duration::zero();  ///< wall time without request and subscription; zero: no limit
   api::Role max_role = api::Role::kAdmin;
   std::size_t in_flight = 64;
   double requests_per_s = 200.0;
   double request_burst = 400.0;
-  std::size_t refused_requests = 2000;  ///< consecutive
-  bool full = false;                    ///< refuse hello: too many sessions
+  std::size_t refused_requests = 2000;  ///< consecutive ones before the session is closed
+  bool full = false;                    ///< true: hello is refused, since there are too many sessions
 };
 
-/// Why and how a session ends.
+/// Reason and manner of the end of a session.
 struct Ending {
   seeker::v1::Close::Reason reason = seeker::v1::Close::REASON_PROTOCOL_ERROR;
   std::string text;
-  bool goodbye = false;  ///< the client left on purpose
-  bool tell = true;      ///< send Close before closing
+  bool goodbye = false;    ///< true: the client has left on purpose
+  bool send_close = true;  ///< true: Close is sent before the connection is closed
 };
 
-/// What is to be done after one input.
+/// What the server has to do after one input.
 struct ServerStep {
   std::optional<seeker::v1::Envelope> send;
-  std::optional<seeker::v1::Request> request;  ///< to be carried out; report with answered()
-  bool opened = false;                         ///< hello was accepted
+  std::optional<seeker::v1::Request> request;  ///< to be carried out, and then reported with answered()
+  bool opened = false;                         ///< true: hello was accepted
   std::optional<Ending> end;
 };
 
@@ -50,7 +51,7 @@ class ServerSession {
   ServerSession(ServerSessionParams params, WallTime now);
 
   [[nodiscard]] ServerStep on_payload(std::string_view payload, WallTime now, RobotTime robot_now);
-  /// Call it a few times per heartbeat.
+  /// To be called a few times per heartbeat.
   [[nodiscard]] ServerStep on_tick(WallTime now, RobotTime robot_now, bool has_subscriptions);
   void on_sent(WallTime now) { liveness_.on_sent(now); }
   void answered();
@@ -82,15 +83,15 @@ class ServerSession {
   std::uint64_t refused_total_ = 0;
 };
 
-/// The header of the answer to a request.
+/// Fills the header of the response to a request.
 void begin_response(const seeker::v1::RequestHeader& request, const std::string& robot_id, RobotTime received,
                     RobotTime now, seeker::v1::Response& response);
 
-/// What a role may do. Everybody may stop the robot.
+/// The role that a request needs. Every role may stop the robot.
 [[nodiscard]] api::Role required_role(const seeker::v1::Request& request);
-/// stop and engaging the emergency stop: not subject to the limits that hold back a busy client.
+/// Whether a request stops the robot or engages the emergency stop: such requests are exempt from rate limits.
 [[nodiscard]] bool is_urgent(const seeker::v1::Request& request);
-/// 1 to 64 printable ASCII characters without spaces.
+/// Whether a name is one of a client: 1 to 64 printable ASCII characters without spaces.
 [[nodiscard]] bool is_client_name(std::string_view name);
 
 }  // namespace seeker::wire

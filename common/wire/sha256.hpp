@@ -1,5 +1,5 @@
 /// \file
-/// The hash that pieces are named by (FIPS 180-4).
+/// SHA-256 (FIPS 180-4), by which pieces are named.
 #pragma once
 
 #include <array>

@@ -130,9 +130,9 @@ std::optional<OutFrame> StreamSender::next(WallTime now) {
     }
   }
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const auto& [id, state] = all[(turn_ + k) % all.size()];
+    const auto& [id, state] = all[(next_topic_ + k) % all.size()];
     if (auto frame = next_of(id, *state, now)) {
-      turn_ = (turn_ + k + 1) % all.size();
+      next_topic_ = (next_topic_ + k + 1) % all.size();
       return frame;
     }
   }

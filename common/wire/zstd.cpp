@@ -19,7 +19,7 @@ std::string compress(std::span<const std::uint8_t> bytes) {
 }
 
 Status decompress(const std::string& frame, std::span<std::uint8_t> out) {
-  // The destination has the size we allow: zstd never writes beyond it, whatever the frame claims.
+  // The destination has the size we allow: zstd never writes beyond it, even if the frame claims more.
   const std::size_t size = ZSTD_decompress(out.data(), out.size(), frame.data(), frame.size());
   if (ZSTD_isError(size) != 0U || size != out.size()) {
     return fail(Errc::kCorrupt, "is no zstd frame of exactly " + std::to_string(out.size()) + " bytes");

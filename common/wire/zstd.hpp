@@ -1,5 +1,5 @@
 /// \file
-/// Compression with a known size on the other side: a small frame must not unfold into all memory.
+/// Compression with a size that the receiver knows, so that a small frame cannot expand into all memory.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace seeker::wire {
 
-/// One zstd frame that states its content size.
+/// Compresses into one zstd frame that states the size of its content.
 [[nodiscard]] std::string compress(std::span<const std::uint8_t> bytes);
 
 /// Unpacks into exactly `out`; kCorrupt when the frame is damaged or holds another number of bytes.

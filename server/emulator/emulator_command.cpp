@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/files/files.hpp"
 #include "common/log/log.hpp"
 #include "common/net/random_id.hpp"
 #include "server/app/composition/robot_options.hpp"
@@ -13,7 +14,6 @@
 #include "server/emulator/truth_log.hpp"
 #include "server/emulator/world_host.hpp"
 #include "server/options/world_options.hpp"
-#include "server/store/atomic_file.hpp"
 
 namespace seeker::emulator {
 namespace {
@@ -67,7 +67,7 @@ Status serve(const EmulatorArguments& arguments, drivers::SharedDevices devices,
   log::info(kPart, "world '" + host.world().world().name + "' with " + std::to_string(host.robots()) +
                        " robots on port " + std::to_string(*port));
   if (!arguments.port_file.empty()) {
-    if (Status written = store::write_file_atomically(arguments.port_file, std::to_string(*port) + "\n"); !written) {
+    if (Status written = files::write_file(arguments.port_file, std::to_string(*port) + "\n"); !written) {
       return written;
     }
   }

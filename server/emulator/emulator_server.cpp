@@ -21,7 +21,7 @@ using boost::system::error_code;
 
 constexpr std::string_view kPart = "emulator";
 constexpr Duration kLinger = std::chrono::milliseconds(500);
-/// Replies that a robot has not read yet; it asks one thing at a time, so more is malice.
+/// Replies that a robot has not read yet; it makes one request at a time, so more is malice.
 constexpr std::size_t kMaxQueued = 64;
 /// After a pause the world starts afresh and does not hurry to catch up.
 constexpr Duration kMaxLag = std::chrono::milliseconds(250);
@@ -105,7 +105,7 @@ void EmulatorServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_vie
   if (const std::optional<v1::EmulatorReply> reply = host_.handle(*peer->robot, request)) {
     send(peer, *reply);
   }
-  turn();
+  schedule_step();
 }
 
 void EmulatorServer::greet(const std::shared_ptr<Peer>& peer, const v1::EmulatorRequest& request) {
@@ -156,16 +156,16 @@ void EmulatorServer::drop(const std::shared_ptr<Peer>& peer, const std::string& 
   host_.leave(*peer->robot);
   robots_.erase(*peer->robot);
   peer->robot.reset();
-  turn();
+  schedule_step();
 }
 
-void EmulatorServer::turn() {
-  if (stopping_ || !params_.lockstep || turning_ || !host_.next()) {
+void EmulatorServer::schedule_step() {
+  if (stopping_ || !params_.lockstep || step_scheduled_ || !host_.next()) {
     return;
   }
-  turning_ = true;
+  step_scheduled_ = true;
   const auto go = [this] {
-    turning_ = false;
+    step_scheduled_ = false;
     if (stopping_) {
       return;
     }
@@ -177,7 +177,7 @@ void EmulatorServer::turn() {
         pace(period);
       }
     }
-    turn();
+    schedule_step();
   };
   if (params_.speed > 0.0 && pace_.expiry() > net::wall_now()) {
     pace_.async_wait([go](error_code error) {

@@ -22,8 +22,8 @@ namespace seeker::emulator {
 struct EmulatorServerParams {
   std::string address = "127.0.0.1";
   std::uint16_t port = 7472;                           ///< 0: any free one
-  bool lockstep = true;                                ///< as the host's
-  double speed = 0.0;                                  ///< as the host's; without lockstep above 0
+  bool lockstep = true;                                ///< as in HostParams
+  double speed = 0.0;                                  ///< as in HostParams; above 0 without lockstep
   Duration live_step = std::chrono::milliseconds(20);  ///< robot time between steps without lockstep
   Duration hello_timeout = std::chrono::seconds(3);    ///< wall time from connection to hello
 };
@@ -36,13 +36,13 @@ class EmulatorServer {
   EmulatorServer(const EmulatorServer&) = delete;
   EmulatorServer& operator=(const EmulatorServer&) = delete;
 
-  /// The port.
+  /// Listens for robots and returns the port.
   [[nodiscard]] Result<std::uint16_t> listen();
   /// Serves until stop() is called, from any thread; then closes all connections.
   void run();
   void stop();
 
-  /// Called after every step of the world.
+  /// Is called after every step of the world.
   std::function<void()> on_step;
 
  private:
@@ -53,8 +53,8 @@ class EmulatorServer {
   void greet(const std::shared_ptr<Peer>& peer, const v1::EmulatorRequest& request);
   void send(const std::shared_ptr<Peer>& peer, const v1::EmulatorReply& reply);
   void drop(const std::shared_ptr<Peer>& peer, const std::string& why);
-  /// Lets the world go on as far as it may now.
-  void turn();
+  /// Schedules the next step of the world, unless one is scheduled or the world has to wait.
+  void schedule_step();
   void step(RobotTime to);
   void step_live();
   void pace(Duration period);
@@ -66,7 +66,7 @@ class EmulatorServer {
   boost::asio::steady_timer pace_;
   std::set<std::shared_ptr<Peer>> peers_;
   std::map<std::size_t, std::shared_ptr<Peer>> robots_;  ///< those that have said hello
-  bool turning_ = false;                                 ///< a step is to come
+  bool step_scheduled_ = false;                          ///< true: a step is scheduled
   bool stopping_ = false;
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// Where the robots really were, for scoring: one line per robot and step.
+/// The true poses of the robots, for scoring: one line per robot and step.
 #pragma once
 
 #include <filesystem>

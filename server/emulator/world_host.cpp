@@ -30,7 +30,7 @@ tl::unexpected<Error> no_such_device() {
 
 /// Writes a sample, where there is one, with `put`.
 template <class Sample, class Put>
-Status tell(const Result<std::optional<Sample>>& sample, Put put) {
+Status write_sample(const Result<std::optional<Sample>>& sample, Put put) {
   if (!sample) {
     return tl::unexpected<Error>(sample.error());
   }
@@ -43,11 +43,12 @@ Status tell(const Result<std::optional<Sample>>& sample, Put put) {
 Status read(drivers::SimDevices& robot, v1::EmulatorDevice device, v1::EmulatorReply& reply) {
   switch (device) {
     case v1::EMULATOR_DEVICE_BASE:
-      return tell(robot.base->read(), [&](const auto& sample) { drivers::write(sample, reply.mutable_odometry()); });
+      return write_sample(robot.base->read(),
+                          [&](const auto& sample) { drivers::write(sample, reply.mutable_odometry()); });
     case v1::EMULATOR_DEVICE_LIDAR:
-      return tell(robot.lidar->read(), [&](const auto& sample) { wire::write(sample, reply.mutable_scan()); });
+      return write_sample(robot.lidar->read(), [&](const auto& sample) { wire::write(sample, reply.mutable_scan()); });
     case v1::EMULATOR_DEVICE_SONAR:
-      return tell(robot.sonar->read(), [&](const auto& sample) { wire::write(sample, reply.mutable_sonar()); });
+      return write_sample(robot.sonar->read(), [&](const auto& sample) { wire::write(sample, reply.mutable_sonar()); });
     default: return no_such_device();
   }
 }

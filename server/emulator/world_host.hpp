@@ -15,29 +15,29 @@
 namespace seeker::emulator {
 
 struct HostParams {
-  std::uint64_t world_id = 1;  ///< tells this run from others
-  bool lockstep = true;        ///< the world waits for its robots; false: it goes with the wall clock
-  double speed = 0.0;          ///< told to the robots
+  std::uint64_t world_id = 1;  ///< distinguishes this run from others
+  bool lockstep = true;        ///< true: the world waits for its robots; false: it runs with the wall clock
+  double speed = 0.0;          ///< robot seconds per wall second, as reported to the robots
 };
 
-/// Serves what robots ask of their devices. A robot that is gone stands still where it is; its devices stay as they
-/// were, and it may come back. What one robot asks for never changes what another one senses.
+/// Serves the requests of robots to their devices. A robot whose program is gone stands still; its devices keep their
+/// state, and the program may come back. The requests of one robot never change the readings of another.
 class WorldHost {
  public:
   WorldHost(drivers::SharedDevices devices, HostParams params);
 
-  /// A robot's first request; the answer is which robot it is. kUnsupportedVersion, kNotFound; kBusy when another
-  /// program is that robot already (the same program may come again).
+  /// Handles the first request of a robot program and returns the index of its robot. kUnsupportedVersion, kNotFound;
+  /// kBusy when another program is that robot already (the same program may come again).
   [[nodiscard]] Result<std::size_t> enter(const v1::EmulatorHello& hello);
   [[nodiscard]] v1::EmulatorReply welcome(std::uint64_t request_id) const;
   void leave(std::size_t robot);
 
-  /// The reply; nothing for advance, which is answered when the world has come there (see go_on()).
+  /// Handles a request and returns the reply; std::nullopt for advance, which go_on() answers when the world is there.
   [[nodiscard]] std::optional<v1::EmulatorReply> handle(std::size_t robot, const v1::EmulatorRequest& request);
 
-  /// Where the world may go on to now; nothing when it must wait.
+  /// The time to which the world may advance now; std::nullopt when it must wait.
   [[nodiscard]] std::optional<RobotTime> next() const;
-  /// Lets the world go on; the replies to those that waited for it.
+  /// Advances the world and returns the replies to the robots that have waited for it.
   [[nodiscard]] std::vector<std::pair<std::size_t, v1::EmulatorReply>> go_on(RobotTime to);
 
   [[nodiscard]] const sim::SharedWorld& world() const { return *devices_.world; }
@@ -45,7 +45,7 @@ class WorldHost {
 
  private:
   struct Robot {
-    std::optional<std::uint64_t> instance;  ///< of the program that is it now
+    std::optional<std::uint64_t> instance;  ///< of the program that runs this robot now
     std::uint64_t advance_id = 0;           ///< request that waits for the world; 0: none
   };
   [[nodiscard]] Status serve(drivers::SimDevices& robot, const v1::EmulatorRequest& request, v1::EmulatorReply& reply);

@@ -27,7 +27,7 @@ StrategyStep ActiveStrategy::step(const StrategyInput& input) {
   StrategyStep out;
   if (looks_first(input.now)) {
     out.phase = kExplorePhase;
-    out.activity = "looking at the walls around the start";
+    out.activity = "observing the walls around the start";
     return out;
   }
   if (mode_ == Mode::kPath) {
@@ -69,9 +69,9 @@ std::vector<MapSegment> ActiveStrategy::believed(const std::vector<MapSegment>& 
 }
 
 void ActiveStrategy::decide(const StrategyInput& input, StrategyStep& out) {
-  if (const std::optional<Twist2> turn = look_round_.next(input.covariance)) {
-    why_ = "turning round: what lies behind ties down what lies ahead";
-    hold_.start(*turn, input.now);
+  if (const std::optional<Twist2> rotation = look_round_.next(input.covariance)) {
+    why_ = "rotating on the spot: the walls behind reduce the uncertainty of the walls ahead";
+    hold_.start(*rotation, input.now);
     return;
   }
   const auto view = input.floors.view();
@@ -165,7 +165,7 @@ void ActiveStrategy::follow_path(const StrategyInput& input, StrategyStep& out) 
   why_ = out.activity;
   if (out.done) {
     mode_ = Mode::kDone;
-  } else if (out.step_done) {  // it has looked at an opening, or seen it on the way: the objective again
+  } else if (out.step_done) {  // it has observed an opening, also while driving: the objective again
     mode_ = Mode::kExplore;
     watch_.reset(true);
     hold_.cancel(input.now);

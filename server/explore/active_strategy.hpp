@@ -1,6 +1,6 @@
 /// \file
-/// Exploration as the active-SLAM paper has it: by the objective, out of traps along the walls (spec S1.11, S1.12), and
-/// beyond the paper by planned paths to what is left when no wall leads on.
+/// Exploration by the rule of the active-SLAM paper: steps by the objective, wall following to leave local traps (spec
+/// S1.11, S1.12), and beyond the paper, planned paths to the remaining openings when no wall leads on.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ class ActiveStrategy final : public ExploreStrategy {
  private:
   enum class Mode : std::uint8_t { kExplore, kWall, kPath, kDone };
 
-  /// True while the robot still stands where it began.
+  /// True while the robot still observes from its start before the first decision.
   [[nodiscard]] bool looks_first(RobotTime now);
   void decide(const StrategyInput& input, StrategyStep& out);
   void explore(const StrategyInput& input, const MapSize& size, StrategyStep& out);
@@ -36,7 +36,7 @@ class ActiveStrategy final : public ExploreStrategy {
   void begin_path(const StrategyInput& input, StrategyStep& out);
   void follow_path(const StrategyInput& input, StrategyStep& out);
   void give_end_up(const std::optional<Point2>& p_map);
-  /// The segments, those ends real that were found to lead nowhere.
+  /// The segments, with those ends marked as real that were found to lead nowhere.
   [[nodiscard]] std::vector<MapSegment> believed(const std::vector<MapSegment>& segments) const;
 
   ExploreParams params_;
@@ -48,10 +48,10 @@ class ActiveStrategy final : public ExploreStrategy {
   std::optional<RobotTime> began_;
   Mode mode_ = Mode::kExplore;
   std::string why_;
-  std::vector<Point2> closed_map_;  ///< ends that led nowhere
+  std::vector<Point2> closed_map_;  ///< ends of walls that led nowhere, frame `map`
   std::optional<Point2> wall_goal_map_;
   RobotTime wall_since_;
-  MapSize wall_size_;  ///< the largest map so far while following walls
+  MapSize wall_size_;  ///< size of the largest map so far while following walls
 };
 
 }  // namespace seeker::explore

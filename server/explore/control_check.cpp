@@ -17,12 +17,12 @@ constexpr double kFar_m = 1e3;
 
 }  // namespace
 
-ControlCheck::ControlCheck(const StrategyInput& input, const SightScene& scene, double radius_m, double longest_way_m)
+ControlCheck::ControlCheck(const StrategyInput& input, const SightScene& scene, double radius_m, double longest_path_m)
     : map_T_base_(input.map_T_base), radius_m_(radius_m), areas_(input.floors.areas()) {
   if (const auto view = input.floors.view()) {
     floor_ = *view;
   }
-  const double reach_m = longest_way_m + 2.0 * radius_m;
+  const double reach_m = longest_path_m + 2.0 * radius_m;
   const Point2 here = map_T_base_.translation();
   for (const SightWall& wall : scene.walls()) {
     const Point2 left = wall.map_T_segment * Point2(-0.5 * wall.length_m, 0.0);
@@ -50,19 +50,19 @@ double ControlCheck::distance_m(const Point2& p_map) const {
 }
 
 std::string ControlCheck::refusal(const Twist2& control, double tau_s) const {
-  const double way_m = std::abs(control.v_m_s) * (tau_s + kStopping_s);
-  if (way_m <= 0.0) {
+  const double path_m = std::abs(control.v_m_s) * (tau_s + kStopping_s);
+  if (path_m <= 0.0) {
     return {};
   }
   const Point2 here = map_T_base_.translation();
   const double limit_m = std::min(radius_m_, distance_m(here) - kNearer_m);
   // A robot that stands on ground of which nothing is known may leave it.
   bool on_floor = !floor_ || floor_->cost.traversable(here);
-  const int samples = static_cast<int>(std::ceil(way_m / kSample_m));
+  const int samples = static_cast<int>(std::ceil(path_m / kSample_m));
   for (int k = 1; k <= samples; ++k) {
     const Point2 p = (map_T_base_ * integrate(control, (tau_s + kStopping_s) * k / samples)).translation();
     if (distance_m(p) < limit_m) {
-      return "something is in the way";
+      return "an obstacle is too near";
     }
     if (!areas_.allows(p) && areas_.allows(here)) {
       return "forbidden ground";

@@ -1,5 +1,6 @@
 /// \file
-/// Whether the robot may hold a control for a while: the disc it sweeps must not touch anything known or seen now.
+/// Check whether the robot may hold a control for a while: the disc that it sweeps must not touch any obstacle that is
+/// mapped or seen now.
 #pragma once
 
 #include <memory>
@@ -11,14 +12,15 @@
 
 namespace seeker::explore {
 
-/// Made for one decision.
+/// Holds the obstacles for one decision.
 class ControlCheck {
  public:
-  /// Checks against the walls of the scene, the present readings, the floor map and the forbidden areas.
-  ControlCheck(const StrategyInput& input, const SightScene& scene, double radius_m, double longest_way_m);
+  /// Collects the walls of the scene, the present readings, the floor map and the forbidden areas. `longest_path_m` is
+  /// the longest path of any control that will be checked.
+  ControlCheck(const StrategyInput& input, const SightScene& scene, double radius_m, double longest_path_m);
 
-  /// Why the control must not be held for `tau_s`; empty: it may. A robot that is too near to something may still move
-  /// as long as it does not come nearer; turning on the spot meets nothing.
+  /// Why the control must not be held for `tau_s`; empty when it may. A robot that is too near to an obstacle may still
+  /// move as long as it does not come nearer. Rotation on the spot touches no obstacle.
   [[nodiscard]] std::string refusal(const Twist2& control, double tau_s) const;
 
  private:
@@ -28,7 +30,7 @@ class ControlCheck {
   double radius_m_;
   const nav::ForbiddenAreas& areas_;
   std::shared_ptr<const nav::FloorView> floor_;   ///< null: there is no map of the floor yet
-  std::vector<std::pair<Point2, Point2>> walls_;  ///< those near enough
+  std::vector<std::pair<Point2, Point2>> walls_;  ///< walls within reach of the robot
   std::vector<Point2> points_map_;
 };
 

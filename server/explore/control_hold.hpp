@@ -1,6 +1,6 @@
 /// \file
-/// Holds one control for an observation period (spec S1.11, S1.13), and stands still afterwards where the robot works
-/// stop-and-go.
+/// Holds one control for an observation period (spec S1.11, S1.13). In stop-and-go operation the robot stands still
+/// afterwards.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,12 @@ class ControlHold {
   ControlHold(const OneStepParams& params, const nav::ClearanceParams& clearance);
 
   void start(const Twist2& control, RobotTime now);
-  /// The present control is void; the robot comes to a halt first.
+  /// Drops the present control; the robot comes to a halt first.
   void cancel(RobotTime now);
   /// True when it is time for the next decision.
   [[nodiscard]] bool ready(const StrategyInput& input);
-  /// The control, slowed so that the base can halt before contact. What the readings do not let through ends it.
+  /// The control, slowed so that the base can halt before contact. The control ends when the readings leave no free
+  /// distance.
   [[nodiscard]] Twist2 command(const StrategyInput& input);
 
  private:

@@ -1,6 +1,6 @@
 /// \file
-/// A whole exploration: a strategy, the ground it may use, what sends the robot back, how it ends. Stepped by the robot
-/// loop; pure.
+/// A whole exploration: a strategy, the areas it may use, the conditions that send the robot back, and the end. It is
+/// stepped by the robot loop and depends on its inputs alone.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@
 namespace seeker::explore {
 
 struct ExploreRequest {
-  StrategyMaker strategy = maker_of(Strategy::kActive);
+  StrategyMaker strategy = maker_of(Strategy::kHorizon);
   nav::ForbiddenAreas areas;     ///< frame `map`
-  bool return_to_start = false;  ///< drive back to where the first step was made, before the time is up
+  bool return_to_start = false;  ///< drive back to the pose of the first step before the time is up
 };
 
-/// What the robot knows at one control step. Pointers and references are valid during the call.
+/// The inputs of one control step. Pointers and references are valid during the call.
 struct ExploreInput {
   RobotTime now;
   PoseEstimate pose;
@@ -36,25 +36,26 @@ struct ExploreInput {
   std::uint64_t segments_revision = 0;
   std::optional<slam::LocalBelief> belief;
   std::optional<double> battery_v;
-  const FleetView* fleet = nullptr;                  ///< other robots, frame `map`; null: the robot is alone
-  std::vector<nav::Mover> movers = {};               ///< other robots where they are now, frame `map`
-  std::optional<double> time_left_s = std::nullopt;  ///< until it is ended from outside; nothing: it has all the time
+  const FleetView* fleet = nullptr;     ///< other robots, frame `map`; null: the robot is alone
+  std::vector<nav::Mover> movers = {};  ///< present poses of other robots, frame `map`
+  /// Seconds until the exploration is ended from outside; nothing: no limit.
+  std::optional<double> time_left_s = std::nullopt;
 };
 
 enum class EndKind : std::uint8_t {
-  kComplete,      ///< nothing is left to explore
-  kBoundReached,  ///< all that is left lies beyond the bound or in kept-out ground
-  kUnreachable,   ///< places are left that no way leads to
-  kUncertain,     ///< the robot could not find back to certainty
+  kComplete,      ///< no opening is left to explore
+  kBoundReached,  ///< all remaining openings lie beyond the bound or in keep-out areas
+  kUnreachable,   ///< places are left that no path leads to
+  kUncertain,     ///< the position uncertainty could not be reduced below its limit
   kBattery,
-  kTimeLimit,  ///< what time was left was needed for the way back to the start
+  kTimeLimit,  ///< the remaining time was needed for the return to the start
 };
 
 struct ExploreEnd {
   EndKind kind = EndKind::kComplete;
   std::string cause;
   std::string remedy;
-  std::vector<Point2> unreachable;  ///< frame `map`
+  std::vector<UnreachablePlace> unreachable;
 
   friend bool operator==(const ExploreEnd&, const ExploreEnd&) = default;
 };
@@ -68,20 +69,21 @@ struct ExploreEvent {
 
 struct ExploreStep {
   Twist2 command;
-  std::string phase;  ///< a strategy's, "wait", "regain", "return", "stopped", "done"
+  std::string phase;  ///< the strategy's phase, or "wait", "regain", "return", "stopped", "done"
   std::string activity;
-  double progress = 0.0;  ///< 0..1: known reachable floor over that and what is estimated to lie behind the openings
+  /// 0..1: known reachable floor, divided by the sum of that and the floor estimated behind the openings.
+  double progress = 0.0;
   bool step_done = false;
   std::vector<Point2> planned_path;
   std::vector<ExploreEvent> events;
-  std::optional<ExploreDecision> decision;  ///< the newest, in the step that made it
-  std::optional<ExploreEnd> end;            ///< from the last step on
+  std::optional<ExploreDecision> decision;  ///< the newest decision, present in the step that made it
+  std::optional<ExploreEnd> end;            ///< present from the last step on
 };
 
-/// Not thread-safe; everything it does follows from its inputs.
+/// Runs one exploration. It is not thread-safe, and its outputs depend on its inputs alone.
 class Exploration {
  public:
-  /// kInvalidArgument: parameters or polygons that make no sense.
+  /// Checks the request and makes an exploration. kInvalidArgument: a parameter or polygon is invalid.
   [[nodiscard]] static Result<Exploration> create(const ExploreRequest& request, const ExploreParams& params);
   Exploration(Exploration&&) noexcept;
   Exploration& operator=(Exploration&&) noexcept;
@@ -89,19 +91,19 @@ class Exploration {
   Exploration& operator=(const Exploration&) = delete;
   ~Exploration();
 
-  /// One control step, 10 Hz. After the end it repeats the end with a zero command.
+  /// Computes one control step; it is called at 10 Hz. After the end it repeats the end with a zero command.
   [[nodiscard]] ExploreStep step(const ExploreInput& input);
-  /// Time between this and the step before does not count; drives start anew.
+  /// Excludes the time between the previous step and `now` from all time limits; drives start again.
   void resume(RobotTime now);
-  /// The map moved (new epoch): `move` takes old map coordinates to new ones.
+  /// The map was corrected (new epoch): `move` takes old map coordinates to new ones.
   void transform(const MapMove& move);
-  /// How it ended where the robot is still on its way back to the start.
+  /// The end that will be reported on arrival, while the robot still returns to the start.
   [[nodiscard]] std::optional<ExploreEnd> pending_end() const;
-  /// Before the first step: what the strategy knew when the program was cut off.
+  /// Restores what the strategy knew before the program was interrupted. Call it before the first step.
   void remember(const TopologyMemory& memory);
-  /// Before the first step: where it began before the program was cut off, frame `map`.
+  /// Restores the start position of an interrupted exploration, frame `map`. Call it before the first step.
   void remember_start(const Point2& start_map);
-  /// The strategy, for what it tells of its topology; valid as long as the exploration is not moved.
+  /// The strategy, for reading its topology; valid as long as the exploration is not moved.
   [[nodiscard]] const ExploreStrategy& strategy() const;
 
  private:

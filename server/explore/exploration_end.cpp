@@ -10,7 +10,7 @@
 namespace seeker::explore {
 namespace {
 
-/// Places so near to each other are told of once.
+/// Places within this distance of each other are reported once.
 constexpr double kSamePlace_m = 1.0;
 constexpr std::size_t kMaxUnreachable = 64;
 /// How deep unknown floor is taken to be behind a metre of its border, for the progress.
@@ -19,10 +19,31 @@ constexpr double kProgressPeriod_s = 3.0;
 /// So far beyond the border of the unknown lies what it leads to.
 constexpr double kBeyond_m = 0.3;
 
-void add_places(const std::vector<Point2>& from, std::vector<Point2>& to) {
-  for (const Point2& p : from) {
-    if (to.size() < kMaxUnreachable && !nav::near_any(p, to, kSamePlace_m)) {
-      to.push_back(p);
+/// Of two at the same place the larger one says how much is left.
+void add_places(const std::vector<UnreachablePlace>& from, std::vector<UnreachablePlace>& to) {
+  for (const UnreachablePlace& place : from) {
+    const auto same = std::find_if(to.begin(), to.end(), [&](const UnreachablePlace& other) {
+      return (other.p_map - place.p_map).norm() <= kSamePlace_m;
+    });
+    if (same != to.end()) {
+      same->size_m = std::max(same->size_m, place.size_m);
+    } else if (to.size() < kMaxUnreachable) {
+      to.push_back(place);
+    }
+  }
+}
+
+/// Places whose size is not known are as wide as the longest border of unknown floor about them.
+void measure(const std::vector<nav::Frontier>& borders, const GridFrame& frame, std::vector<UnreachablePlace>& places) {
+  for (UnreachablePlace& place : places) {
+    if (place.size_m > 0.0) {
+      continue;
+    }
+    for (const nav::Frontier& border : borders) {
+      const bool here = std::any_of(border.cells.begin(), border.cells.end(), [&](CellIndex cell) {
+        return (frame.centre_of(cell) - place.p_map).norm() <= kSamePlace_m;
+      });
+      place.size_m = here ? std::max(place.size_m, border.length_m) : place.size_m;
     }
   }
 }
@@ -68,15 +89,15 @@ std::string list_of(const std::vector<Point2>& places) {
   return list;
 }
 
-ExploreEnd unreachable_end(std::vector<Point2> places, const std::vector<Point2>& somebody_at) {
-  const std::string who = somebody_at.empty() ? "" : "; somebody or something stands in the way at ";
-  return {EndKind::kUnreachable, "no way leads to what is left: " + list_of(places) + who + list_of(somebody_at),
-          "open doors or clear the way, then explore again; or give a bound without these places", std::move(places)};
+ExploreEnd unreachable_end(std::vector<UnreachablePlace> places, const std::vector<Point2>& somebody_at) {
+  const std::string who = somebody_at.empty() ? "" : "; a person or an object blocks the path at ";
+  return {EndKind::kUnreachable, "no path leads to what is left: " + describe(places) + who + list_of(somebody_at),
+          "open doors or clear the path, then explore again; or give a bound without these places", std::move(places)};
 }
 
 }  // namespace
 
-/// Whether a way led to enough of it: then somebody is in the way now.
+/// Whether a path led to enough of the floor before: then somebody blocks it now.
 bool Exploration::Impl::was_reachable(const CutOffFloor& part, const GridFrame& frame) const {
   const auto cells = std::count_if(part.cells.begin(), part.cells.end(),
                                    [&](CellIndex cell) { return known_floor_.was_reachable(frame.centre_of(cell)); });
@@ -104,14 +125,17 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
   const auto unlimited = without_limits(**floor, request_.areas, here, params_.cost);
   for (const CutOffFloor& part : cut_off_floor((*floor)->cost, *costs, params_.viewpoints.min_cut_off_m2)) {
     if (unlimited && unlimited->costs.cost_to(part.p_map)) {
-      left.beyond_limits = true;  // the way there is forbidden, not blocked
+      left.beyond_limits = true;  // the path there is forbidden, not blocked
     } else if (nav::seen_by_itself(**floor, part.p_map)) {
       // What only other robots have seen is theirs to look after.
       left.cut_off.push_back({part.p_map, was_reachable(part, (*floor)->cost.frame())});
+      left.cut_off_places.push_back(unreachable_place(part));
     }
   }
-  left.people = blocked_ways({**floor, *costs, input.segments, request_.areas, input.map_T_base, input.now},
-                             known_floor_, floors_.obstacles_map(), params_.viewpoints);
+  left.frame = (*floor)->cost.frame();
+  left.borders = nav::find_frontiers((*floor)->cost, *costs, 0.0);
+  left.people = blocked_paths({**floor, *costs, input.segments, request_.areas, input.map_T_base, input.now},
+                              known_floor_, floors_.obstacles_map(), params_.viewpoints);
   left.beyond_limits = left.beyond_limits ||
                        (unlimited && more_beyond_limits(*unlimited, **floor, request_.areas, here, params_.viewpoints));
   return left;
@@ -119,16 +143,18 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
 
 ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last, const Point2& here_map) const {
   if (left.no_floor) {
+    const UnreachableCause cause =
+        request_.areas.allows(here_map) ? UnreachableCause::kRobotEnclosed : UnreachableCause::kRobotForbidden;
     return {EndKind::kUnreachable,
             left.no_floor->message,
             "set the robot on free floor inside the bound, then explore",
-            {here_map}};
+            {{here_map, cause, 0.0, ""}}};
   }
-  std::vector<Point2> unreachable;
-  add_places(last.unreachable, unreachable);
-  for (const nav::BlockedPlace& place : left.cut_off) {
-    add_places({place.p_map}, unreachable);
-  }
+  std::vector<UnreachablePlace> unreachable;
+  std::vector<UnreachablePlace> given_up = last.unreachable;
+  measure(left.borders, left.frame, given_up);
+  add_places(given_up, unreachable);
+  add_places(left.cut_off_places, unreachable);
   add_places(left.people.behind_map, unreachable);
   if (!unreachable.empty()) {
     return unreachable_end(std::move(unreachable), left.people.at_map);

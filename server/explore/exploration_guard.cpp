@@ -11,9 +11,11 @@ namespace {
 constexpr double kBatterySag_s = 5.0;
 /// Going back so often without having seen new floor in between does not help.
 constexpr int kFruitlessRegains = 3;
-/// Between two plans of the way home, which cost: in that time it grows by what home_reserve_s covers.
+/// Time between two plans of the return path, which are costly: the path grows in that time by no more than what
+/// home_reserve_s covers.
 constexpr double kTimeCheck_s = 5.0;
-/// Where no way home is known at the moment it is taken to be so many times the straight line.
+/// Where no return path is known at the moment, its length is estimated as the straight-line distance times this
+/// factor.
 constexpr double kDetour = 2.0;
 
 }  // namespace
@@ -34,7 +36,7 @@ void Exploration::Impl::check_battery(const ExploreInput& input, ExploreStep& ou
   const std::string cause = "the battery is down to its reserve (" + text(*input.battery_v) + " V)";
   out.events.push_back({"battery", cause});
   if (mode_ == Mode::kReturn) {
-    return;  // on its way home anyhow
+    return;  // it returns already
   }
   conclude({EndKind::kBattery, cause, "charge the battery, then explore again: the map so far is kept", {}},
            input.now - paused_, out);
@@ -47,23 +49,23 @@ void Exploration::Impl::check_time(const ExploreInput& input, ExploreStep& out) 
     return;
   }
   time_checked_at_ = input.now;
-  const double way_m = way_home_m(input.pose.map_T_base.translation());
+  const double path_m = return_length_m(input.pose.map_T_base.translation());
   const GuardParams& guard = params_.guard;
-  if (*input.time_left_s > guard.home_margin * way_m / guard.home_m_s + guard.home_reserve_s) {
+  if (*input.time_left_s > guard.home_margin * path_m / guard.home_m_s + guard.home_reserve_s) {
     return;
   }
-  const std::string cause =
-      "the time is up but for what the way back of " + text(way_m) + " m takes (" + text(*input.time_left_s) + " s)";
+  const std::string cause = "the remaining time is needed for the return path of " + text(path_m) + " m (" +
+                            text(*input.time_left_s) + " s left)";
   out.events.push_back({"time", cause});
   conclude({EndKind::kTimeLimit, cause, "give it more with --time-limit: the map so far is kept", {}},
            input.now - paused_, out);
 }
 
-double Exploration::Impl::way_home_m(const Point2& here_map) {
+double Exploration::Impl::return_length_m(const Point2& here_map) {
   const auto floor = floors_.view();
-  const auto way =
+  const auto path =
       floor ? nav::plan((*floor)->cost, here_map, *start_) : Result<nav::Path>(tl::unexpected<Error>(floor.error()));
-  return way ? way->length_m : kDetour * (*start_ - here_map).norm();
+  return path ? path->length_m : kDetour * (*start_ - here_map).norm();
 }
 
 void Exploration::Impl::check_certainty(const StrategyInput& input, double sigma_m, ExploreStep& out) {
@@ -77,18 +79,19 @@ void Exploration::Impl::begin_regain(const StrategyInput& input, double sigma_m,
   floor_at_regain_m2_ = std::max(floor_at_regain_m2_, known_floor_.present_area_m2());  // people hide some at times
   const std::string cause = "the robot's position is uncertain by " + text(sigma_m) + " m";
   if (fruitless_regains_ > kFruitlessRegains) {
-    end_ = ExploreEnd{EndKind::kUncertain,
-                      cause + ", again at the same place",
-                      "what is left cannot be explored with so much certainty: raise the limit, or add things that the "
-                      "robot can recognise there",
-                      {}};
+    end_ =
+        ExploreEnd{EndKind::kUncertain,
+                   cause + ", again at the same place",
+                   "what is left cannot be explored with so much certainty: raise the limit, or add objects that the "
+                   "robot can recognise there",
+                   {}};
     return;
   }
   mode_ = Mode::kRegain;
   got_back_ = input.now;
   back_driving_ = false;
-  const std::vector<Point2> way = trail_.way_to_certainty();
-  back_way_.assign(way.begin(), way.end());
+  const std::vector<Point2> path = trail_.path_to_certainty();
+  regain_path_.assign(path.begin(), path.end());
   out.events.push_back({"uncertain", cause + "; going back along its trail to where it was certain"});
 }
 
@@ -96,7 +99,7 @@ void Exploration::Impl::regain(const StrategyInput& input, double sigma_m, Explo
   out.phase = "regain";
   out.activity = "going back to where the robot was certain of its position, now " + text(sigma_m) + " m";
   // Where it was most certain it will not become more certain by waiting: below the limit, that is good enough.
-  const bool back = back_way_.empty() && sigma_m < params_.guard.max_position_sigma_m;
+  const bool back = regain_path_.empty() && sigma_m < params_.guard.max_position_sigma_m;
   if (back || sigma_m < params_.guard.regain_position_sigma_m) {
     out.events.push_back({"certain", "the robot's position is certain to " + text(sigma_m) + " m again"});
     mode_ = Mode::kExplore;
@@ -112,21 +115,21 @@ void Exploration::Impl::regain(const StrategyInput& input, double sigma_m, Explo
                       {}};
     return;
   }
-  if (back_way_.empty()) {
+  if (regain_path_.empty()) {
     out.activity = "waiting where the robot was most certain of its position";
     return;
   }
   if (!std::exchange(back_driving_, true)) {
-    back_.go(back_way_.front(), input.now);
+    back_.go(regain_path_.front(), input.now);
   }
   const nav::DriveStep driven = back_.step(input);
   out.command = driven.command;
   out.planned_path = back_.path();
   if (driven.state == nav::DriveState::kArrived) {
-    got_back_ = input.now;  // a long way back takes long
+    got_back_ = input.now;  // a long return path takes long
   }
-  if (driven.state != nav::DriveState::kDriving) {  // arrived, or no way there: on to the next
-    back_way_.pop_front();
+  if (driven.state != nav::DriveState::kDriving) {  // arrived, or no path there: on to the next
+    regain_path_.pop_front();
     back_driving_ = false;
   }
 }
@@ -138,7 +141,7 @@ void Exploration::Impl::go_home(const StrategyInput& input, ExploreStep& out) {
   out.command = driven.command;
   out.planned_path = home_.path();
   if (driven.state == nav::DriveState::kFailed) {
-    pending_end_->cause += "; the way back to the start is blocked: " + driven.reason;
+    pending_end_->cause += "; the return path to the start is blocked: " + driven.reason;
   }
   if (driven.state != nav::DriveState::kDriving) {
     end_ = std::move(pending_end_);

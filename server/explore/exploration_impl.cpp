@@ -5,7 +5,7 @@
 namespace seeker::explore {
 namespace {
 
-/// Places on the way back to certainty are tried so often: the next one may do as well.
+/// Number of attempts for each place of the path to certainty: the next place may be as good.
 constexpr int kBackAttempts = 2;
 
 }  // namespace
@@ -19,7 +19,7 @@ Exploration::Impl::Impl(const ExploreRequest& request, const ExploreParams& para
       home_(params.driver, {}),
       back_(params.driver, {.attempts = kBackAttempts}),
       lookout_(params.driver),
-      turns_({.max_waits = params.viewpoints.max_waits, .max_for_nobody = params.viewpoints.max_failures}) {}
+      wait_schedule_({.max_waits = params.viewpoints.max_waits, .max_for_nobody = params.viewpoints.max_failures}) {}
 
 StrategyInput Exploration::Impl::strategy_input(const ExploreInput& input) {
   return {{input.now - paused_, input.pose.map_T_base, input.sonar, input.laser, floors_},
@@ -183,20 +183,20 @@ void Exploration::Impl::transform(const MapMove& move) {
   sonar_obstacles_.transform(move);
   trail_.transform(move);
   known_floor_.transform(move);
-  turns_.transform(move);
+  wait_schedule_.transform(move);
   home_.transform(move);
   back_.transform(move);
   lookout_.stop();
   if (start_) {
     start_ = move * *start_;
   }
-  for (Point2& p : back_way_) {
+  for (Point2& p : regain_path_) {
     p = move * p;
   }
   for (const auto& end : {&pending_end_, &end_}) {
     if (*end) {
-      for (Point2& p : (*end)->unreachable) {
-        p = move * p;
+      for (UnreachablePlace& place : (*end)->unreachable) {
+        place.p_map = move * place.p_map;
       }
     }
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Inside of Exploration; nobody else includes it.
+/// Implementation of Exploration; no other file includes it.
 #pragma once
 
 #include <deque>
@@ -8,17 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "server/explore/blocked_ways.hpp"
+#include "server/explore/blocked_paths.hpp"
 #include "server/explore/exploration.hpp"
 #include "server/explore/trail.hpp"
+#include "server/nav/frontiers.hpp"
 #include "server/nav/known_floor.hpp"
 #include "server/nav/retry_drive.hpp"
 #include "server/nav/sonar_obstacles.hpp"
-#include "server/nav/wait_turns.hpp"
+#include "server/nav/wait_schedule.hpp"
 
 namespace seeker::explore {
 
-/// The floor grew by so much since: waiting, or going back to where the robot knows its place, had a use.
+/// Growth of the known floor, in square metres, after which waiting or a return to a certain place counts as
+/// successful.
 inline constexpr double kNewFloor_m2 = 2.0;
 
 class Exploration::Impl {
@@ -49,23 +51,26 @@ class Exploration::Impl {
   // exploration_guard.cpp
   void check_battery(const ExploreInput& input, ExploreStep& out);
   void check_time(const ExploreInput& input, ExploreStep& out);
-  [[nodiscard]] double way_home_m(const Point2& here_map);
+  [[nodiscard]] double return_length_m(const Point2& here_map);
   void check_certainty(const StrategyInput& input, double sigma_m, ExploreStep& out);
   void begin_regain(const StrategyInput& input, double sigma_m, ExploreStep& out);
   void regain(const StrategyInput& input, double sigma_m, ExploreStep& out);
   void go_home(const StrategyInput& input, ExploreStep& out);
 
   // exploration_wait.cpp
-  void begin_wait(const nav::WaitTurn& turn, const StrategyInput& input, ExploreStep& out);
+  void begin_wait(const nav::PlannedWait& planned, const StrategyInput& input, ExploreStep& out);
   [[nodiscard]] bool waits(const StrategyInput& input, ExploreStep& out);
   void strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out);
 
   // exploration_end.cpp
-  /// What keeps it from being complete, as the map shows it now.
+  /// What prevents the exploration from being complete, according to the present map.
   struct Left {
-    std::optional<Error> no_floor;           ///< the robot stands walled in, or there is no map
-    std::vector<nav::BlockedPlace> cut_off;  ///< floor that was seen, but no way leads there
-    BlockedWays people;                      ///< who stands in a way, and what lies behind
+    std::optional<Error> no_floor;                 ///< set when the robot is enclosed by obstacles or there is no map
+    std::vector<nav::BlockedPlace> cut_off;        ///< floor that was observed but that no path leads to
+    std::vector<UnreachablePlace> cut_off_places;  ///< the same, with its size
+    std::vector<nav::Frontier> borders;            ///< of unknown floor: give the width of what a strategy leaves
+    GridFrame frame;                               ///< of their cells
+    BlockedPaths people;                           ///< people and objects that block a path, and the goals behind them
     bool beyond_limits = false;
   };
   [[nodiscard]] bool was_reachable(const CutOffFloor& part, const GridFrame& frame) const;
@@ -84,24 +89,24 @@ class Exploration::Impl {
 
   nav::RetryDrive home_;
   std::optional<Point2> start_;
-  std::optional<ExploreEnd> pending_end_;  ///< of kReturn: what will be reported on arrival
+  std::optional<ExploreEnd> pending_end_;  ///< during kReturn: the end that is reported on arrival
   std::optional<ExploreEnd> end_;
 
-  nav::RetryDrive back_;         ///< of kRegain
-  std::deque<Point2> back_way_;  ///< of kRegain: places still to go to
-  bool back_driving_ = false;    ///< towards the first of them
-  RobotTime got_back_;           ///< of kRegain: when the last of the places was reached, or it began
-  int fruitless_regains_ = 0;    ///< in a row, without new floor in between
+  nav::RetryDrive back_;            ///< drive of kRegain
+  std::deque<Point2> regain_path_;  ///< places that kRegain still has to visit, frame `map`
+  bool back_driving_ = false;       ///< whether the robot drives towards the first of them
+  RobotTime got_back_;              ///< during kRegain: when the last place was reached, or when the mode began
+  int fruitless_regains_ = 0;       ///< regains in a row without new floor in between
   double floor_at_regain_m2_ = 0.0;
 
   nav::KnownFloor known_floor_;
-  nav::PlannedDriver lookout_;              ///< to where one sees whether the way is free again
-  std::optional<RobotTime> waiting_since_;  ///< for somebody to move out of the way
-  nav::WaitTurns turns_;                    ///< since new floor was seen
+  nav::PlannedDriver lookout_;  ///< drive to a place from which the robot sees whether the path is free again
+  std::optional<RobotTime> waiting_since_;  ///< since when the robot waits for a blocked path to become free
+  nav::WaitSchedule wait_schedule_;         ///< waits since new floor was observed
   double floor_at_wait_m2_ = 0.0;
 
   std::optional<RobotTime> battery_low_since_;
-  bool battery_checked_ = true;  ///< false after the battery has sent the robot home
+  bool battery_checked_ = true;  ///< false after a low battery has ended the exploration
   std::optional<RobotTime> time_checked_at_;
   bool standing_ = false;  ///< waiting for a pose or a scan
   RobotTime lost_since_;

@@ -7,24 +7,24 @@
 
 namespace seeker::explore {
 
-/// Goes to where it sees the place, or out of the way of who is there, and stands there.
-void Exploration::Impl::begin_wait(const nav::WaitTurn& turn, const StrategyInput& input, ExploreStep& out) {
+/// Drives to a place in sight of the blocked place, or aside of the person who blocks it, and stands there.
+void Exploration::Impl::begin_wait(const nav::PlannedWait& planned, const StrategyInput& input, ExploreStep& out) {
   // The most so far: floor that comes back when somebody has walked by is no new floor.
   floor_at_wait_m2_ = std::max(floor_at_wait_m2_, known_floor_.present_area_m2());
   waiting_since_ = input.now;
   out.phase = "wait";
-  out.activity = "waiting for the way to " + text(turn.p_map) + " to become free again";
+  out.activity = "waiting for the path to " + text(planned.p_map) + " to become free again";
   Point2 place = input.map_T_base.translation();
   if (const auto floor = floors_.view()) {
     if (const auto costs = nav::DistanceField::build((*floor)->cost, place)) {
-      const auto found =
-          turn.aside ? nav::place_aside(turn.p_map, **floor, *costs) : nav::lookout_for(turn.p_map, **floor, *costs);
+      const auto found = planned.aside ? nav::place_aside(planned.p_map, **floor, *costs)
+                                       : nav::lookout_for(planned.p_map, **floor, *costs);
       place = found.value_or(place);
     }
   }
-  const Point2 to = turn.p_map - place;
+  const Point2 to = planned.p_map - place;
   if (!lookout_.start(input, place, std::atan2(to.y(), to.x()))) {
-    out.activity += "; no way to where one would wait: " + lookout_.reason();
+    out.activity += "; no path to the place for waiting: " + lookout_.reason();
   }
 }
 
@@ -44,15 +44,16 @@ bool Exploration::Impl::waits(const StrategyInput& input, ExploreStep& out) {
   out.command = driven.command;
   out.planned_path = lookout_.path();
   out.phase = "wait";
-  out.activity = "waiting for the way to become free again";
+  out.activity = "waiting for the path to become free again";
   return true;
 }
 
-/// Somebody who stands in the way is given some time to go on, and what could not be reached is tried again.
+/// Gives somebody who blocks the path some time to move on, after which the places that could not be reached are tried
+/// again.
 void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyInput& input, ExploreStep& out) {
   const Left left = what_is_left(input);
   if (known_floor_.present_area_m2() > floor_at_wait_m2_ + kNewFloor_m2) {
-    turns_.reset();
+    wait_schedule_.reset();
   }
   std::vector<nav::BlockedPlace> places = left.cut_off;
   for (const Point2& p_map : left.people.at_map) {
@@ -62,13 +63,13 @@ void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyIn
   if (const Point2 here = input.map_T_base.translation(); left.no_floor && known_floor_.was_reachable(here)) {
     places.push_back({here, true});
   }
-  for (const Point2& p_map : last.unreachable) {
+  for (const UnreachablePlace& place : last.unreachable) {
     if (last.tries_again) {
-      places.push_back({p_map, false});
+      places.push_back({place.p_map, false});
     }
   }
-  if (const auto turn = turns_.next(places)) {
-    begin_wait(*turn, input, out);
+  if (const auto planned = wait_schedule_.next(places)) {
+    begin_wait(*planned, input, out);
     return;
   }
   conclude(end_for(left, last, input.map_T_base.translation()), input.now, out);

@@ -41,7 +41,7 @@ Status check_controls(const OneStepParams& p) {
   }
   for (const double omega : p.omega_rad_s) {
     if (!std::isfinite(omega)) {
-      return fail(Errc::kInvalidArgument, "one_step.omega_rad_s: turning speeds must be finite");
+      return fail(Errc::kInvalidArgument, "one_step.omega_rad_s: rotation speeds must be finite");
     }
   }
   if (p.trap_decisions < 1 || p.fruitless_decisions < 1 || p.max_observed < 1 || p.sensor.nominal_points < 1) {
@@ -139,7 +139,7 @@ Status validate(const ExploreParams& params) {
   }
   if (params.guard.home_m_s > params.driver.follower.max_v_m_s) {
     return fail(Errc::kInvalidArgument,
-                "guard.home_m_s must not be above driver.follower.max_v_m_s: no way home is faster");
+                "guard.home_m_s must not be above driver.follower.max_v_m_s: the robot cannot return faster");
   }
   if (!(params.floor_cell_m >= kTileResolution_m)) {
     return fail(Errc::kInvalidArgument, "floor_cell_m must not be below the cells of the occupancy, 0.05 m");

@@ -1,5 +1,5 @@
 /// \file
-/// Every number of an exploration that one may tune.
+/// All tunable parameters of an exploration.
 #pragma once
 
 #include "common/core/result.hpp"
@@ -10,18 +10,20 @@
 
 namespace seeker::explore {
 
-/// What ends an exploration, or sends the robot back to a place it knows.
+/// Limits that end an exploration or send the robot back to a place where its pose was certain.
 struct GuardParams {
-  /// Beyond it the robot goes back to where it was certain. As much as a metre, for the estimator allows for bent
-  /// floors and scanners that are not level: on a floor of 1100 m2 it says 0.35 m on average where it is 0.04 m off.
+  /// Standard deviation of the position beyond which the robot returns to where it was certain. The limit is as large
+  /// as a metre because the estimator allows for uneven floors and tilted scanners: on a floor of 1100 m2 it reports
+  /// 0.35 m on average where the true error is 0.04 m.
   double max_position_sigma_m = 1.0;
-  double regain_position_sigma_m = 0.5;  ///< and explores on below this
-  /// On the way back no place reached in so long, or not regained so long after the last: it ends as uncertain.
+  double regain_position_sigma_m = 0.5;  ///< the robot explores on below this standard deviation
+  /// The exploration ends as uncertain when no place of the return path was reached for this time, or when the position
+  /// is still uncertain for this time after the last place.
   double regain_time_s = 180.0;
-  double battery_reserve_v = 11.5;  ///< below it the exploration ends; Pioneer 3-DX: 12 V lead accumulators
-  double home_m_s = 0.3;            ///< it drives home so fast, turns and stops counted in,
-  double home_margin = 1.5;         ///< and sets out with so many times the time that this takes,
-  double home_reserve_s = 20.0;     ///< and so much more: to brake, turn round, and for what it drives meanwhile
+  double battery_reserve_v = 11.5;  ///< the exploration ends below this voltage; Pioneer 3-DX: 12 V lead accumulators
+  double home_m_s = 0.3;            ///< average speed of the return to the start, including stops and rotations
+  double home_margin = 1.5;  ///< the return starts when the remaining time is its expected duration times this factor
+  double home_reserve_s = 20.0;  ///< plus this time, for braking, turning around, and driving until the next check
 };
 
 struct ExploreParams {
@@ -34,10 +36,10 @@ struct ExploreParams {
   nav::DriverParams driver;
   double floor_cell_m = 0.2;
   double map_period_s = 1.0;       ///< shortest time between two cost maps
-  double segments_period_s = 0.5;  ///< shortest time between two looks at the whole map of segments
+  double segments_period_s = 0.5;  ///< shortest time between two readings of all segments of the map
 };
 
-/// Refuses values that make no sense.
+/// Refuses values that are invalid or contradict each other.
 [[nodiscard]] Status validate(const ExploreParams& params);
 
 }  // namespace seeker::explore

@@ -3,7 +3,7 @@
 namespace seeker::explore {
 namespace {
 
-/// Nearest frontier (Yamauchi 1997), nearest by the cost of the way; with the ends of walls where they are wanted.
+/// Nearest frontier (Yamauchi 1997) by path cost; with the ends of walls where they are requested.
 class FrontierChooser final : public PlaceChooser {
  public:
   explicit FrontierChooser(bool wall_ends) : wall_ends_(wall_ends) {}

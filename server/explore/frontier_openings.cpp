@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/core/text.hpp"
 #include "server/explore/openings.hpp"
 #include "server/nav/frontiers.hpp"
 
@@ -141,12 +142,18 @@ std::vector<CutOffFloor> cut_off_floor(const nav::CostMap& map, const nav::Dista
           }
         }
       }
-      if (cell_m2 * static_cast<double>(part.size()) >= min_m2) {
-        parts.push_back({map.frame().centre_of(part[part.size() / 2]), std::move(part)});
+      const double area_m2 = cell_m2 * static_cast<double>(part.size());
+      if (area_m2 >= min_m2) {
+        parts.push_back({map.frame().centre_of(part[part.size() / 2]), std::move(part), area_m2});
       }
     }
   }
   return parts;
+}
+
+UnreachablePlace unreachable_place(const CutOffFloor& floor) {
+  return {floor.p_map, UnreachableCause::kCutOff, std::sqrt(floor.area_m2),
+          "no path leads to the " + text(floor.area_m2) + " m\xC2\xB2 of floor that are seen there"};
 }
 
 }  // namespace seeker::explore

@@ -12,7 +12,8 @@ namespace {
 constexpr int kSamples = 6;  ///< places about each opening, besides the one at it
 constexpr double kSampleRadius_m = 1.0;
 
-/// Next best view on the occupancy: unknown area in sight times exp(-lambda way) (Gonzalez-Banos and Latombe 2002).
+/// Next best view on the occupancy: unknown area in sight times exp(-lambda path length) (Gonzalez-Banos and Latombe
+/// 2002).
 class GainChooser final : public PlaceChooser {
  public:
   explicit GainChooser(const ExploreParams& params) : params_(params) {}
@@ -32,7 +33,7 @@ class GainChooser final : public PlaceChooser {
       }
     }
     choice.decision.why =
-        choice.opening ? "most unknown floor in sight for its way" : "no place shows enough new floor";
+        choice.opening ? "most unknown floor in sight for its path length" : "no place shows enough new floor";
     return choice;
   }
   [[nodiscard]] bool wants_wall_ends() const override { return false; }

@@ -12,8 +12,8 @@ namespace {
 /// Walls farther away than this and the sensor's range do not count among those that may grow.
 constexpr double kSceneReach_m = 15.0;
 
-/// Beam search over sequences of drives, by the objective of spec S1.11 for all of a sequence, with the length of the
-/// way and the unknown floor in sight as further terms.
+/// Beam search over sequences of drives, by the objective of spec S1.11 for a whole sequence, with the path length
+/// and the unknown floor in sight as further terms.
 class HorizonChooser final : public PlaceChooser {
  public:
   explicit HorizonChooser(const ExploreParams& params) : params_(params) {}
@@ -33,8 +33,8 @@ class HorizonChooser final : public PlaceChooser {
     std::vector<HorizonView> views;
     double least_uncertainty = 0.0;
     std::vector<Point2> places;  ///< of views
-    CoarseWays ways;
-    std::vector<std::vector<double>> way_m;  ///< from view to view, where needed
+    CoarsePaths paths;
+    std::vector<std::vector<double>> path_m;  ///< from view to view, where needed
   };
 
   [[nodiscard]] Outlook look_out(const PlaceInput& input) const;
@@ -55,14 +55,14 @@ HorizonChooser::Outlook HorizonChooser::look_out(const PlaceInput& input) const 
   Belief belief = robot.belief ? Belief(*robot.belief)
                                : Belief(robot.map_T_base, robot.covariance, robot.segments,
                                         static_cast<std::size_t>(one_step.max_observed));
-  Outlook outlook{input, std::move(scene), std::move(belief), {}, 0.0, {}, CoarseWays(input.floor.reachable), {}};
+  Outlook outlook{input, std::move(scene), std::move(belief), {}, 0.0, {}, CoarsePaths(input.floor.reachable), {}};
   outlook.views = horizon_views(input, outlook.scene, params_);
   outlook.least_uncertainty = least_uncertainty(outlook.belief, one_step.sensor);
   outlook.places.reserve(outlook.views.size());
   for (const HorizonView& view : outlook.views) {
     outlook.places.push_back(view.opening.map_T_view.translation());
   }
-  outlook.way_m.resize(outlook.views.size());
+  outlook.path_m.resize(outlook.views.size());
   return outlook;
 }
 
@@ -76,7 +76,7 @@ void HorizonChooser::rate(HorizonSequence& sequence, const Outlook& outlook) con
   sequence.score = sequence.terms.score + params_.viewpoints.weight_floor * std::log10(sequence.floor_m2);
 }
 
-/// Best first. `always` is kept whatever its score: the first drive that the robot is on.
+/// Best first. `always` is kept with any score: it begins with the present drive of the robot.
 void HorizonChooser::keep_best(Beam& beam, std::size_t count, std::optional<std::size_t> always) const {
   std::stable_sort(beam.begin(), beam.end(),
                    [](const HorizonSequence& a, const HorizonSequence& b) { return a.score > b.score; });
@@ -101,7 +101,7 @@ HorizonChooser::Beam HorizonChooser::first_drives(const Outlook& outlook, std::o
   for (std::size_t k = 0; k < outlook.views.size(); ++k) {
     HorizonSequence first;
     first.uncertainty = now;
-    beam.push_back(extended(first, outlook.views, k, outlook.views[k].way_m, params_.viewpoints.weight_path));
+    beam.push_back(extended(first, outlook.views, k, outlook.views[k].path_m, params_.viewpoints.weight_path));
     rate(beam.back(), outlook);
   }
   // Covariances along a path are dear: for the promising ones only.
@@ -121,14 +121,14 @@ std::optional<HorizonChooser::Beam> HorizonChooser::one_drive_more(const Beam& b
   bool any = false;
   for (const HorizonSequence& sequence : beam) {
     const std::size_t last = sequence.stops.back();
-    std::vector<double>& way_m = outlook.way_m[last];
-    if (way_m.empty()) {
-      way_m = outlook.ways.lengths_m(outlook.places[last], outlook.places);
+    std::vector<double>& path_m = outlook.path_m[last];
+    if (path_m.empty()) {
+      path_m = outlook.paths.lengths_m(outlook.places[last], outlook.places);
     }
     bool goes_on = false;
     for (std::size_t k = 0; k < outlook.views.size(); ++k) {
-      if (!sequence.settles(k) && way_m[k] != CoarseWays::kNoWay) {
-        longer.push_back(extended(sequence, outlook.views, k, way_m[k], params_.viewpoints.weight_path));
+      if (!sequence.settles(k) && path_m[k] != CoarsePaths::kNoPath) {
+        longer.push_back(extended(sequence, outlook.views, k, path_m[k], params_.viewpoints.weight_path));
         rate(longer.back(), outlook);
         goes_on = true;
       }
@@ -178,7 +178,7 @@ ExploreDecision HorizonChooser::publish(const Outlook& outlook, const Beam& trie
     const HorizonView& view = outlook.views[k];
     DecisionCandidate candidate;
     candidate.map_T_base = view.opening.map_T_view;
-    candidate.path_m = view.way_m;
+    candidate.path_m = view.path_m;
     const auto first =
         std::find_if(tried.begin(), tried.end(), [&](const HorizonSequence& s) { return s.stops.front() == k; });
     if (first != tried.end()) {
@@ -192,7 +192,7 @@ ExploreDecision HorizonChooser::publish(const Outlook& outlook, const Beam& trie
     decision.candidates.push_back(std::move(candidate));
   }
   decision.chosen = static_cast<std::uint32_t>(best.stops.front());
-  decision.why = "best of " + std::to_string(best.stops.size()) + " drives of " + text(best.way_m) + " m to " +
+  decision.why = "best of " + std::to_string(best.stops.size()) + " drives of " + text(best.path_m) + " m to " +
                  describe(outlook.views[best.stops.front()].opening);
   return decision;
 }

@@ -13,16 +13,17 @@ namespace {
 constexpr double kSameFloor_m = 3.0;
 /// More unknown floor than this is a guess, not a reason.
 constexpr double kMostFloor_m2 = 8.0;
-/// What stopping and turning costs, as a way.
+/// Cost of stopping and rotating, as a path length.
 constexpr double kStop_m = 0.5;
-/// Every opening has to be looked at some time: worth as much as so much unknown floor, however little it shows.
+/// Value of observing an opening at all, in unknown floor: every opening has to be observed at some time, however
+/// little floor it shows.
 constexpr double kSettled_m2 = 2.0;
 /// Looks along a path: so far apart, and no more than so many.
 constexpr double kLookEvery_m = 1.0;
 constexpr std::size_t kMaxLooks = 8;
 /// Speeds of the predicted drive: what counts is the noise by distance and angle.
 constexpr double kSpeed_m_s = 0.3;
-constexpr double kTurn_rad_s = 0.5;
+constexpr double kRotation_rad_s = 0.5;
 
 /// Poses along a path, each looking where it leads; the last one as the view wants it.
 std::vector<Pose2> looks_along(const nav::Path& path, const Pose2& last) {
@@ -44,8 +45,9 @@ std::vector<Pose2> looks_along(const nav::Path& path, const Pose2& last) {
 }
 
 void move_to(PredictedBelief& belief, const Pose2& from, const Pose2& to, const slam::OdometryParams& odometry) {
-  const double turn_rad = wrap_angle(to.theta_rad - from.theta_rad);
-  belief.move(predict_motion({0.0, std::copysign(kTurn_rad_s, turn_rad)}, std::abs(turn_rad) / kTurn_rad_s, odometry));
+  const double rotation_rad = wrap_angle(to.theta_rad - from.theta_rad);
+  belief.move(predict_motion({0.0, std::copysign(kRotation_rad_s, rotation_rad)},
+                             std::abs(rotation_rad) / kRotation_rad_s, odometry));
   belief.move(predict_motion({kSpeed_m_s, 0.0}, distance_m(from, to) / kSpeed_m_s, odometry));
 }
 
@@ -75,7 +77,7 @@ std::vector<HorizonView> horizon_views(const PlaceInput& input, const SightScene
     const Opening& opening = input.openings[k];
     HorizonView view;
     view.opening = opening;
-    view.way_m = opening.cost;
+    view.path_m = opening.cost;
     const ViewGain gain = view_gain(input.floor.cost, opening.map_T_view.translation(), params.one_step.sensor);
     view.floor_m2 = std::min(gain.area_m2, kMostFloor_m2);
     view.growth = scene.look(opening.map_T_view).growth();
@@ -86,7 +88,7 @@ std::vector<HorizonView> horizon_views(const PlaceInput& input, const SightScene
 }
 
 HorizonSequence extended(const HorizonSequence& sequence, const std::vector<HorizonView>& views, std::size_t view,
-                         double way_m, double weight_path) {
+                         double path_m, double weight_path) {
   HorizonSequence longer = sequence;
   const HorizonView& added = views[view];
   double share = 1.0;
@@ -95,8 +97,8 @@ HorizonSequence extended(const HorizonSequence& sequence, const std::vector<Hori
     share = std::min(share, apart_m / kSameFloor_m);
   }
   longer.stops.push_back(view);
-  longer.way_m += way_m + kStop_m;
-  const double discount = std::pow(longer.way_m, -weight_path);
+  longer.path_m += path_m + kStop_m;
+  const double discount = std::pow(longer.path_m, -weight_path);
   longer.floor_m2 += discount * share * added.floor_m2;
   for (const std::size_t shown : added.shows) {
     if (!longer.settles(shown)) {

@@ -1,6 +1,6 @@
 /// \file
-/// Turns round where the robot's position has become less certain, so that what lies behind it ties down what lies
-/// ahead.
+/// Rotation on the spot when the position has become less certain, so that observations of the walls behind the robot
+/// reduce the uncertainty of the walls ahead.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,24 @@
 
 namespace seeker::explore {
 
-/// A scanner that looks ahead loses sight of what the robot has passed before it sees the next walls well: between two
-/// doors of a corridor only the wheels tell the way, and what they were off by stays in the map. One turn on the spot,
-/// which costs no certainty, shows both sides from one place.
+/// Decides when the robot rotates once on the spot. A scanner that looks ahead loses sight of the passed walls before
+/// it sees the next walls well: between two doors of a corridor only odometry gives the distance, and its error stays
+/// in the map. One rotation on the spot adds no position error and shows both sides from one place.
 class LookRound {
  public:
   explicit LookRound(const OneStepParams& params) : params_(params) {}
 
-  /// At a decision, with the covariance of (x, y, theta): the control of the next part of a turn. Nothing: none is due.
+  /// Call at each decision with the covariance of (x, y, theta): the control for the next part of a rotation. Nothing:
+  /// no rotation is due.
   [[nodiscard]] std::optional<Twist2> next(const Matrix3& covariance);
-  /// The turn, if there is one, is over.
+  /// Ends the present rotation, if there is one.
   void cancel() { left_rad_ = 0.0; }
 
  private:
   OneStepParams params_;
-  double left_rad_ = 0.0;  ///< of the present turn
-  double known_m2_ = 0.0;  ///< largest variance of the position after the last turn, or the least since
-  bool after_turn_ = false;
+  double left_rad_ = 0.0;  ///< angle left of the present rotation
+  double known_m2_ = 0.0;  ///< largest variance of the position after the last rotation, or the smallest since then
+  bool after_rotation_ = false;
 };
 
 }  // namespace seeker::explore

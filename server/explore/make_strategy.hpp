@@ -9,7 +9,7 @@
 
 namespace seeker::explore {
 
-/// Never null.
+/// The strategy object; never null.
 [[nodiscard]] std::unique_ptr<ExploreStrategy> make_strategy(Strategy strategy, const ExploreParams& params);
 [[nodiscard]] StrategyMaker maker_of(Strategy strategy);
 

@@ -177,7 +177,7 @@ void PredictedBelief::observe(const Belief& belief, const Pose2& map_T_base, con
   Eigen::MatrixXd pht = times_transposed(p_, groups, rows);
   const Eigen::LLT<Eigen::MatrixXd> llt(innovation_of(pht, groups));
   if (llt.info() != Eigen::Success) {
-    return;  // what cannot be computed teaches nothing
+    return;  // what cannot be computed gives no information
   }
   llt.matrixU().solveInPlace<Eigen::OnTheRight>(pht);
   p_.selfadjointView<Eigen::Lower>().rankUpdate(pht, -1.0);

@@ -1,5 +1,5 @@
 /// \file
-/// What one alternative is worth: the objective of the active-SLAM paper (spec S1.11, eqs (18)-(22)).
+/// Value of one alternative: the objective of the active-SLAM paper (spec S1.11, eqs (18)-(22)).
 #pragma once
 
 #include <cstddef>
@@ -31,13 +31,13 @@ struct PredictedSight {
 
 class PredictedBelief;
 
-/// What is known of robot and walls now. Must not outlive the filter it came from, which joint() reads.
+/// Present estimate of robot and walls. It must not outlive the filter that it was made from, because joint() reads it.
 class Belief {
  public:
   /// Robot and walls of the filter; the walls' shapes are in the frame `map`.
   explicit Belief(const slam::LocalBelief& filter);
-  /// For estimators that keep no joint covariance: every wall for itself. `covariance_map` as in PoseEstimate; at most
-  /// `max_walls` of the segments, nearest to the robot.
+  /// For estimators without a joint covariance: each wall is independent. `covariance_map` as in PoseEstimate; at most
+  /// `max_walls` of the segments are used, those nearest to the robot.
   Belief(const Pose2& map_T_base, const Matrix3& covariance_map, const std::vector<MapSegment>& segments,
          std::size_t max_walls);
 
@@ -48,26 +48,27 @@ class Belief {
 
  private:
   const slam::SpMap* filter_ = nullptr;
-  std::vector<std::uint64_t> ids_;  ///< in the filter
+  std::vector<std::uint64_t> ids_;  ///< ids in the filter
   std::vector<SightWall> walls_;
-  std::vector<Matrix2> covariances_;  ///< without a filter
+  std::vector<Matrix2> covariances_;  ///< covariances of the walls when there is no filter
   std::vector<double> sizes_;         ///< sqrt(det C_i), by wall
   double all_sizes_ = 0.0;
-  Matrix3 robot_ = Matrix3::Zero();  ///< of d_R, frame `base`
+  Matrix3 robot_ = Matrix3::Zero();  ///< covariance of d_R, frame `base`
 };
 
-/// Robot and some walls in the future. Moving and observing cost O(n^2) in their rows.
+/// Predicted joint covariance of the robot and some walls. Moving and observing cost O(n^2) in the number of rows.
 class PredictedBelief {
  public:
-  /// Eq (11).
+  /// Predicts a motion by eq (11).
   void move(const PredictedMotion& motion);
-  /// The covariance update of S1.7 with nominal observations from `map_T_base`. Sights of walls that are not in the
-  /// joint are left out.
+  /// Covariance update of S1.7 with nominal observations from `map_T_base`. Observations of walls outside the joint are
+  /// ignored.
   void observe(const Belief& belief, const Pose2& map_T_base, const std::vector<PredictedSight>& sights,
                const SensorModel& sensor);
-  /// U of eq (19), over all walls of the belief; those outside the joint as they are.
+  /// U of eq (19), over all walls of the belief; walls outside the joint count with their present covariance.
   [[nodiscard]] double uncertainty() const;
-  [[nodiscard]] Matrix3 robot_covariance() const { return p_.topLeftCorner<3, 3>(); }  ///< of d_R, frame `base`
+  /// Covariance of d_R, frame `base`.
+  [[nodiscard]] Matrix3 robot_covariance() const { return p_.topLeftCorner<3, 3>(); }
 
  private:
   friend class Belief;
@@ -79,13 +80,14 @@ class PredictedBelief {
 
   Eigen::MatrixXd p_;
   std::vector<Block> blocks_;
-  double other_sizes_ = 0.0;  ///< of the walls outside
+  double other_sizes_ = 0.0;  ///< sum of sqrt(det C_i) of the walls outside the joint
 };
 
-/// What a look observes of the belief's walls, the nearest ones first, at most `max_observed`.
+/// The walls of the belief that a view observes, the nearest ones first, at most `max_observed`.
 [[nodiscard]] std::vector<PredictedSight> predict_sights(const Belief& belief, const SightView& view, int max_observed);
 
-/// U_min of eq (18): "the uncertainty of the sensor model". Constant for one map, so that it decides nothing.
+/// U_min of eq (18): "the uncertainty of the sensor model". It is constant for one map, so that it does not affect
+/// decisions.
 [[nodiscard]] double least_uncertainty(const Belief& belief, const SensorModel& sensor);
 
 struct Terms {
@@ -93,20 +95,20 @@ struct Terms {
   double j21 = 0.0;
   double j22 = 0.0;
   double lg_j1 = 0.0;
-  double lg_j21 = 0.0;  ///< of max(j21, log_floor)
+  double lg_j21 = 0.0;  ///< logarithm of max(j21, log_floor)
   double lg_j22 = 0.0;
   double score = 0.0;  ///< J of eq (22)
 
-  /// Neither a wall nor an end to be gained.
+  /// Whether neither a wall nor a wall end would be gained.
   [[nodiscard]] bool gains_nothing(double log_floor) const { return j21 <= log_floor && j22 <= log_floor; }
 };
 
-/// Eqs (18)-(22) from what was predicted. The sums of (20) and (21) run over the walls of the scene, that is around the
-/// robot: over a whole building they would sink below the floor of the logarithm with every wall gained.
+/// Eqs (18)-(22) from the predictions. The sums of (20) and (21) run over the walls of the scene, that is around the
+/// robot: over a whole building they would fall below the floor of the logarithm as the number of walls grows.
 [[nodiscard]] Terms combine(double least_uncertainty, double uncertainty, const Growth& growth, const SightScene& scene,
                             const OneStepParams& params);
 
-/// Motions from one place, each ending in one look.
+/// Values of several motions from one place, each followed by one observation.
 [[nodiscard]] std::vector<Terms> evaluate(const Pose2& map_T_base, const std::vector<PredictedMotion>& motions,
                                           const SightScene& scene, const Belief& belief, const OneStepParams& params);
 

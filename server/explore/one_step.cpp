@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMaxLooseWalls = 128;
 /// Beyond the sensor's range and the step, for what is about to come into view.
 constexpr double kReachMargin_m = 0.5;
-constexpr double kPreferStraight_s = 0.05;  ///< of a hall: metres per second lost for a radian per second of turning
+constexpr double kPreferStraight_s = 0.05;  ///< of a hall: metres per second lost for a radian per second of rotation
 
 Belief belief_of(const StrategyInput& input, const std::vector<MapSegment>& segments) {
   return input.belief ? Belief(*input.belief) : Belief(input.map_T_base, input.covariance, segments, kMaxLooseWalls);
@@ -37,7 +37,7 @@ void choose_best(OneStepChoice& choice) {
   if (choice.decision.chosen) {
     choice.control = choice.decision.candidates[*choice.decision.chosen].control;
   } else {
-    choice.decision.why = "no control may be held: something is in the way everywhere";
+    choice.decision.why = "no control may be held: obstacles block every one";
   }
 }
 

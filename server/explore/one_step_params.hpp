@@ -1,5 +1,5 @@
 /// \file
-/// Numbers of the one-step objective (spec S1.11), of wall following (S1.12) and of roaming (S1.13).
+/// Parameters of the one-step objective (spec S1.11), of wall following (S1.12) and of roaming (S1.13).
 #pragma once
 
 #include <vector>
@@ -9,49 +9,54 @@
 
 namespace seeker::explore {
 
-/// Nominal sensor of the predictions.
+/// Nominal sensor model of the predictions.
 struct SensorModel {
   double range_m = 6.0;
   double half_angle_rad = deg_to_rad(90.0);
-  double grazing_rad = deg_to_rad(5.0);  ///< walls seen flatter than this are not seen
+  double grazing_rad = deg_to_rad(5.0);  ///< walls seen at a flatter angle than this are not observed
   double sigma_y_m = 0.01;
   double sigma_theta_rad = 0.01;
   double sigma_end_m = 0.03;
-  int nominal_points = 8;  ///< sigmas above hold for a line of so many points
+  int nominal_points = 8;  ///< the standard deviations above hold for a line of this many points
   double beam_step_rad = deg_to_rad(0.5);
 };
 
 struct OneStepParams {
   std::vector<double> v_m_s{0.0, 0.05, 0.10, 0.15};
   std::vector<double> omega_rad_s{-0.17, -0.085, 0.0, 0.085, 0.17};
-  double observation_period_s = 4.0;  ///< a control is held so long
-  bool stop_and_go = true;            ///< stand while observing, as in the paper; false: decide while driving
-  double settle_s = 0.3;              ///< of stop_and_go: standing before the decision
-  /// Standing before the first decision: nowhere is the pose known better than at the start, and the walls seen from
-  /// there give the whole map its direction.
+  double observation_period_s = 4.0;  ///< time for which a control is held
+  /// True: the robot stands while observing, as in the paper; false: it decides while driving.
+  bool stop_and_go = true;
+  double settle_s = 0.3;  ///< with stop_and_go: time at rest before a decision
+  /// Time at rest before the first decision. The pose is nowhere better known than at the start, and the walls observed
+  /// from there define the heading of the whole map.
   double first_look_s = 5.0;
-  /// The robot turns round once where its position has become less certain by this: the square root of what its largest
-  /// variance has grown by since the last turn. 0: never.
+  /// The robot rotates once on the spot when its position uncertainty has grown by this: the square root of the growth
+  /// of its largest variance since the last rotation. 0: never.
   double look_round_m = 0.0;
   double weight_certainty = 1.0;  ///< omega_1
   double weight_extension = 0.5;  ///< omega_21
   double weight_ends = 0.5;       ///< omega_22
-  double log_floor = 1e-3;        ///< lg max(J, this)
+  double log_floor = 1e-3;        ///< the objective uses lg max(J, this)
   double swept_radius_m = 0.30;
-  double corner_gap_m = 0.3;  ///< virtual ends so near to a crossing will meet there
-  int trap_decisions = 3;     ///< in a row without anything to gain: a local trap
-  /// Also a trap: so many in a row that promised something and brought neither of the growths below.
+  /// Virtual ends within this distance of the crossing of their walls are expected to meet there.
+  double corner_gap_m = 0.3;
+  int trap_decisions = 3;  ///< number of decisions in a row without any gain that is a local trap
+  /// Number of decisions in a row with a predicted gain but without either of the growths below that is also a local
+  /// trap.
   int fruitless_decisions = 6;
-  double least_growth_m = 0.3;   ///< of the walls
-  double least_growth_m2 = 0.5;  ///< of the floor known to be free
-  double closed_radius_m = 0.4;  ///< ends of walls so near to one that led nowhere are taken for real
-  int max_observed = 32;         ///< segments that a prediction updates, the nearest: bounds the cost of a decision
-  bool escape_by_path = true;    ///< when no wall leads on, drive to what is left by planned paths; false: as printed
-  /// What is known of the floor counts too: walls do not go on where the floor was seen to be free, and obstacles that
-  /// are no walls hide what is behind them. false: as printed, mapped segments only.
+  double least_growth_m = 0.3;   ///< growth of the length of the walls
+  double least_growth_m2 = 0.5;  ///< growth of the area of the floor known to be free
+  double closed_radius_m = 0.4;  ///< wall ends within this distance of an end that led nowhere are treated as real
+  /// Largest number of segments that a prediction updates, the nearest ones: limits the cost of a decision.
+  int max_observed = 32;
+  /// True: when no wall leads on, drive to the remaining openings by planned paths; false: as printed.
+  bool escape_by_path = true;
+  /// Whether the known floor is used too: walls do not extend where the floor was observed to be free, and obstacles
+  /// that are no walls hide what is behind them. false: as printed, mapped segments only.
   bool use_floor = true;
   SensorModel sensor;
-  slam::OdometryParams odometry;  ///< of the predictions; only its noise counts
+  slam::OdometryParams odometry;  ///< odometry model of the predictions; only its noise is used
 };
 
 struct WallParams {
@@ -59,7 +64,7 @@ struct WallParams {
   double switch_m = 0.6;    ///< d_sw
   double adjacency_m = 1.0;
   double leave_growth_m = 0.5;
-  double time_limit_s = 300.0;  ///< one escape; then by path
+  double time_limit_s = 300.0;  ///< time limit of one escape along walls, after which planned paths are used
 };
 
 struct RoamParams {

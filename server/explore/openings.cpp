@@ -15,9 +15,9 @@ namespace {
 constexpr double kViewHalfAngle_rad = deg_to_rad(80.0);
 /// A wall seen flatter than this gives no line worth the name.
 constexpr double kFlat_rad = deg_to_rad(12.0);
-/// Where one stands to look at the side of something, off the way square out of it.
+/// Angles at which a viewpoint may lie off the perpendicular of the observed side.
 constexpr std::array<double, 7> kViewAngles_deg{0.0, 25.0, -25.0, 50.0, -50.0, 65.0, -65.0};
-/// Beside a wall one looks at the floor before it: the wall's own cells are occupied.
+/// Beside a wall the floor in front of it is observed, because the wall's own cells are occupied.
 constexpr double kOffWall_m = 0.15;
 /// After a correction of the map openings are looked for about where they were, for so long and no farther than this.
 constexpr double kSettle_s = 10.0;
@@ -36,6 +36,16 @@ bool unknown_near(const Grid<std::uint8_t>& occupancy, const Point2& p_map, doub
     }
   }
   return false;
+}
+
+std::string text_of(OpeningKind kind) {
+  const std::string no_drive = "no drive came to a place that shows ";
+  switch (kind) {
+    case OpeningKind::kFrontier: return no_drive + "what lies behind the border of unknown floor";
+    case OpeningKind::kWallEnd: return no_drive + "how far the wall goes on";
+    case OpeningKind::kWallFace: break;
+  }
+  return no_drive + "this side of the wall";
 }
 
 }  // namespace
@@ -76,13 +86,14 @@ bool Openings::still_there(const Memory& memory, const OpeningsInput& input) con
         return (!wall.left_real && (wall.left() - memory.p_map).norm() < params_.same_m) ||
                (!wall.right_real && (wall.right() - memory.p_map).norm() < params_.same_m);
       });
-    case OpeningKind::kWallFace: break;  // told until it has been looked at: which cells were its face is not kept
+    case OpeningKind::kWallFace: break;  // reported until it was observed: the cells of its face are not kept
   }
   return true;
 }
 
 bool Openings::is_open(Opening& opening, const OpeningsInput& input) {
   Memory& memory = memory_of(opening);
+  memory.size_m = opening.size_m;
   const bool near_enough = opening.kind != OpeningKind::kFrontier ||
                            (opening.p_map - input.map_T_base.translation()).norm() < params_.reached_m;
   if (near_enough && well_in_view(opening, input.map_T_base, input.floor.occupancy, params_)) {
@@ -150,11 +161,11 @@ void Openings::try_again() {
   }
 }
 
-std::vector<Point2> Openings::given_up() const {
-  std::vector<Point2> places;
+std::vector<UnreachablePlace> Openings::given_up() const {
+  std::vector<UnreachablePlace> places;
   for (const Memory& memory : memories_) {
     if (memory.failures >= params_.max_failures && memory.visits < params_.max_visits && !memory.gone) {
-      places.push_back(memory.p_map);
+      places.push_back({memory.p_map, UnreachableCause::kBlocked, memory.size_m, text_of(memory.kind)});
     }
   }
   return places;

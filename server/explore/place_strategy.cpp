@@ -9,7 +9,7 @@
 namespace seeker::explore {
 namespace {
 
-constexpr double kTurn_rad_s = 0.6;
+constexpr double kRotation_rad_s = 0.6;
 constexpr double kWaitTick_s = 1.0;
 
 Opening moved(Opening opening, const MapMove& move) {
@@ -36,7 +36,7 @@ StrategyStep PlaceStrategy::step(const StrategyInput& input) {
     case State::kChoose: choose(input, out); break;
     case State::kDrive: drive(input, out); break;
     case State::kLook: look(input, out); break;
-    case State::kTurn: turn(input, out); break;
+    case State::kRotate: rotate(input, out); break;
     case State::kWait:
       if (to_seconds(input.now - since_) >= kWaitTick_s) {
         choose(input, out);
@@ -81,14 +81,14 @@ Result<PlaceStrategy::Survey> PlaceStrategy::survey(const StrategyInput& input) 
 void PlaceStrategy::choose(const StrategyInput& input, StrategyStep& out) {
   auto found = survey(input);
   if (!found) {
-    if (turned_) {
+    if (rotated_) {
       finish(found.error().message, out);
       return;
     }
-    begin_turn(input, "turning on the spot to see more: " + found.error().message, out);
+    begin_rotation(input, "rotating on the spot to see more: " + found.error().message, out);
     return;
   }
-  turned_ = false;
+  rotated_ = false;
   since_ = input.now;
   considered_ = input.now;
   if (found->open.empty()) {
@@ -110,7 +110,7 @@ void PlaceStrategy::wait_or_finish(const StrategyInput& input, const Survey& fou
   }
   if (!looked_round_) {
     // One scan, or the first few cells of a map, may hold no border that is long enough; nor does a wall close by.
-    begin_turn(input, "turning on the spot to see what is around the start", out);
+    begin_rotation(input, "rotating on the spot to see what is around the start", out);
     return;
   }
   finish("nothing is left to explore", out);
@@ -136,13 +136,13 @@ void PlaceStrategy::go(const StrategyInput& input, PlaceChoice choice, StrategyS
 void PlaceStrategy::set_out(const StrategyInput& input) {
   since_ = input.now;
   corrected_ = false;
-  why_ = "driving to look at " + describe(*goal_) + " at " + text(goal_->p_map);
+  why_ = "driving to observe " + describe(*goal_) + " at " + text(goal_->p_map);
   if (driver_.start(input, goal_->map_T_view.translation(), goal_->map_T_view.theta_rad)) {
     state_ = State::kDrive;
     return;
   }
   openings_.failed(*goal_, input.now);
-  why_ = "no way to " + describe(*goal_) + ": " + driver_.reason();
+  why_ = "no path to " + describe(*goal_) + ": " + driver_.reason();
   state_ = State::kChoose;
 }
 
@@ -162,25 +162,25 @@ void PlaceStrategy::drive(const StrategyInput& input, StrategyStep& out) {
     case nav::DriveState::kFailed:
     case nav::DriveState::kIdle:
       openings_.failed(*goal_, input.now);
-      why_ = "no way to " + describe(*goal_) + ": " + driven.reason;
+      why_ = "no path to " + describe(*goal_) + ": " + driven.reason;
       state_ = State::kChoose;
       return;
   }
 }
 
-/// On the way: is the goal still there, and still the best?
+/// While driving: checks whether the goal is still open and still the best.
 void PlaceStrategy::reconsider(const StrategyInput& input, StrategyStep& out) {
   considered_ = input.now;
   const auto found = survey(input);
   if (!found) {
-    return;  // the drive itself notices when the way is lost
+    return;  // the drive itself detects when the path is lost
   }
   const auto same = std::find_if(found->open.begin(), found->open.end(),
                                  [&](const Opening& opening) { return opening.id == goal_->id; });
   if (same == found->open.end()) {
     state_ = State::kChoose;
     out.step_done = true;
-    out.activity = describe(*goal_) + " has been seen on the way";
+    out.activity = describe(*goal_) + " was observed on the path";
     return;
   }
   if (!chooser_->changes_its_mind()) {
@@ -202,7 +202,7 @@ void PlaceStrategy::reconsider(const StrategyInput& input, StrategyStep& out) {
 }
 
 void PlaceStrategy::look(const StrategyInput& input, StrategyStep& out) {
-  out.activity = "looking at " + describe(*goal_);
+  out.activity = "observing " + describe(*goal_);
   if (to_seconds(input.now - since_) < params_.viewpoints.look_s) {
     return;
   }
@@ -212,27 +212,27 @@ void PlaceStrategy::look(const StrategyInput& input, StrategyStep& out) {
   out.step_done = true;
 }
 
-void PlaceStrategy::begin_turn(const StrategyInput& input, std::string why, StrategyStep& out) {
+void PlaceStrategy::begin_rotation(const StrategyInput& input, std::string why, StrategyStep& out) {
   why_ = std::move(why);
-  state_ = State::kTurn;
+  state_ = State::kRotate;
   since_ = input.now;
-  turn(input, out);
+  rotate(input, out);
 }
 
-void PlaceStrategy::turn(const StrategyInput& input, StrategyStep& out) {
+void PlaceStrategy::rotate(const StrategyInput& input, StrategyStep& out) {
   out.phase = "turn";
-  if (to_seconds(input.now - since_) > kTwoPi / kTurn_rad_s) {
-    turned_ = true;
+  if (to_seconds(input.now - since_) > kTwoPi / kRotation_rad_s) {
+    rotated_ = true;
     looked_round_ = true;
     state_ = State::kChoose;
     return;
   }
-  out.command.omega_rad_s = kTurn_rad_s;
+  out.command.omega_rad_s = kRotation_rad_s;
 }
 
 void PlaceStrategy::interrupted(RobotTime now) {
   since_ = now;
-  start_anew();
+  start_again();
 }
 
 void PlaceStrategy::try_again(RobotTime now) {
@@ -252,10 +252,10 @@ void PlaceStrategy::transform(const MapMove& move) {
   corrected_ = true;
 }
 
-void PlaceStrategy::start_anew() {
+void PlaceStrategy::start_again() {
   driver_.stop();
   goal_.reset();
-  turned_ = false;
+  rotated_ = false;
   corrected_ = false;
   state_ = State::kChoose;
 }

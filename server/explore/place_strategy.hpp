@@ -1,5 +1,5 @@
 /// \file
-/// Exploring by places: choose one of the openings, drive there over a planned path, look, choose again.
+/// Exploration by places: choose one of the openings, drive there over a planned path, observe, and choose again.
 #pragma once
 
 #include <memory>
@@ -13,22 +13,24 @@
 
 namespace seeker::explore {
 
-/// What a chooser knows. `openings` are those that may be tried now, cheapest first, at least one.
+/// The inputs of a choice. `openings` are those that may be tried now, in order of rising path cost; there is at least
+/// one.
 struct PlaceInput {
   const StrategyInput& robot;
   const nav::FloorView& floor;
   const nav::DistanceField& costs;
   const std::vector<Opening>& openings;
-  /// Where the robot is bound for, while it drives; else nothing.
+  /// The present goal while the robot drives; null otherwise.
   const Opening* goal = nullptr;
 };
 
 struct PlaceChoice {
-  std::optional<Opening> opening;  ///< map_T_view may have been moved to a better place; nothing: none is worth it
+  /// Map_T_view may have been moved to a better viewpoint; nothing: no opening is worth a drive.
+  std::optional<Opening> opening;
   ExploreDecision decision;
 };
 
-/// One rule of choosing; pure apart from what it remembers between decisions.
+/// One rule for choosing a place. Its only state is what it remembers between decisions.
 class PlaceChooser {
  public:
   PlaceChooser() = default;
@@ -37,15 +39,16 @@ class PlaceChooser {
   virtual ~PlaceChooser() = default;
 
   [[nodiscard]] virtual PlaceChoice choose(const PlaceInput& input) = 0;
-  /// Whether ends of walls matter to the rule, or borders of the unknown alone.
+  /// Whether the rule uses ends of walls, or frontiers alone.
   [[nodiscard]] virtual bool wants_wall_ends() const = 0;
-  /// Whether another goal may be better while the present one still stands.
+  /// Whether another goal may become better while the present one is still open.
   [[nodiscard]] virtual bool changes_its_mind() const = 0;
 };
 
-/// A goal that has been seen on the way is dropped; one is kept when the map moves, and the way to it planned again
-/// when the goal is next reconsidered: by then the floor has followed the walls. Without a usable map, and before it is
-/// over where it began, it turns on the spot once, to let the sensors see.
+/// Drives from opening to opening by the rule of a chooser. A goal that was observed during the drive is dropped. When
+/// the map is corrected the goal is kept, and the path to it is planned again when the goal is next reconsidered: by
+/// then the floor matches the walls. Without a usable map, and before the exploration ends where it began, the robot
+/// rotates once on the spot so that its sensors can observe.
 class PlaceStrategy final : public ExploreStrategy {
  public:
   PlaceStrategy(const ExploreParams& params, std::unique_ptr<PlaceChooser> chooser);
@@ -56,14 +59,14 @@ class PlaceStrategy final : public ExploreStrategy {
   void transform(const MapMove& move) override;
 
  private:
-  enum class State : std::uint8_t { kChoose, kDrive, kLook, kWait, kTurn, kDone };
+  enum class State : std::uint8_t { kChoose, kDrive, kLook, kWait, kRotate, kDone };
 
-  /// Map, ways and openings of one decision.
+  /// Map, path costs and openings of one decision.
   struct Survey {
     std::shared_ptr<const nav::FloorView> floor;
     nav::DistanceField costs;
     std::vector<Opening> open;
-    bool resting = false;  ///< some are left out because a drive there failed lately
+    bool resting = false;  ///< some openings are left out because a drive there failed lately
   };
 
   [[nodiscard]] Result<Survey> survey(const StrategyInput& input);
@@ -73,11 +76,11 @@ class PlaceStrategy final : public ExploreStrategy {
   void drive(const StrategyInput& input, StrategyStep& out);
   void reconsider(const StrategyInput& input, StrategyStep& out);
   void look(const StrategyInput& input, StrategyStep& out);
-  void turn(const StrategyInput& input, StrategyStep& out);
-  void begin_turn(const StrategyInput& input, std::string why, StrategyStep& out);
+  void rotate(const StrategyInput& input, StrategyStep& out);
+  void begin_rotation(const StrategyInput& input, std::string why, StrategyStep& out);
   void wait_or_finish(const StrategyInput& input, const Survey& found, StrategyStep& out);
   void finish(std::string why, StrategyStep& out);
-  void start_anew();
+  void start_again();
 
   ExploreParams params_;
   std::unique_ptr<PlaceChooser> chooser_;
@@ -85,17 +88,17 @@ class PlaceStrategy final : public ExploreStrategy {
   nav::PlannedDriver driver_;
   State state_ = State::kChoose;
   std::optional<Opening> goal_;
-  RobotTime since_;       ///< of the present state
-  RobotTime considered_;  ///< when the goal was last looked at again
-  std::string why_;       ///< of the present state
-  bool turned_ = false;
-  std::optional<Point2> began_map_;  ///< where the robot stood at first
-  bool looked_round_ = false;        ///< it has left that place, or turned there
-  bool corrected_ = false;           ///< the map moved since the present drive was planned
+  RobotTime since_;       ///< start of the present state
+  RobotTime considered_;  ///< when the goal was last reconsidered
+  std::string why_;       ///< reason for the present state
+  bool rotated_ = false;
+  std::optional<Point2> began_map_;  ///< position of the robot at the first step, frame `map`
+  bool looked_round_ = false;        ///< whether it has left that place or rotated there
+  bool corrected_ = false;           ///< whether the map was corrected since the present drive was planned
 };
 
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_frontier_chooser(const ExploreParams& params);
-/// The nearest opening of either kind: where the one-step rule goes when no wall leads on.
+/// Chooses the nearest opening of any kind: the rule used after the one-step rule when no wall leads on.
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_opening_chooser();
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_gain_chooser(const ExploreParams& params);
 [[nodiscard]] std::unique_ptr<PlaceChooser> make_horizon_chooser(const ExploreParams& params);

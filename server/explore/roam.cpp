@@ -8,7 +8,7 @@ namespace {
 
 /// Clear means this much more than near, so that noise does not make it waver.
 constexpr double kClearFactor = 1.25;
-/// Farther things do not make a side freer.
+/// Farther obstacles do not make a side freer.
 constexpr double kSideRange_m = 3.0;
 
 /// Room to the left less room to the right: sums of capped ranges.
@@ -35,7 +35,7 @@ RoamStrategy::RoamStrategy(const RoamParams& params, const nav::ClearanceParams&
     : params_(params), clearance_(clearance) {}
 
 /// From the robot's edge on a straight line to what stands there, and to ground that no part of it may enter.
-double RoamStrategy::free_way_m(const StrategyInput& input, const std::vector<Point2>& points_base) const {
+double RoamStrategy::free_distance_m(const StrategyInput& input, const std::vector<Point2>& points_base) const {
   const double free_m = nav::free_arc_m({params_.v_m_s, 0.0}, points_base, clearance_);
   double allowed_m = clearance_.horizon_m;
   for (const double side : {-1.0, 0.0, 1.0}) {
@@ -49,20 +49,20 @@ double RoamStrategy::free_way_m(const StrategyInput& input, const std::vector<Po
 
 StrategyStep RoamStrategy::step(const StrategyInput& input) {
   const std::vector<Point2> points_base = nav::obstacles_in_base(input);
-  const double free_m = free_way_m(input, points_base);
-  const double before_rad_s = turn_rad_s_;
-  if (turn_rad_s_ == 0.0 && free_m < params_.clear_m) {
-    turn_rad_s_ = left_is_freer(input) >= 0.0 ? params_.omega_rad_s : -params_.omega_rad_s;
-  } else if (turn_rad_s_ != 0.0 && free_m > kClearFactor * params_.clear_m) {
-    turn_rad_s_ = 0.0;
+  const double free_m = free_distance_m(input, points_base);
+  const double before_rad_s = rotation_rad_s_;
+  if (rotation_rad_s_ == 0.0 && free_m < params_.clear_m) {
+    rotation_rad_s_ = left_is_freer(input) >= 0.0 ? params_.omega_rad_s : -params_.omega_rad_s;
+  } else if (rotation_rad_s_ != 0.0 && free_m > kClearFactor * params_.clear_m) {
+    rotation_rad_s_ = 0.0;
   }
   StrategyStep out;
-  const bool turning = turn_rad_s_ != 0.0;
+  const bool turning = rotation_rad_s_ != 0.0;
   out.phase = turning ? "turn" : "drive";
-  out.activity = turning ? "turning until the way is clear" : "driving straight until something is near";
+  out.activity = turning ? "rotating until the path is clear" : "driving straight until an obstacle is near";
   out.command =
-      turning ? Twist2{0.0, turn_rad_s_} : nav::limit_for_clearance({params_.v_m_s, 0.0}, points_base, clearance_);
-  if (before_rad_s != turn_rad_s_ || !started_) {
+      turning ? Twist2{0.0, rotation_rad_s_} : nav::limit_for_clearance({params_.v_m_s, 0.0}, points_base, clearance_);
+  if (before_rad_s != rotation_rad_s_ || !started_) {
     started_ = true;
     out.step_done = true;
     ExploreDecision decision;
@@ -78,7 +78,7 @@ StrategyStep RoamStrategy::step(const StrategyInput& input) {
   return out;
 }
 
-void RoamStrategy::interrupted(RobotTime /*now*/) { turn_rad_s_ = 0.0; }
+void RoamStrategy::interrupted(RobotTime /*now*/) { rotation_rad_s_ = 0.0; }
 
 void RoamStrategy::transform(const MapMove& /*move*/) {}  // it knows no place
 

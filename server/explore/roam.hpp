@@ -1,6 +1,6 @@
 /// \file
-/// The baseline of the active-SLAM paper: straight on until something is near, then turn until the way is clear (spec
-/// S1.13).
+/// The baseline of the active-SLAM paper: drive straight on until an obstacle is near, then rotate until the path is
+/// clear (spec S1.13).
 #pragma once
 
 #include "server/explore/explore_params.hpp"
@@ -8,7 +8,7 @@
 
 namespace seeker::explore {
 
-/// Never done: it goes on until somebody ends it.
+/// Exploration without an end of its own: it continues until it is stopped.
 class RoamStrategy final : public ExploreStrategy {
  public:
   RoamStrategy(const RoamParams& params, const nav::ClearanceParams& clearance);
@@ -18,11 +18,11 @@ class RoamStrategy final : public ExploreStrategy {
   void transform(const MapMove& move) override;
 
  private:
-  [[nodiscard]] double free_way_m(const StrategyInput& input, const std::vector<Point2>& points_base) const;
+  [[nodiscard]] double free_distance_m(const StrategyInput& input, const std::vector<Point2>& points_base) const;
 
   RoamParams params_;
   nav::ClearanceParams clearance_;
-  double turn_rad_s_ = 0.0;  ///< 0: driving straight
+  double rotation_rad_s_ = 0.0;  ///< rotation speed; 0 while driving straight
   bool started_ = false;
 };
 

@@ -13,9 +13,9 @@ namespace seeker::explore {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Two pictures of one wall lie no farther apart: nearer things do not hide each other.
+/// Two estimates of one wall lie no farther apart: nearer objects do not hide each other.
 constexpr double kSamePlace_m = 0.15;
-/// Walls that turn by less than this are pieces of one wall, not a corner.
+/// Walls whose headings differ by less than this are pieces of one wall, not a corner.
 const double kCornerSine = std::sin(deg_to_rad(20.0));
 /// A mapped wall ends this much short of where it really ends: beams are not infinitely dense.
 constexpr double kEndSlack_m = 0.10;
@@ -23,7 +23,7 @@ constexpr double kEndSlack_m = 0.10;
 constexpr double kEdgeOn_m = 0.02;
 constexpr double kSample_m = 0.1;  ///< of half-lines, refined where they end
 constexpr int kBisections = 6;
-/// One crossing may be found from both of its walls: rounding must not tell them apart.
+/// One crossing may be found from both of its walls: rounding must not make two crossings of it.
 constexpr double kRounding_m = 1e-6;
 
 double end_x_m(const SightWall& wall, std::size_t side) { return 0.5 * slam::end_sign(side) * wall.length_m; }
@@ -137,9 +137,9 @@ void SightScene::find_meetings() {
       if (std::abs(sine) <= kCornerSine) {
         continue;
       }
-      const Point2 way = end_of(second, ends_[b].side) - end_of(first, ends_[a].side);
-      const double at_a_m = (way.x() * v.y() - way.y() * v.x()) / sine;
-      const double at_b_m = (way.x() * u.y() - way.y() * u.x()) / sine;
+      const Point2 between = end_of(second, ends_[b].side) - end_of(first, ends_[a].side);
+      const double at_a_m = (between.x() * v.y() - between.y() * v.x()) / sine;
+      const double at_b_m = (between.x() * u.y() - between.y() * u.x()) / sine;
       if (std::min(at_a_m, at_b_m) >= -kSamePlace_m && at_a_m <= ends_[a].stop_m + kRounding_m &&
           at_b_m <= ends_[b].stop_m + kRounding_m) {
         meetings_.push_back({{a, b}, {std::max(0.0, at_a_m), std::max(0.0, at_b_m)}});

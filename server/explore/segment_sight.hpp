@@ -1,5 +1,6 @@
 /// \file
-/// What would be seen of a mapped building from a place: walls, and how far those that go on would grow (spec S1.11).
+/// Prediction of what would be observed of a mapped building from a place: walls, and how far those that continue would
+/// grow (spec S1.11).
 #pragma once
 
 #include <array>
@@ -14,64 +15,66 @@
 
 namespace seeker::explore {
 
-/// A mapped wall, seen from its free side: frame and ends as in MapSegment.
+/// A mapped wall as seen from its free side: frame and ends as in MapSegment.
 struct SightWall {
   Pose2 map_T_segment;
   double length_m = 0.0;
   std::array<bool, 2> real{};  ///< by lines::Side
 };
 
-/// A virtual end: the wall may go on beyond it.
+/// A virtual end, beyond which the wall may continue.
 struct OpenEnd {
   std::size_t wall = 0;  ///< index into SightScene::walls()
   std::size_t side = 0;  ///< lines::Side
-  double stop_m = 0.0;   ///< beyond the end, what ends the half-line wherever one looks from: a wall, or seen floor
-  bool corner = false;   ///< what stops it is another wall: a real end is expected there
+  /// Distance beyond the end at which the half-line stops from every viewpoint: at a wall, or at floor observed to be
+  /// free.
+  double stop_m = 0.0;
+  bool corner = false;  ///< whether another wall stops it, so that a real end is expected there
 };
 
-/// The part of a wall that would be seen; x along the wall's own axis.
+/// The part of a wall that would be observed; x runs along the wall's own axis.
 struct SeenPart {
   double from_m = 0.0;
   double to_m = 0.0;
   int beams = 0;
-  std::array<bool, 2> ends{};  ///< by lines::Side: the end itself is in view
+  std::array<bool, 2> ends{};  ///< by lines::Side: whether the end itself is in view
 };
 
 struct EndForecast {
   std::size_t end = 0;       ///< index into SightScene::open_ends()
-  double extension_m = 0.0;  ///< by so much the wall would grow there
+  double extension_m = 0.0;  ///< length by which the wall would grow there
   bool becomes_real = false;
 };
 
-/// V and N of spec S1.11 from one pose.
+/// V and N of spec S1.11 for one pose.
 struct Growth {
   double extension_m = 0.0;  ///< sum of V-
-  double new_ends = 0.0;     ///< sum of N- minus sum of N; whole, unless discounted by a planner
+  double new_ends = 0.0;     ///< sum of N- minus sum of N; an integer, unless discounted by a planner
   std::vector<EndForecast> ends;
 };
 
 class SightView;
 
-/// The walls around a place with all that does not depend on where exactly one stands. Cost: linear in the map's
-/// segments, quadratic (with a small factor) in those within reach.
+/// The walls around a place with everything that does not depend on the exact viewpoint. The cost is linear in the
+/// map's segments and quadratic (with a small factor) in those within reach.
 class SightScene {
  public:
-  /// Takes the walls within `reach_m` of `place_map` (frame `map`). `floor`: null, or what is known of the floor: walls
-  /// do not go on where the floor has been seen to be free, and obstacles that are no walls hide what is behind them.
-  /// That goes beyond the paper, which knows segments only.
+  /// Takes the walls within `reach_m` of `place_map` (frame `map`). `floor` is null or the known floor: walls do not
+  /// continue where the floor was observed to be free, and obstacles that are no walls hide what is behind them. This
+  /// goes beyond the paper, which uses segments only.
   SightScene(const std::vector<MapSegment>& segments, const Point2& place_map, double reach_m,
              const OneStepParams& params, const Grid<nav::CellState>* floor = nullptr);
 
   [[nodiscard]] const std::vector<SightWall>& walls() const { return walls_; }
   [[nodiscard]] const std::vector<OpenEnd>& open_ends() const { return ends_; }
-  /// What is seen from a pose; valid as long as the scene. The pose must be near enough for the reach to cover its
-  /// view.
+  /// What is observed from a pose; valid as long as the scene. The pose must be near enough to the scene's place for
+  /// the reach to cover its view.
   [[nodiscard]] SightView look(const Pose2& map_T_base) const;
 
  private:
   friend class SightView;
 
-  /// Where the half-lines beyond two ends cross.
+  /// The crossing of the half-lines beyond two ends.
   struct Meeting {
     std::array<std::size_t, 2> ends{};
     std::array<double, 2> at_m{};
@@ -90,11 +93,11 @@ class SightScene {
   std::vector<Meeting> meetings_;  ///< nearest first
 };
 
-/// One look: the distance to the first obstacle in every direction.
+/// One view: the distance to the first obstacle in every direction.
 class SightView {
  public:
-  /// What is seen of a wall, which need not be one of the scene's: a filter's own picture of it will do. Nothing where
-  /// it is out of range, hidden, seen from behind or too flat.
+  /// The part of a wall that is observed. The wall need not belong to the scene: the estimate of a filter may be used.
+  /// Nothing: it is out of range, hidden, seen from behind or at too flat an angle.
   [[nodiscard]] std::optional<SeenPart> part_of(const SightWall& wall) const;
   [[nodiscard]] Growth growth() const;
   [[nodiscard]] const Pose2& map_T_base() const { return map_T_base_; }
@@ -102,10 +105,10 @@ class SightView {
  private:
   friend class SightScene;
 
-  /// The robot in a wall's frame.
+  /// The robot's pose in the frame of a wall.
   struct Place {
     double x_m = 0.0;
-    double ahead_m = 0.0;  ///< to the wall's line; negative: behind it
+    double ahead_m = 0.0;  ///< distance to the wall's line; negative: behind it
     double heading_rad = 0.0;
   };
 
@@ -122,7 +125,7 @@ class SightView {
 
   const SightScene* scene_;
   Pose2 map_T_base_;
-  std::vector<double> depth_m_;  ///< by beam; infinity: nothing
+  std::vector<double> depth_m_;  ///< by beam; infinity: no obstacle
 };
 
 }  // namespace seeker::explore

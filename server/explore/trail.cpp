@@ -33,10 +33,10 @@ void Trail::note(const Point2& p_map, double sigma_m) {
   points_.push_back({p_map, sigma_m});
 }
 
-std::vector<Point2> Trail::way_to_certainty() const {
-  std::vector<Point2> way;
+std::vector<Point2> Trail::path_to_certainty() const {
+  std::vector<Point2> path;
   if (points_.empty()) {
-    return way;
+    return path;
   }
   // Of places equally certain the last: it is the nearest along the trail.
   std::size_t best = 0;
@@ -46,11 +46,11 @@ std::vector<Point2> Trail::way_to_certainty() const {
   Point2 last = points_.back().p_map;
   for (std::size_t k = points_.size(); k-- > 0;) {
     if (k == best || k == 0 || (points_[k].p_map - last).norm() >= kWaypoint_m) {
-      way.push_back(points_[k].p_map);
+      path.push_back(points_[k].p_map);
       last = points_[k].p_map;
     }
   }
-  return way;
+  return path;
 }
 
 void Trail::cut_after(const Point2& p_map) {

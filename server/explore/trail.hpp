@@ -1,5 +1,5 @@
 /// \file
-/// Where the robot came along and how sure it was there.
+/// Record of the robot's path and of its position uncertainty along it.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,20 @@ namespace seeker::explore {
 
 struct TrailPoint {
   Point2 p_map = Point2::Zero();
-  double sigma_m = 0.0;  ///< of the position, in the worst direction
+  double sigma_m = 0.0;  ///< standard deviation of the position in its worst direction
 };
 
 /// Standard deviation of the position in its worst direction, from the covariance of (x, y, theta).
 [[nodiscard]] double position_sigma_m(const Matrix3& covariance);
 
-/// Bounded: when it is full every second place goes.
+/// A trail of bounded size: when it is full every second place is dropped.
 class Trail {
  public:
   void note(const Point2& p_map, double sigma_m);
-  /// Back along the trail by the place where the robot was most certain, and on to the start, should that not do, in
-  /// steps of a few metres.
-  [[nodiscard]] std::vector<Point2> way_to_certainty() const;
-  /// Forgets everything after the place nearest to p: the robot went back to it.
+  /// Path back along the trail to the place where the robot was most certain and then on to the start, in steps of a
+  /// few metres.
+  [[nodiscard]] std::vector<Point2> path_to_certainty() const;
+  /// Drops all places after the one nearest to p, because the robot has returned to it.
   void cut_after(const Point2& p_map);
   void transform(const MapMove& move);
 

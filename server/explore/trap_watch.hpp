@@ -1,5 +1,5 @@
 /// \file
-/// Notices that steps by the objective lead nowhere (spec S1.12).
+/// Detection of local traps, where steps by the objective bring no gain (spec S1.12).
 #pragma once
 
 #include <cstddef>
@@ -11,33 +11,33 @@
 
 namespace seeker::explore {
 
-/// How much is known.
+/// Size of the known map.
 struct MapSize {
-  double walls_m = 0.0;  ///< sum of lengths
+  double walls_m = 0.0;  ///< sum of the lengths of the walls
   std::size_t segments = 0;
-  double floor_m2 = 0.0;  ///< known to be free
+  double floor_m2 = 0.0;  ///< area known to be free
 };
 /// `floor` may be null.
 [[nodiscard]] MapSize size_of(const std::vector<MapSegment>& segments, const nav::FloorView* floor);
 
-/// A trap is, as in the paper, when no control promises anything on several decisions in a row. It is also one when
-/// they promise something again and again and the map does not grow: the predictions are wrong there, and a robot that
-/// only looks one step ahead would turn to and fro for ever. Growth counts against the largest map so far, so that
-/// walls that come and go do not pass for it.
+/// Detects traps. As in the paper, a trap is when no control promises a gain on several decisions in a row. It is also
+/// a trap when controls promise a gain again and again and the map does not grow: then the predictions are wrong there,
+/// and a robot that plans only one step ahead would oscillate for ever. Growth is measured against the largest map so
+/// far, so that walls that appear and disappear do not count as growth.
 class TrapWatch {
  public:
   explicit TrapWatch(const OneStepParams& params) : params_(params) {}
 
-  /// After a decision; true: trapped.
+  /// Call after a decision; true: the robot is in a trap.
   [[nodiscard]] bool note(bool gains_nothing, const MapSize& size);
-  /// Counting begins again; `suspicious`: the first decision that promises nothing is a trap.
+  /// Starts counting again; with `suspicious` the first decision without promised gain is a trap.
   void reset(bool suspicious = false);
 
  private:
   OneStepParams params_;
   MapSize largest_;
-  int hopeless_ = 0;   ///< decisions in a row that promised nothing
-  int fruitless_ = 0;  ///< that brought nothing
+  int hopeless_ = 0;   ///< decisions in a row that promised no gain
+  int fruitless_ = 0;  ///< decisions in a row that brought no gain
 };
 
 }  // namespace seeker::explore

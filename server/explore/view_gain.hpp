@@ -1,5 +1,5 @@
 /// \file
-/// How much unknown floor a place would show: the gain of a next best view.
+/// Area of unknown floor that a place would show: the gain of a next best view.
 #pragma once
 
 #include "server/explore/one_step_params.hpp"
@@ -8,12 +8,13 @@
 namespace seeker::explore {
 
 struct ViewGain {
-  double area_m2 = 0.0;      ///< of unknown floor in sight
-  double heading_rad = 0.0;  ///< of the base that shows most of it, frame `map`
+  double area_m2 = 0.0;      ///< area of unknown floor in sight
+  double heading_rad = 0.0;  ///< heading of the base that shows most of it, frame `map`
 };
 
-/// Rays over the occupancy, ended by obstacles and by the sensor's range; behind a few metres of unknown floor a wall
-/// is expected, so that nothing more counts. The sensor looks ahead within its half angle: the best heading is found.
+/// Casts rays over the occupancy, each ended by an obstacle or by the sensor's range. Behind a few metres of unknown
+/// floor a wall is expected, so that no further area counts. The sensor observes within its half angle around the
+/// heading, and the best heading is searched.
 [[nodiscard]] ViewGain view_gain(const nav::CostMap& map, const Point2& from_map, const SensorModel& sensor);
 
 }  // namespace seeker::explore

@@ -29,7 +29,7 @@ WallEnd end_of(const MapSegment& segment, bool left) {
   return {left ? segment.left() : segment.right(), left ? Point2(-along) : along, Point2(-along.y(), along.x())};
 }
 
-/// Segments that something within `reach_m` of p may touch.
+/// Segments that an object within `reach_m` of p may touch.
 std::vector<const MapSegment*> segments_near(const std::vector<MapSegment>& segments, const MapSegment& self,
                                              const Point2& p_map, double reach_m) {
   std::vector<const MapSegment*> near;
@@ -42,7 +42,7 @@ std::vector<const MapSegment*> segments_near(const std::vector<MapSegment>& segm
   return near;
 }
 
-/// Where a wall's line is looked at: occupied beside it means that the wall is there.
+/// Where the line of a wall is examined: occupied cells beside it mean that the wall is there.
 CellState state_across(const nav::CostMap& map, const Point2& p_map, const Point2& across) {
   const double step_m = map.frame().resolution_m;
   for (double off = -kWallBand_m; off <= kWallBand_m + step_m / 2.0; off += step_m) {

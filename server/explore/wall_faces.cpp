@@ -13,14 +13,14 @@ using nav::CellState;
 
 /// Where to stand: distances from the face.
 constexpr std::array<double, 5> kViewDistances_m{0.8, 1.2, 1.8, 2.5, 0.5};
-/// A border that turns so much that the steps into the unknown cancel has no side to be looked at from.
+/// A border whose direction changes so much that the steps into the unknown cancel has no side to be observed from.
 constexpr double kOneSided = 0.5;
 /// The side of a mapped wall counts as mapped so far before it and behind it: the grid and the wall are a little apart.
 constexpr double kBefore_m = 0.25;
 constexpr double kBehind_m = 0.15;
 /// Shorter segments may be of what stands before a wall.
 constexpr double kShortest_m = 0.3;
-/// A wall that was seen is looked at again from so much of it; less is mostly furniture.
+/// A wall that was seen is observed again from this length on; a shorter one is mostly furniture.
 constexpr double kShortestSeen_m = 1.0;
 /// A step leads into a wall when this much of it goes across.
 constexpr double kAcross = 0.2;
@@ -84,7 +84,7 @@ struct Borders {
       return map.state({cell.i + step.i, cell.j + step.j}) == CellState::kUnknown;
     });
   }
-  /// Free floor too near to something for the robot to stand on, and beside what is not mapped.
+  /// Free floor that is too near to an obstacle for the robot to stand on, and beside what is not mapped.
   [[nodiscard]] bool is_edge(CellIndex cell) const {
     return map.state(cell) == CellState::kFree && !map.traversable(cell) && !steps_out(cell).isZero();
   }

@@ -15,10 +15,10 @@ constexpr double kHeadingWeight_m_rad = 0.5;
 /// Off the line the robot heads for a point so far ahead on it. The paper aims at the line's own direction, from which
 /// no control of the set ever brings a robot nearer that is parallel to its line but far from it.
 constexpr double kAhead_m = 1.0;
-constexpr double kProgress_1 = 0.1;  ///< worth of a metre of way, so that of equal controls the faster one wins
-constexpr double kTurn_rad = 0.35;   ///< pointing farther off, turn on the spot where no arc helps
-constexpr double kPast_m = 0.3;      ///< so far beyond an open end there is nothing that continues the wall
-constexpr double kMaxOff_m = 4.0;    ///< walls farther off are not followed
+constexpr double kProgress_1 = 0.1;  ///< worth of a metre of path length, so that of equal controls the faster one wins
+constexpr double kRotation_rad = 0.35;  ///< beyond this heading error, rotate on the spot where no arc helps
+constexpr double kPast_m = 0.3;         ///< so far beyond an open end there is nothing that continues the wall
+constexpr double kMaxOff_m = 4.0;       ///< walls farther off are not followed
 constexpr int kMaxSwitches = 8;
 constexpr std::size_t kPlaces = 10;  ///< so many decisions
 constexpr double kNowhere_m = 0.3;   ///< within this: stuck
@@ -107,9 +107,9 @@ WallFollower::Track WallFollower::track_of(const Pose2& map_T_base, const std::v
   const Point2 end = end_of(wall, side_);
   const Point2 out = map_T_base.translation() - end;
   const double bearing_rad = std::atan2(out.y(), out.x());
-  const double turn_rad = side_ == WallSide::kLeft ? -kPi / 2.0 : kPi / 2.0;
+  const double rotation_rad = side_ == WallSide::kLeft ? -kPi / 2.0 : kPi / 2.0;
   const Point2 foot = end + params_.distance_m * Point2(std::cos(bearing_rad), std::sin(bearing_rad));
-  track.map_T_line = {foot.x(), foot.y(), bearing_rad + turn_rad};
+  track.map_T_line = {foot.x(), foot.y(), bearing_rad + rotation_rad};
   track.pivot_map = end;
   return track;
 }
@@ -135,26 +135,26 @@ void WallFollower::choose_control(const Track& track, const Pose2& map_T_base, c
     candidate.path_m = std::abs(control.v_m_s) * step_.observation_period_s;
     candidate.refused = check.refusal(control, step_.observation_period_s);
     Track there = track;
-    if (track.pivot_map) {  // the tangent turns with the robot
+    if (track.pivot_map) {  // the tangent rotates with the robot
       const Point2 out = candidate.map_T_base.translation() - *track.pivot_map;
-      const double turn_rad = side_ == WallSide::kLeft ? -kPi / 2.0 : kPi / 2.0;
+      const double rotation_rad = side_ == WallSide::kLeft ? -kPi / 2.0 : kPi / 2.0;
       const Point2 foot = *track.pivot_map + params_.distance_m * out.normalized();
-      there.map_T_line = {foot.x(), foot.y(), std::atan2(out.y(), out.x()) + turn_rad};
+      there.map_T_line = {foot.x(), foot.y(), std::atan2(out.y(), out.x()) + rotation_rad};
     }
     const double progress_m =
         (inverse(track.map_T_line) * candidate.map_T_base).x_m - (inverse(track.map_T_line) * map_T_base).x_m;
     candidate.score = -error(there, candidate.map_T_base) + kProgress_1 * progress_m;
     choice.decision.candidates.push_back(candidate);
   }
-  const bool pointing_off = std::abs(heading_error_rad(track, map_T_base)) > kTurn_rad;
-  const double turn_sign = heading_error_rad(track, map_T_base) > 0.0 ? -1.0 : 1.0;
+  const bool pointing_off = std::abs(heading_error_rad(track, map_T_base)) > kRotation_rad;
+  const double rotation_sign = heading_error_rad(track, map_T_base) > 0.0 ? -1.0 : 1.0;
   for (std::uint32_t k = 0; k < choice.decision.candidates.size(); ++k) {
     const DecisionCandidate& candidate = choice.decision.candidates[k];
     const auto& chosen = choice.decision.chosen;
-    const bool turn = candidate.control.v_m_s == 0.0;
-    // Arcs must make it better (or keep it good); turning must be towards the way.
-    const bool helps = turn ? candidate.control.omega_rad_s * turn_sign > 0.0
-                            : -candidate.score < (pointing_off ? now_error : std::max(now_error, kTurn_rad));
+    const bool rotates = candidate.control.v_m_s == 0.0;
+    // Arcs must reduce the heading error (or keep it small); rotation must be towards the path.
+    const bool helps = rotates ? candidate.control.omega_rad_s * rotation_sign > 0.0
+                               : -candidate.score < (pointing_off ? now_error : std::max(now_error, kRotation_rad));
     if (candidate.refused.empty() && helps &&
         (!chosen || candidate.score > choice.decision.candidates[*chosen].score)) {
       choice.decision.chosen = k;

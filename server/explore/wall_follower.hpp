@@ -1,5 +1,5 @@
 /// \file
-/// Out of a local trap along the walls, by the map (spec S1.12, steps 1-3).
+/// Leaves a local trap along the walls, using the map (spec S1.12, steps 1-3).
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,18 @@ namespace seeker::explore {
 
 struct WallChoice {
   ExploreDecision decision;
-  std::optional<Twist2> control;   ///< nothing: the way along the walls has ended
-  std::optional<Point2> goal_map;  ///< the open end it leads to
-  std::string failure;             ///< why it has ended
+  std::optional<Twist2> control;   ///< nothing: the path along the walls has ended
+  std::optional<Point2> goal_map;  ///< the open end that the path leads to
+  std::string failure;             ///< why the path has ended
 };
 
-/// Follows one wall after the other, at a distance, towards an open end. The caller closes ends that turn out to lead
-/// nowhere (by making them real) and decides when to leave (step 4).
+/// Follows one wall after the other, at a set distance, towards an open end. The caller closes ends that turn out to
+/// lead nowhere (by making them real) and decides when to leave (step 4).
 class WallFollower {
  public:
   WallFollower(const OneStepParams& step, const WallParams& params);
 
-  /// Chooses wall and direction; false: no way along the walls leads to an open end (both costs are infinite).
+  /// Chooses wall and direction; false: no path along the walls leads to an open end (both costs are infinite).
   [[nodiscard]] bool start(const Pose2& map_T_base, const std::vector<MapSegment>& segments);
   [[nodiscard]] WallChoice decide(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
                                   const ControlCheck& check);
@@ -35,9 +35,9 @@ class WallFollower {
   [[nodiscard]] std::uint64_t followed() const { return followed_; }
 
  private:
-  /// Where the robot should be: on a line along a wall, or on a circle about an end.
+  /// The curve that the robot should follow: a line along a wall, or a circle about an end.
   struct Track {
-    Pose2 map_T_line;  ///< x in the direction of travel, on the line that is to be followed
+    Pose2 map_T_line;  ///< frame on the line to follow, x in the direction of travel
     std::optional<Point2> pivot_map;
   };
 
@@ -55,8 +55,8 @@ class WallFollower {
   OneStepParams step_;
   WallParams params_;
   WallSide side_ = WallSide::kLeft;
-  std::uint64_t followed_ = 0;  ///< id of a segment
-  std::vector<Point2> places_;  ///< of the last decisions, frame `map`
+  std::uint64_t followed_ = 0;  ///< id of the followed segment
+  std::vector<Point2> places_;  ///< robot positions at the last decisions, frame `map`
 };
 
 }  // namespace seeker::explore

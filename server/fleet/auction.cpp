@@ -30,9 +30,9 @@ std::optional<Bid> best_bid(const std::vector<Bidder>& bidders, const std::vecto
     if (given[bidder]) {
       continue;
     }
-    SEEKER_ASSERT(bidders[bidder].way_m.size() == tasks.size());
+    SEEKER_ASSERT(bidders[bidder].distance_m.size() == tasks.size());
     for (std::size_t task = 0; task < tasks.size(); ++task) {
-      const Bid bid{tasks[task].gain * std::exp(-params.lambda_1_m * bidders[bidder].way_m[task]), bidder, task};
+      const Bid bid{tasks[task].gain * std::exp(-params.lambda_1_m * bidders[bidder].distance_m[task]), bidder, task};
       if (bid.value > 0.0 && (!best || better(bid, *best, bidders, tasks))) {
         best = bid;
       }

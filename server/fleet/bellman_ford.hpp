@@ -1,5 +1,5 @@
 /// \file
-/// Shortest ways along a graph of places (spec S4.4, eq (1)).
+/// Shortest paths along a graph of places (spec S4.4, eq (1)).
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace seeker::fleet {
 
-/// Undirected; an edge is as long as it is straight.
+/// An undirected graph; the length of an edge is the straight distance.
 struct PlaceGraph {
   struct Edge {
     std::size_t a = 0;
@@ -20,18 +20,19 @@ struct PlaceGraph {
   std::vector<Edge> edges;  ///< indices into `places`
 };
 
-/// Ways from one place to all others.
-struct ShortestWays {
-  std::vector<double> distance_m;                     ///< infinity where no way leads
-  std::vector<std::optional<std::size_t>> came_from;  ///< nothing for the source and what no way leads to
-  int rounds = 0;                                     ///< k of eq (1) after which nothing changed any more
+/// Shortest paths from one place to all others.
+struct ShortestPaths {
+  std::vector<double> distance_m;  ///< path length to each place; infinity without a path
+  /// Previous place on the path; no value for the source and for places without a path.
+  std::vector<std::optional<std::size_t>> came_from;
+  int rounds = 0;  ///< k of eq (1) after which the distances did not change any more
 
   [[nodiscard]] bool reaches(std::size_t place) const;
-  /// From the source to the place, both included; empty where no way leads.
-  [[nodiscard]] std::vector<std::size_t> way_to(std::size_t place) const;
+  /// The path from the source to the place, both included; empty without a path.
+  [[nodiscard]] std::vector<std::size_t> path_to(std::size_t place) const;
 };
 
 /// Bellman-Ford with D^0(source) = 0; ends after |T|-1 rounds, or earlier when a round changes nothing.
-[[nodiscard]] ShortestWays bellman_ford(const PlaceGraph& graph, std::size_t source);
+[[nodiscard]] ShortestPaths bellman_ford(const PlaceGraph& graph, std::size_t source);
 
 }  // namespace seeker::fleet

@@ -1,5 +1,5 @@
 /// \file
-/// Which robots of a fleet hang together with the main one: by their own maps, or over those of others.
+/// Connections of the robots of a fleet with the main one: by their own maps, or over those of others.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@
 
 namespace seeker::fleet {
 
-/// How a robot hangs together with the main one.
+/// Connection of a robot with the main one.
 struct FleetLink {
-  std::uint8_t through = 0;  ///< slot of the robot that its map is merged with; the main one's where directly
-  double confidence = 0.0;   ///< of the least sure pair on the way
+  /// Slot of the robot with which its map is merged; that of the main one for a direct connection.
+  std::uint8_t through = 0;
+  double confidence = 0.0;  ///< confidence of the least certain pair on the path
 };
 
-/// By slot, without the main one: robots that merged pairs lead to. The way of each is the one whose least sure pair is
-/// surest.
+/// The robots connected with the main one by merged pairs, by slot, without the main one. Of several paths the one
+/// whose least certain pair is the most certain is chosen.
 [[nodiscard]] std::map<std::uint8_t, FleetLink> links_from(std::uint8_t main, const std::vector<PairAnswer>& pairs);
 
 }  // namespace seeker::fleet

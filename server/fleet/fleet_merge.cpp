@@ -49,7 +49,7 @@ bool closes(const std::array<const PairAnswer*, 3>& pairs, const CycleParams& pa
     return true;
   }
   const Pose2 around = *motion_of(*pairs[0], a, *common) * *motion_of(*pairs[1], *common, c);
-  // Far from where the maps overlap a small turn is a large way: the gap is taken at that place.
+  // Far from where the maps overlap a small rotation is a large displacement: the gap is measured at that place.
   const MergeHypothesis& there = pairs[2]->answer.hypotheses.front();
   const Point2 p_b = there.shared_middle_b;
   const Point2 p_c = pairs[2]->slot_b == c ? p_b : there.a_T_b.a_T_b * p_b;
@@ -88,7 +88,7 @@ PairAnswer* weakest_of_open(std::vector<PairAnswer>& pairs, const CycleParams& p
 void demote_open_cycles(std::vector<PairAnswer>& pairs, const CycleParams& params) {
   while (PairAnswer* weakest = weakest_of_open(pairs, params)) {
     weakest->answer.verdict = MergeVerdict::kContradicted;
-    weakest->answer.reason = "the way around over a third robot does not close, and this pair is the least sure of it";
+    weakest->answer.reason = "the cycle over a third robot does not close, and this pair is its least certain one";
   }
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// All robots' maps held against each other: pair by pair, and around every three of them.
+/// Comparison of the maps of all robots: pair by pair, and around every cycle of three.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct PairAnswer {
   MergeAnswer answer;
 };
 
-/// The way around three robots comes back to where it began, to within this.
+/// Limits of the gap of a closed cycle of three robots.
 struct CycleParams {
   double max_gap_m = 0.6;
   double max_gap_rad = 0.06;
 };
 
-/// Three merged pairs that do not close cannot all be true: of each such three the least confident is demoted to
-/// kContradicted, until all that are left close. The gap is measured at the shared places of that pair.
+/// Three merged pairs that do not close cannot all be true: of each such three the least certain is demoted to
+/// kContradicted, until all remaining ones close. The gap is measured at the shared places of that pair.
 void demote_open_cycles(std::vector<PairAnswer>& pairs, const CycleParams& params = {});
 
 /// The relations of the merged pairs, for join().

@@ -1,6 +1,6 @@
 /// \file
-/// Which pending goal comes next: that of the present node, else that of the closest node that has one (spec S4.4);
-/// with other robots on their way too, the closest that none of them is nearer to, else the one that an auction gives.
+/// Choice of the next pending goal: that of the present node, else that of the closest node that has one (spec S4.4);
+/// with other active robots the closest to which none of them is nearer, else the one assigned by an auction.
 #pragma once
 
 #include <functional>
@@ -14,17 +14,17 @@
 
 namespace seeker::fleet {
 
-/// A goal of the union, with the way there.
+/// A goal of the union graph with the path to it.
 struct PendingGoal {
-  std::optional<std::size_t> robot;  ///< whose it is: index into the others; nothing: own
-  std::uint64_t node = 0;            ///< that it is bound to
+  std::optional<std::size_t> robot;  ///< robot that owns the goal: index into the others; no value: own
+  std::uint64_t node = 0;            ///< node to which the goal is bound
   std::uint64_t id = 0;
   Point2 p_map = Point2::Zero();
   int layer = 1;
-  std::size_t member = 0;       ///< its node in the union graph
-  double way_m = 0.0;           ///< along the topology's edges, then straight
-  double node_way_m = 0.0;      ///< to its node
-  std::vector<Point2> way_map;  ///< nodes from the present one (left out) to that of the goal
+  std::size_t member = 0;           ///< index of its node in the union graph
+  double distance_m = 0.0;          ///< path length along the topology's edges, then straight
+  double distance_to_node_m = 0.0;  ///< path length to its node
+  std::vector<Point2> path_map;     ///< nodes from the present one (left out) to that of the goal
 };
 
 struct ChoiceInput {
@@ -33,27 +33,28 @@ struct ChoiceInput {
   Pose2 map_T_base;
   const Corridors& corridors;
   double max_edge_m = 8.0;
-  double node_distance_m = 2.0;                        ///< V_R
-  std::function<bool(const Point2& p_map)> left_out;   ///< goals not to be tried now
-  std::function<double(const Point2& p_map)> gain_m2;  ///< unknown floor that a place would show
+  double node_distance_m = 2.0;                        ///< V_R, radius of the region of a node
+  std::function<bool(const Point2& p_map)> left_out;   ///< whether a goal is excluded now
+  std::function<double(const Point2& p_map)> gain_m2;  ///< area of unknown floor visible from a position
   AuctionParams auction;
-  bool patient = true;      ///< leaves to others what they are nearer to
-  double takeover_m = 3.0;  ///< a goal that another robot drives to is taken over where the way is so much shorter
+  bool patient = true;  ///< leave goals to robots that are nearer to them
+  /// Difference of the path lengths from which on a goal is taken over from another robot.
+  double takeover_m = 3.0;
 };
 
 struct GoalChoice {
   std::optional<PendingGoal> goal;
-  bool others_busy = false;  ///< of no goal: other robots are at what is left
-  bool others_idle = false;  ///< and none of them drives to any of it
+  bool others_busy = false;  ///< without a goal: other robots are nearer to the remaining goals
+  bool others_idle = false;  ///< and none of them drives to any of these
   ExploreDecision decision;
 };
 
-/// Among the goals of all robots that a way along the union's edges leads to, those near another active robot's target
-/// left out. The robot must be at a node.
+/// Chooses among the goals of all robots that are reachable along the union's edges, without those near another active
+/// robot's target. The robot must be at a node.
 [[nodiscard]] GoalChoice choose_goal(const ChoiceInput& input);
 
-/// Whether a robot that drives to a goal leaves it to another one that does, too: to one with a much shorter way, and
-/// of those with about the same to the first by name. The robot must be at a node.
+/// Whether the robot leaves its present goal to another one that drives to it, too: to one with a much shorter path,
+/// and with about equal paths to the first by name. The robot must be at a node.
 [[nodiscard]] bool yields(const ChoiceInput& input, const PendingGoal& goal);
 
 }  // namespace seeker::fleet

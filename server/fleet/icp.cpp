@@ -97,8 +97,8 @@ Pose2 rigid_fit(const std::vector<Point2>& points_a, const std::vector<Point2>& 
 std::optional<IcpResult> icp(const slam::ReferenceCloud& reference_a, const std::vector<slam::OrientedPoint>& points_b,
                              const Pose2& guess, const IcpParams& params) {
   std::optional<IcpResult> best;
-  for (const double turn_rad : params.restarts_rad) {
-    const Pose2 start{guess.x_m, guess.y_m, wrap_angle(guess.theta_rad + turn_rad)};
+  for (const double rotation_rad : params.restarts_rad) {
+    const Pose2 start{guess.x_m, guess.y_m, wrap_angle(guess.theta_rad + rotation_rad)};
     const std::optional<IcpResult> found = iterate(reference_a, points_b, start, params);
     const auto rank = [](const IcpResult& r) { return std::pair(r.pair_share, -r.mean_square_m2); };
     if (found && (!best || rank(*found) > rank(*best))) {

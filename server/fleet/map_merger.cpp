@@ -91,7 +91,7 @@ void Question::compare(const PairCheck& check, MergeAnswer& answer) {
       relations_.insert(relations_.end(), found.relations.begin(), found.relations.end());
     }
   }
-  // The best ones tell; comparing all with all would cost the square of their number.
+  // The best ones suffice; comparing all with all would cost the square of their number.
   const auto better = [](const NodeRelation& p, const NodeRelation& q) {
     return p.similarity * p.overlap > q.similarity * q.overlap;
   };
@@ -115,7 +115,7 @@ std::vector<NodeRelation> Question::largest_set(const std::vector<NodeRelation>&
       return UncertainPose{};
     }
     UncertainPose between = from < first_b ? a_.between(from, to) : b_.between(from - first_b, to - first_b);
-    between.covariance = slam::with_floor(between.covariance, params_.bend.sigma_m, params_.bend.sigma_rad);
+    between.covariance = slam::with_floor(between.covariance, params_.distortion.sigma_m, params_.distortion.sigma_rad);
     return between;
   };
   std::vector<NodeRelation> members;
@@ -136,7 +136,7 @@ std::vector<PairPlace> Question::places_of(const std::vector<NodeRelation>& pair
 
 MapOverlap Question::overlap_by(const std::vector<PairPlace>& places, const Pose2& a_T_b) {
   const auto place_of = [&](std::size_t node) {
-    return carried(places, a_T_b, b_.nodes()[node].map_T_node, params_.bend);
+    return carried(places, a_T_b, b_.nodes()[node].map_T_node, params_.distortion);
   };
   return overlap_of(a_, b_, place_of, params_.overlap);
 }
@@ -144,7 +144,7 @@ MapOverlap Question::overlap_by(const std::vector<PairPlace>& places, const Pose
 MergeHypothesis Question::hypothesis_of(std::vector<NodeRelation> pairs) {
   MergeHypothesis made;
   const std::vector<PairPlace> places = places_of(pairs);
-  made.a_T_b = fuse(places, params_.bend);
+  made.a_T_b = fuse(places, params_.distortion);
   const MapOverlap there = overlap_by(places, made.a_T_b.a_T_b);
   std::vector<NodeRelation> back;
   back.reserve(pairs.size());
@@ -256,17 +256,17 @@ void judge(MergeAnswer& answer, const MergeParams& params) {
     answer.reason = "what both robots have seen is too little to be sure of the place; drive on and ask again";
   } else if (rival) {
     answer.verdict = MergeVerdict::kAmbiguous;
-    answer.reason = "the maps fit in more than one way; choose one or drive on until they differ";
+    answer.reason = "the maps fit at more than one relative pose; choose one or drive on until they differ";
   } else if (best.denied_piece_m > params.sure_denied_piece_m) {
     answer.verdict = MergeVerdict::kAmbiguous;
     answer.reason =
-        "the maps fit in one way, but one robot has looked through a wall of the other; confirm or drive on";
+        "the maps fit at one relative pose, but one robot has looked through a wall of the other; confirm or drive on";
   } else if (!speaks_enough(best, params)) {
     answer.verdict = MergeVerdict::kAmbiguous;
-    answer.reason = "the maps fit in one way, but too little speaks for it; confirm it or drive on";
+    answer.reason = "the maps fit at one relative pose, but the evidence is weak; confirm it or drive on";
   } else {
     answer.verdict = MergeVerdict::kMerged;
-    answer.reason = "the maps fit in one way only and agree where both have looked";
+    answer.reason = "the maps fit at one relative pose only and agree where both have observed";
   }
 }
 

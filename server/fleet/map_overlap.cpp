@@ -95,7 +95,7 @@ void count(const Around& in_a, const Around& in_b, const PreparedNode& node, con
     const slam::OrientedPoint* partner = partner_of(place, point, params);
     if (partner == nullptr &&
         (!place.free_space().is_free(point.p) || in_b.place->free_space().is_passed(own_T_base * point_base.p))) {
-      continue;  // nobody looked, or what b saw was no wall: b has looked through it as well
+      continue;  // not observed, or no wall of b: b has looked through it as well
     }
     const slam::OrientedPoint own = slam::transform(map_T_base, point_base);
     auto& entry = tally.cells.try_emplace(key_of(own, params.cell_m), Say::kDenied, own.normal).first->second;

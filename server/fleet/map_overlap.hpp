@@ -1,5 +1,6 @@
 /// \file
-/// Two maps laid upon each other: how much wall both have seen, and how much of what both have looked at one denies.
+/// Overlap of two aligned maps: the length of wall that both have observed, and the share of the common area in which
+/// one contradicts the other.
 #pragma once
 
 #include <functional>
@@ -10,12 +11,12 @@
 namespace seeker::fleet {
 
 struct OverlapParams {
-  double cell_m = 0.15;            ///< walls are counted by cells
-  double partner_m = 0.15;         ///< a wall of one map has its partner in the other within this
-  double min_normal_cosine = 0.7;  ///< and looks the same way
-  double piece_gap_m = 0.3;        ///< cells of denied wall no farther apart are one piece
-  double witness_wall_m = 6.0;     ///< shared by a local map alone: it speaks for itself then
-  /// Maps bend: a node may settle by so much before it is counted.
+  double cell_m = 0.15;            ///< size of the cells by which walls are counted
+  double partner_m = 0.15;         ///< largest distance between a wall of one map and its partner in the other
+  double min_normal_cosine = 0.7;  ///< smallest cosine of the angle between their normals
+  double piece_gap_m = 0.3;        ///< largest gap between cells of one piece of contradicted wall
+  double witness_wall_m = 6.0;     ///< wall shared by a local map alone for it to count as a witness
+  /// Largest correction of a single node before it is compared, since maps are distorted.
   double settle_m = 0.3;
   double settle_rad = 0.05;
   slam::MatchParams match;
@@ -24,19 +25,20 @@ struct OverlapParams {
 };
 
 struct MapOverlap {
-  double shared_wall_m = 0.0;  ///< that both have seen
-  double weak_wall_m = 0.0;    ///< of it, what tells the place along the direction told worst: little in a corridor
-  /// 0 to 1: walls where the other looked through, and beams through its walls. What b itself has looked through is no
-  /// wall of b: robots and people that stood there for a while.
+  double shared_wall_m = 0.0;  ///< length of wall that both have observed
+  double weak_wall_m = 0.0;    ///< part of it that constrains the least constrained direction: short in a corridor
+  /// Share (0 to 1) of walls that the other has looked through and of beams through its walls. Walls that b itself has
+  /// looked through do not count as walls of b: robots and people that stood there for a while.
   double contradiction = 0.0;
-  /// The longest piece of wall of b that a has looked through, counted by cells of OverlapParams::cell_m.
+  /// Length of the longest piece of wall of b that a has looked through, counted by cells of OverlapParams::cell_m.
   double denied_piece_m = 0.0;
-  double residual_m = 0.0;    ///< root mean square distance of the shared walls
-  std::size_t witnesses = 0;  ///< local maps of b that share OverlapParams::witness_wall_m with a, each fitted alone
+  double residual_m = 0.0;  ///< root mean square distance of the shared walls
+  /// Number of local maps of b that share OverlapParams::witness_wall_m with a, each aligned alone.
+  std::size_t witnesses = 0;
 };
 
-/// What the nodes of b find in a. `map_a_T_node`: pose of a node of b, by index, in the frame `map` of a. The other
-/// direction is another question: a may deny what b has seen and not the reverse.
+/// Compares the nodes of b with a. `map_a_T_node` gives the pose of a node of b, by index, in the frame `map` of a. The
+/// opposite direction has a result of its own: a may contradict an observation of b and not vice versa.
 [[nodiscard]] MapOverlap overlap_of(PreparedMap& a, PreparedMap& b,
                                     const std::function<Pose2(std::size_t)>& map_a_T_node,
                                     const OverlapParams& params = {});

@@ -10,7 +10,7 @@
 namespace seeker::fleet {
 namespace {
 
-/// Spec S4.7, eq (7), over the points that lie where the region has looked.
+/// Spec S4.7, eq (7), over the points that lie where the region has been observed.
 double similarity_of(const slam::PlaceMap& place, const std::vector<slam::OrientedPoint>& points_base,
                      const Pose2& region_T_base, double sigma_m, double gate_m) {
   double sum = 0.0;
@@ -53,7 +53,7 @@ NodeRelation reversed(const NodeRelation& relation) {
   return back;
 }
 
-/// The node's scans with the origin in their middle, so that a turn moves them little.
+/// The node's scans with the origin at their centre, so that a rotation moves them little.
 struct PairCheck::Query {
   Query(const PreparedNode& node_in, const PairCheckParams& params)
       : node(node_in), node_T_base{node_in.middle.x(), node_in.middle.y(), 0.0} {

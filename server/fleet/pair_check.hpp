@@ -1,5 +1,5 @@
 /// \file
-/// Where in a part of one robot's map does a local map of another lie? Search, ICP, and what the points say about it.
+/// Localisation of one robot's local map in a part of another's map: search, ICP, and the check of the points.
 #pragma once
 
 #include <optional>
@@ -14,18 +14,18 @@
 
 namespace seeker::fleet {
 
-/// A local map of robot b seen from one of robot a.
+/// Relative pose of a local map of robot b and one of robot a.
 struct NodeRelation {
-  std::uint32_t node_a = 0;  ///< ids
-  std::uint32_t node_b = 0;
+  std::uint32_t node_a = 0;  ///< id of the local map of robot a
+  std::uint32_t node_b = 0;  ///< id of the local map of robot b
   UncertainPose a_T_b;       ///< pose of the frame of node b in that of node a
-  double overlap = 0.0;      ///< share of the points of b that lie where a has looked, 0 to 1
-  double consistency = 0.0;  ///< of those, the share that lies on surfaces of a
+  double overlap = 0.0;      ///< share of the points of b that lie where a has observed, 0 to 1
+  double consistency = 0.0;  ///< share of these points that lie on surfaces of a
   double similarity = 0.0;   ///< spec S4.7, eq (7)
   double residual_m = 0.0;   ///< root mean square distance of the inliers
 };
 
-/// The same seen from the other robot.
+/// The inverse relation, with both robots swapped.
 [[nodiscard]] NodeRelation reversed(const NodeRelation& relation);
 
 struct PairCheckParams {
@@ -33,32 +33,32 @@ struct PairCheckParams {
   slam::MatchParams match;
   slam::AgreementParams agreement;
   std::size_t match_points = 500;
-  std::size_t min_inliers = 80;   ///< points of the final match
-  double min_overlap = 0.4;       ///< share of the node's points that lie where the region has seen something
-  double min_consistency = 0.75;  ///< of those, the share on the region's surfaces
-  double max_through = 0.12;      ///< beams through the region's walls
+  std::size_t min_inliers = 80;   ///< number of inliers of the final match
+  double min_overlap = 0.4;       ///< share of the node's points that lie where the region has been observed
+  double min_consistency = 0.75;  ///< share of these points that lie on the region's surfaces
+  double max_through = 0.12;      ///< share of beams through the region's walls
   double min_similarity = 0.6;    ///< spec S4.7 [J]
   double max_residual_m = 0.08;   ///< spec S4.7 [J]
   double similarity_sigma_m = 0.10;
-  IcpParams icp;  ///< from where pictures look alike
-  /// A match is never believed to be better than this: local maps bend.
+  IcpParams icp;  ///< ICP from proposals of similar pictures
+  /// Lower limit of the standard deviation of a match: local maps are distorted.
   double sigma_floor_m = 0.03;
   double sigma_floor_rad = 0.006;
 };
 
-/// What came of one comparison: the places where the node fits, or why there is none.
+/// Result of one comparison: the poses at which the node fits, or the cause why there is none.
 struct PairFindings {
-  std::vector<NodeRelation> relations;  ///< best first; several where the place looks the same in several ways
+  std::vector<NodeRelation> relations;  ///< best first; several for a repeated or symmetric structure
   std::string_view refusal;
 };
 
-/// Deterministic; no state but its parameters.
+/// Compares local maps. Deterministic, without state but the parameters.
 class PairCheck {
  public:
   explicit PairCheck(const PairCheckParams& params = {});
 
-  /// Looks for a node of b in a region of a, everywhere and with any heading. `seen_from`: the node of a, by index,
-  /// whose pictures look like those of node b: ICP starts from there, too (spec S4.6).
+  /// Searches for a node of b in a region of a, at all positions and headings. `seen_from` is the node of a, by index,
+  /// whose pictures are similar to those of node b: ICP starts from there, too (spec S4.6).
   [[nodiscard]] PairFindings find(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
                                   const std::optional<std::size_t>& seen_from = std::nullopt) const;
 

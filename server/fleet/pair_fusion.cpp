@@ -21,7 +21,7 @@ struct Normal {
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
 };
 
-Normal normal_at(const Pose2& map_a_T_map_b, const std::vector<PairPlace>& pairs, const BendParams& params) {
+Normal normal_at(const Pose2& map_a_T_map_b, const std::vector<PairPlace>& pairs, const DistortionParams& params) {
   Normal normal;
   for (const PairPlace& pair : pairs) {
     const Pose2 now = map_a_T_map_b * pair.map_b_T_node;
@@ -42,7 +42,7 @@ PairPlace pair_place(const UncertainPose& node_a_T_node_b, const Pose2& map_a_T_
   return {compose({map_a_T_node_a, Matrix3::Zero()}, node_a_T_node_b), map_b_T_node_b};
 }
 
-UncertainPose fuse(const std::vector<PairPlace>& pairs, const BendParams& params) {
+UncertainPose fuse(const std::vector<PairPlace>& pairs, const DistortionParams& params) {
   SEEKER_ASSERT(!pairs.empty());
   constexpr int kMaxSteps = 20;
   constexpr double kStop = 1e-9;
@@ -62,7 +62,7 @@ UncertainPose fuse(const std::vector<PairPlace>& pairs, const BendParams& params
 }
 
 Pose2 carried(const std::vector<PairPlace>& pairs, const Pose2& whole, const Pose2& map_b_T_node,
-              const BendParams& params) {
+              const DistortionParams& params) {
   SEEKER_ASSERT(!pairs.empty());
   const auto nearest = std::min_element(pairs.begin(), pairs.end(), [&](const PairPlace& p, const PairPlace& q) {
     return distance_m(p.map_b_T_node, map_b_T_node) < distance_m(q.map_b_T_node, map_b_T_node);

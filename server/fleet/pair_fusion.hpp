@@ -1,6 +1,6 @@
 /// \file
-/// What several node pairs say together of how two maps lie to each other. A pair tells what its place can tell: along
-/// a bare corridor it knows nothing, and has no say there.
+/// Fusion of node pairs into the relative pose of two maps. Each pair contributes by its covariance: along a bare
+/// corridor it holds no information.
 #pragma once
 
 #include <vector>
@@ -9,32 +9,32 @@
 
 namespace seeker::fleet {
 
-/// One pair in the frames of both maps: a local map of robot b, and where the pair puts it.
+/// One pair in the frames of both maps: the pose of a local map of robot b according to the pair.
 struct PairPlace {
-  UncertainPose map_a_T_node;  ///< by the pair
+  UncertainPose map_a_T_node;  ///< according to the pair
   Pose2 map_b_T_node;          ///< in b's own map
 };
 
-/// The place of a pair from what it says of its two local maps, and where those lie in the maps of their robots.
+/// The place of a pair, from the relation of its two local maps and their poses in the maps of their robots.
 [[nodiscard]] PairPlace pair_place(const UncertainPose& node_a_T_node_b, const Pose2& map_a_T_node_a,
                                    const Pose2& map_b_T_node_b);
 
-/// How far maps may be bent beside what their covariances say.
-struct BendParams {
-  double sigma_m = 0.05;       ///< between two local maps near each other,
-  double sigma_rad = 0.02;     ///< and their headings
-  double whole_sigma_m = 0.5;  ///< of a local map to where the whole map as a rigid body puts it,
-  double whole_sigma_rad = 0.05;
+/// Distortion of maps beyond their covariances.
+struct DistortionParams {
+  double sigma_m = 0.05;          ///< relative displacement of neighbouring local maps
+  double sigma_rad = 0.02;        ///< relative rotation of neighbouring local maps
+  double whole_sigma_m = 0.5;     ///< displacement of a local map from its pose in the rigid map
+  double whole_sigma_rad = 0.05;  ///< rotation of a local map from that pose
 };
 
-/// The pose of map b in map a that all pairs together say, as if both maps were rigid: least squares weighted by the
-/// pairs' covariances and the bend between neighbours (Gauss-Newton, with (x, y, theta) in the frame of map a as
-/// unknowns). `pairs` is not empty. Covariance: of that estimate.
-[[nodiscard]] UncertainPose fuse(const std::vector<PairPlace>& pairs, const BendParams& params);
+/// The pose of map b in map a by all pairs, as if both maps were rigid: least squares weighted by the pairs'
+/// covariances and the distortion between neighbours (Gauss-Newton, with (x, y, theta) in the frame of map a as
+/// unknowns), with the covariance of that estimate. `pairs` must not be empty.
+[[nodiscard]] UncertainPose fuse(const std::vector<PairPlace>& pairs, const DistortionParams& params);
 
-/// Where a local map of b lies in map a: where the rigid `whole` puts it, corrected by the pair nearest to it as far as
-/// that one knows better (maps bend).
+/// The pose of a local map of b in map a: by the rigid pose `whole`, corrected by the nearest pair as far as that one
+/// is more certain, since maps are distorted.
 [[nodiscard]] Pose2 carried(const std::vector<PairPlace>& pairs, const Pose2& whole, const Pose2& map_b_T_node,
-                            const BendParams& params);
+                            const DistortionParams& params);
 
 }  // namespace seeker::fleet

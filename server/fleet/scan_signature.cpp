@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLeafSize = 8;
 
-/// Distance to the nearest wall that looks towards `p`, for each bearing; the range where there is none.
+/// Distance to the nearest wall that faces `p`, for each bearing; the range where there is none.
 std::vector<double> profile_at(const Point2& p, const std::vector<slam::SeenPoints>& seen,
                                const SignatureParams& params) {
   std::vector<double> profile(static_cast<std::size_t>(params.bearings), params.range_m);

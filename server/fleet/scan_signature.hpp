@@ -1,6 +1,5 @@
 /// \file
-/// What a place looks like whatever way the robot faced: few numbers, so that like places are found without comparing
-/// all with all.
+/// Rotation-invariant signature of a place: few numbers by which similar places are found without comparing all pairs.
 #pragma once
 
 #include <array>
@@ -13,22 +12,22 @@
 
 namespace seeker::fleet {
 
-/// Unit-less; near to each other (Euclidean) where the places are alike.
+/// Signature without a unit; its Euclidean distance is small for similar places.
 inline constexpr std::size_t kSignatureSize = 16;
 using ScanSignature = std::array<float, kSignatureSize>;
 
 struct SignatureParams {
-  double spacing_m = 1.0;  ///< a signature every so much way
-  double range_m = 8.0;    ///< surroundings that count
-  int bearings = 72;       ///< directions in which the distance to the nearest wall is taken
+  double spacing_m = 1.0;  ///< path length between signatures
+  double range_m = 8.0;    ///< range of the surroundings that are described
+  int bearings = 72;       ///< number of directions in which the distance to the nearest wall is measured
 };
 
-/// Of the walls around `p`, put together from all points given: amplitudes of the Fourier series of the distance to
-/// the nearest wall over the bearing, which a turn does not change, and its mean.
+/// The signature of the walls around `p`, from all given points: amplitudes of the Fourier series of the distance to
+/// the nearest wall over the bearing, which are invariant under rotation, and its mean.
 [[nodiscard]] ScanSignature signature_at(const Point2& p, const std::vector<slam::SeenPoints>& seen,
                                          const SignatureParams& params = {});
 
-/// Signatures with a value each, found by likeness: kd-tree, n log n to build, log n a question.
+/// Signatures with a value each, searched by similarity: kd-tree, n log n to build, log n per query.
 class SignatureIndex {
  public:
   SignatureIndex();

@@ -33,7 +33,7 @@ std::vector<Hit> hits_of(const LaserScan& scan, double max_range_m) {
   return hits;
 }
 
-/// What the scanner looks at. A whole turn is cut where the nearest hit blocks every layer, so that no section
+/// The field of view of the scanner. A full circle is cut where the nearest hit blocks every layer, so that no section
 /// is cut in two.
 Arc field_of_view(const LaserScan& scan, const std::vector<Hit>& hits) {
   const double step_rad = std::abs(scan.angle_step_rad);
@@ -63,7 +63,7 @@ void add_blocked(const Hit& hit, double radius_m, double half_width_m, std::vect
   }
 }
 
-/// The parts of `view` that no arc blocks; arcs count at every whole turn.
+/// The parts of `view` that no arc blocks; arcs count at every full circle.
 std::vector<Arc> free_arcs(const Arc& view, const std::vector<Arc>& blocked) {
   std::vector<Arc> inside;
   inside.reserve(blocked.size());

@@ -12,7 +12,7 @@ namespace {
 constexpr double kAtGoal_m = 0.4;
 /// The map leads nearer to the goal than it did: worth another drive.
 constexpr double kNearer_m = 0.3;
-/// Nodes of the way so near have been reached.
+/// Nodes of the path within this distance have been reached.
 constexpr double kAtNode_m = 0.5;
 
 double distance_to(const Pose2& pose, const Point2& p) { return (pose.translation() - p).norm(); }
@@ -22,17 +22,17 @@ double distance_to(const Pose2& pose, const Point2& p) { return (pose.translatio
 void TopologicalStrategy::go(const Input& input, const Scene& scene, PendingGoal goal) {
   goal_ = std::move(goal);
   since_ = input.now;
-  std::vector<Point2> way_map = goal_->way_map;
-  while (!way_map.empty() && distance_to(input.map_T_base, way_map.front()) < kAtNode_m) {
-    way_map.erase(way_map.begin());
+  std::vector<Point2> path_map = goal_->path_map;
+  while (!path_map.empty() && distance_to(input.map_T_base, path_map.front()) < kAtNode_m) {
+    path_map.erase(path_map.begin());
   }
-  if (way_map.empty() || scene.corridors.free(input.map_T_base.translation(), goal_->p_map)) {
+  if (path_map.empty() || scene.corridors.free(input.map_T_base.translation(), goal_->p_map)) {
     go_to_goal(input, scene);
     return;
   }
-  const Point2 next_map = *farthest_visible(input.map_T_base.translation(), way_map, scene.corridors);
+  const Point2 next_map = *farthest_visible(input.map_T_base.translation(), path_map, scene.corridors);
   why_ = "back along the nodes to the goal at " + text(goal_->p_map);
-  state_ = State::kWay;
+  state_ = State::kPath;
   if (!driver_.start(input, next_map)) {
     failed(input, &scene, driver_.reason());
   }
@@ -52,14 +52,14 @@ void TopologicalStrategy::go_to_goal(const Input& input, const Scene& scene) {
   }
 }
 
-/// Of the straight line from its node to the goal the last place that a way leads to: the goal itself, or where the
-/// known floor ends.
+/// The last reachable position of the straight line from its node to the goal: the goal itself, or where the known
+/// floor ends.
 std::optional<Point2> TopologicalStrategy::nearest_on_line(const Input& input, const nav::CostMap& cost) const {
   const auto costs = nav::DistanceField::build(cost, input.map_T_base.translation());
   if (!costs) {
     return std::nullopt;
   }
-  const Point2 from_map = goal_->way_map.empty() ? map_.current()->map_T_base.translation() : goal_->way_map.back();
+  const Point2 from_map = goal_->path_map.empty() ? map_.current()->map_T_base.translation() : goal_->path_map.back();
   const Point2 line = from_map - goal_->p_map;
   const int steps = static_cast<int>(std::ceil(line.norm() / cost.frame().resolution_m));
   for (int k = 0; k <= steps; ++k) {
@@ -71,7 +71,7 @@ std::optional<Point2> TopologicalStrategy::nearest_on_line(const Input& input, c
   return std::nullopt;
 }
 
-/// The same with other robots in the way, as long as a way is left.
+/// The same with other robots as obstacles, as long as a path is left.
 std::optional<Point2> TopologicalStrategy::nearest_now(const Input& input, const Scene& scene) const {
   const auto crowded = input.floors.around_movers(*scene.floor);
   const auto aim_map = crowded ? nearest_on_line(input, *crowded) : std::nullopt;
@@ -106,18 +106,18 @@ void TopologicalStrategy::drive(const Input& input, Step& out) {
   }
 }
 
-/// Nodes are made on the way too, so that what has been passed is known to have a node.
+/// Nodes are made along the path, too, so that the passed area has nodes.
 void TopologicalStrategy::pass(const Input& input, const Scene& scene, Step& out) {
   const TopologyNode* before = map_.current();
   if (before != nullptr && distance_m(before->map_T_base, input.map_T_base) > topological_.map.node_distance_m) {
     const std::size_t nodes = map_.topology().nodes.size();
     note_place(input, scene);
     if (settle_goal(scene)) {
-      change("the goal at " + text(goal_->p_map) + " has been seen on the way", out);
+      change("the goal at " + text(goal_->p_map) + " has been observed while driving", out);
       return;
     }
-    if (state_ == State::kWay && map_.topology().nodes.size() > nodes && !map_.current()->goals.empty()) {
-      change("a new goal on the way", out);
+    if (state_ == State::kPath && map_.topology().nodes.size() > nodes && !map_.current()->goals.empty()) {
+      change("a new goal along the path", out);
       return;
     }
   }
@@ -128,7 +128,7 @@ void TopologicalStrategy::pass(const Input& input, const Scene& scene, Step& out
 }
 
 /// The nodes of others may have settled the goal, another robot may want it too, the map may lead nearer to it; on the
-/// way back a new goal may have come into sight.
+/// return a new goal may have come into sight.
 void TopologicalStrategy::reconsider(const Input& input, const Scene& scene, Step& out) {
   map_.settle(scene.fleet.others, scene.corridors);
   if (settle_goal(scene)) {
@@ -139,12 +139,12 @@ void TopologicalStrategy::reconsider(const Input& input, const Scene& scene, Ste
     change("another robot drives to the goal at " + text(goal_->p_map), out);
     return;
   }
-  if (state_ == State::kWay) {
+  if (state_ == State::kPath) {
     note_place(input, scene);
     const std::size_t goals = map_.current()->goals.size();
     look_again(input, scene);
     if (map_.current()->goals.size() > goals) {
-      change("a new goal on the way", out);
+      change("a new goal along the path", out);
     }
   } else {
     if (short_of_goal_m() > kAtGoal_m && is_nearer(nearest_now(input, scene))) {
@@ -154,9 +154,9 @@ void TopologicalStrategy::reconsider(const Input& input, const Scene& scene, Ste
 }
 
 void TopologicalStrategy::arrived(const Input& input, const Scene& scene, Step& out) {
-  if (state_ == State::kWay) {
+  if (state_ == State::kPath) {
     note_place(input, scene);
-    change("at a node on the way", out);
+    change("at a node of the path", out);
     return;
   }
   const bool short_of_goal = short_of_goal_m() > kAtGoal_m;
@@ -174,7 +174,7 @@ void TopologicalStrategy::arrived(const Input& input, const Scene& scene, Step& 
   }
   if (!settle_goal(scene)) {  // as near as the map leads
     if (short_of_goal && is_nearer(nearest_on_line(input, scene.floor->cost))) {
-      failed(input, &scene, "another robot stands in the way");
+      failed(input, &scene, "another robot blocks the path");
       return;
     }
     drop_goal();

@@ -13,7 +13,7 @@ namespace seeker::fleet {
 namespace {
 
 constexpr double kTurn_rad_s = 0.6;
-/// A turning robot looks again after so much of it.
+/// Rotation after which a rotating robot observes again.
 constexpr double kLookStep_rad = deg_to_rad(45.0);
 constexpr double kWaitTick_s = 1.0;
 /// Goals so near to each other fail together.
@@ -64,9 +64,9 @@ explore::StrategyStep TopologicalStrategy::step(const Input& input) {
   }
   switch (state_) {
     case State::kChoose: choose(input, out); break;
-    case State::kTurn: turn(input, out); break;
+    case State::kRotate: rotate(input, out); break;
     case State::kGoal:
-    case State::kWay: drive(input, out); break;
+    case State::kPath: drive(input, out); break;
     case State::kWait:
       if (to_seconds(input.now - since_) >= kWaitTick_s) {
         choose(input, out);
@@ -77,7 +77,7 @@ explore::StrategyStep TopologicalStrategy::step(const Input& input) {
   if (out.activity.empty()) {
     out.activity = why_;
   }
-  if (state_ == State::kGoal || state_ == State::kWay) {
+  if (state_ == State::kGoal || state_ == State::kPath) {
     out.planned_path = driver_.path();
   } else if (state_ == State::kWait) {
     out.phase = "wait";
@@ -106,8 +106,8 @@ void TopologicalStrategy::choose(const Input& input, Step& out) {
   if (!scene) {
     const auto floor = input.floors.view();
     const std::string cause = floor ? "there is no scan of a laser" : floor.error().message;
-    if (!turned_at_) {
-      begin_turn(input, "turning on the spot to see more: " + cause);
+    if (!rotated_at_) {
+      begin_rotation(input, "rotating on the spot to observe more: " + cause);
     } else if (floor && to_seconds(input.now - *scan_at_) < topological_.scan_limit_s) {
       wait(input, "waiting for a scan");
     } else {
@@ -116,8 +116,8 @@ void TopologicalStrategy::choose(const Input& input, Step& out) {
     return;
   }
   note_place(input, *scene);
-  if (!turned_at_ && field_of_view_rad(*input.laser) < kTwoPi - kLookStep_rad) {
-    begin_turn(input, "looking about at the first node");
+  if (!rotated_at_ && field_of_view_rad(*input.laser) < kTwoPi - kLookStep_rad) {
+    begin_rotation(input, "rotating to observe at the first node");
     return;
   }
   map_.settle(scene->fleet.others, scene->corridors);
@@ -127,8 +127,8 @@ void TopologicalStrategy::choose(const Input& input, Step& out) {
   } else if (!all_idle_since_) {
     all_idle_since_ = input.now;
   }
-  if (choice.goal || choice.decision.why != told_) {  // a robot that waits asks every second
-    told_ = choice.decision.why;
+  if (choice.goal || choice.decision.why != published_) {  // a robot that waits asks every second
+    published_ = choice.decision.why;
     out.decision = std::move(choice.decision);
   }
   if (!choice.goal) {
@@ -162,9 +162,9 @@ bool TopologicalStrategy::patient(RobotTime now) const {
 void TopologicalStrategy::wait_or_finish(const Input& input, const GoalChoice& choice, Step& out) {
   if (resting(input.now)) {
     wait(input, "waiting to try again what could not be reached");
-  } else if (turned_at_ != map_.topology().current && field_of_view_rad(*input.laser) < kTwoPi - kLookStep_rad) {
-    begin_turn(input, choice.others_busy ? "looking about while other robots are at what is left to explore"
-                                         : "looking about, for no node has a goal left");
+  } else if (rotated_at_ != map_.topology().current && field_of_view_rad(*input.laser) < kTwoPi - kLookStep_rad) {
+    begin_rotation(input, choice.others_busy ? "rotating to observe while other robots are at what is left to explore"
+                                             : "rotating to observe, for no node has a goal left");
   } else if (choice.others_busy) {
     wait(input, "other robots are at what is left to explore");
   } else {
@@ -186,42 +186,42 @@ void TopologicalStrategy::finish(std::string why, Step& out) {
   out.step_done = true;
 }
 
-/// As far as the scanner does not see already; all round where it sees nothing.
-void TopologicalStrategy::begin_turn(const Input& input, std::string why) {
-  state_ = State::kTurn;
+/// Rotates by the part of the circle outside the field of view; by a full circle where no node exists yet.
+void TopologicalStrategy::begin_rotation(const Input& input, std::string why) {
+  state_ = State::kRotate;
   why_ = std::move(why);
-  turned_at_ = map_.topology().current;
-  turned_rad_ = 0.0;
+  rotated_at_ = map_.topology().current;
+  rotated_rad_ = 0.0;
   looked_rad_ = 0.0;
-  turn_until_rad_ = input.laser != nullptr && *turned_at_ != 0 ? kTwoPi - field_of_view_rad(*input.laser) : kTwoPi;
+  rotate_until_rad_ = input.laser != nullptr && *rotated_at_ != 0 ? kTwoPi - field_of_view_rad(*input.laser) : kTwoPi;
   heading_rad_ = input.map_T_base.theta_rad;
 }
 
-void TopologicalStrategy::turn(const Input& input, Step& out) {
+void TopologicalStrategy::rotate(const Input& input, Step& out) {
   out.phase = "turn";
-  turned_rad_ += std::abs(wrap_angle(input.map_T_base.theta_rad - heading_rad_));
+  rotated_rad_ += std::abs(wrap_angle(input.map_T_base.theta_rad - heading_rad_));
   heading_rad_ = input.map_T_base.theta_rad;
-  const bool done = turned_rad_ >= turn_until_rad_;
+  const bool done = rotated_rad_ >= rotate_until_rad_;
   const auto scene = look(input);
-  if (scene && map_.current() != nullptr && (done || turned_rad_ - looked_rad_ >= kLookStep_rad)) {
-    looked_rad_ = turned_rad_;
+  if (scene && map_.current() != nullptr && (done || rotated_rad_ - looked_rad_ >= kLookStep_rad)) {
+    looked_rad_ = rotated_rad_;
     look_again(input, *scene);
   }
   if (done) {
-    change("has looked about", out);
+    change("has rotated to observe", out);
     return;
   }
   out.command.omega_rad_s = kTurn_rad_s;
 }
 
-/// The next step chooses anew.
+/// The next step chooses again.
 void TopologicalStrategy::change(std::string why, Step& out) {
   state_ = State::kChoose;
   why_ = std::move(why);
   out.step_done = true;
 }
 
-/// What the robot sees from where it stands goes to the present node.
+/// The robot's observations at its position are added to the present node.
 void TopologicalStrategy::look_again(const Input& input, const Scene& scene) {
   (void)map_.look_again(input.map_T_base, build_space_tree(*input.laser, topological_.map.tree), scene.fleet.others,
                         scene.corridors);
@@ -256,17 +256,17 @@ bool TopologicalStrategy::resting(RobotTime now) const {
   });
 }
 
-/// What no drive has reached, and nobody has come to in another way since.
-std::vector<Point2> TopologicalStrategy::given_up(const Input& input) const {
+/// Goals that no drive has reached, and that no robot has reached by another path since.
+std::vector<UnreachablePlace> TopologicalStrategy::given_up(const Input& input) const {
   const auto floor = input.floors.view();
   const FleetView& fleet = fleet_of(input);
-  std::vector<Point2> places;
+  std::vector<UnreachablePlace> places;
   for (const Failure& failure : failures_) {
     const bool seen_to =
         floor && map_.has_node_near(failure.p_map, fleet.others,
                                     {corridors_of((*floor)->cost), topological_.map.tree.corridor_width_m});
     if (failure.count >= topological_.max_failures && !seen_to) {
-      places.push_back(failure.p_map);
+      places.push_back({failure.p_map, UnreachableCause::kBlocked, 0.0, "no drive came to this goal"});
     }
   }
   return places;
@@ -293,7 +293,7 @@ void TopologicalStrategy::failed(const Input& input, const Scene* scene, const s
   }
   driver_.stop();
   state_ = State::kChoose;
-  why_ = "no way to the goal at " + text(p_map) + ": " + why;
+  why_ = "no path to the goal at " + text(p_map) + ": " + why;
 }
 
 std::optional<Point2> TopologicalStrategy::target_map() const {
@@ -314,8 +314,8 @@ void TopologicalStrategy::interrupted(RobotTime now) {
   scan_at_.reset();
   driver_.stop();
   goal_.reset();
-  if (state_ == State::kDone || state_ == State::kTurn) {
-    turned_at_.reset();  // it looks about again
+  if (state_ == State::kDone || state_ == State::kRotate) {
+    rotated_at_.reset();  // it rotates to observe again
   }
   state_ = State::kChoose;
 }

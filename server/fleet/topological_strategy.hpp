@@ -1,6 +1,6 @@
 /// \file
-/// Exploring by topology (spec S4.4): a node where the robot stands, goals from its space tree, the main goal first,
-/// back along the topology's edges to the closest node with a goal when this one has none.
+/// Topological exploration (spec S4.4): a node at the robot's position, goals from its space tree, the main goal first,
+/// and the return along the topology's edges to the closest node with a goal when this one has none.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,21 @@ namespace seeker::fleet {
 struct TopologicalParams {
   TopologyParams map;
   AuctionParams auction;
-  int max_failures = 2;          ///< drives to one goal that failed: then no way leads there
-  double retry_s = 20.0;         ///< after a failed drive other goals are tried first for so long
-  double replan_period_s = 2.0;  ///< goals are looked at again this often while driving
-  double scan_limit_s = 5.0;     ///< without a scan for longer it gives up
-  double takeover_m = 3.0;       ///< of a goal that another robot drives to, by one with so much shorter a way
-  double patience_s = 10.0;      ///< waiting for others to take what they are nearer to while none of them drives
+  int max_failures = 2;          ///< number of failed drives to one goal after which it counts as unreachable
+  double retry_s = 20.0;         ///< time after a failed drive during which other goals are preferred
+  double replan_period_s = 2.0;  ///< period at which goals are checked again while driving
+  double scan_limit_s = 5.0;     ///< time without a scan after which the exploration fails
+  /// Difference of the path lengths from which on a goal is taken over from another robot.
+  double takeover_m = 3.0;
+  double patience_s = 10.0;  ///< waiting time for others to take goals nearer to them while none of them drives
 };
 
-/// Refuses values that make no sense.
+/// Refuses invalid values.
 [[nodiscard]] Status validate(const TopologicalParams& params);
 
-/// Drives over planned paths like every other strategy; what differs is where to. A scanner that does not look all
-/// round is turned about at the first node, and once more where nothing is left. Against the paper, drives end as near
-/// to a goal as the map leads, for a goal may lie beyond what a scanner without return has cleared.
+/// Drives along planned paths like every other strategy; it differs by the choice of goals. A robot whose scanner has a
+/// limited field of view rotates at the first node, and once more when no goal is left. Unlike in the paper, drives end
+/// as near to a goal as the map leads, since a goal may lie beyond the area cleared by a scanner without returns.
 class TopologicalStrategy final : public explore::ExploreStrategy {
  public:
   TopologicalStrategy(const explore::ExploreParams& params, const TopologicalParams& topological);
@@ -47,9 +48,9 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
  private:
   using Input = explore::StrategyInput;
   using Step = explore::StrategyStep;
-  enum class State : std::uint8_t { kChoose, kTurn, kGoal, kWay, kWait, kDone };
+  enum class State : std::uint8_t { kChoose, kRotate, kGoal, kPath, kWait, kDone };
 
-  /// Map, passable ways and other robots of one step.
+  /// Map, passable corridors and other robots of one step.
   struct Scene {
     std::shared_ptr<const nav::FloorView> floor;
     Corridors corridors;
@@ -83,8 +84,8 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   void drop_goal();
   void change(std::string why, Step& out);
 
-  void begin_turn(const Input& input, std::string why);
-  void turn(const Input& input, Step& out);
+  void begin_rotation(const Input& input, std::string why);
+  void rotate(const Input& input, Step& out);
 
   void look_again(const Input& input, const Scene& scene);
   void create_node(const Input& input, const Scene& scene);
@@ -92,7 +93,7 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   [[nodiscard]] bool settle_goal(const Scene& scene);
   [[nodiscard]] bool goal_settled(const Scene& scene) const;
   [[nodiscard]] bool another_is_at(const Point2& p_map, const Scene& scene) const;
-  [[nodiscard]] std::vector<Point2> given_up(const Input& input) const;
+  [[nodiscard]] std::vector<UnreachablePlace> given_up(const Input& input) const;
   [[nodiscard]] bool left_out(const Point2& p_map, RobotTime now) const;
   [[nodiscard]] bool resting(RobotTime now) const;
   [[nodiscard]] bool patient(RobotTime now) const;
@@ -103,19 +104,20 @@ class TopologicalStrategy final : public explore::ExploreStrategy {
   nav::PlannedDriver driver_;
   State state_ = State::kChoose;
   std::string why_;
-  std::string told_;  ///< why of the last decision that was published
+  std::string published_;  ///< cause of the last published decision
   std::optional<PendingGoal> goal_;
-  Point2 aim_map_ = Point2::Zero();  ///< of kGoal: the goal, or the nearest place to it that the map leads to
+  Point2 aim_map_ = Point2::Zero();  ///< of kGoal: the goal, or the nearest reachable position
   std::vector<Failure> failures_;
-  std::vector<Point2> done_map_;  ///< goals of others that were settled, or looked at from as near as the map leads
-  RobotTime since_;               ///< of the present state
-  std::optional<RobotTime> all_idle_since_;  ///< of this robot and those that it waits for
-  RobotTime considered_;                     ///< when the goal was last looked at again
+  /// Goals of others that were settled, or observed from the nearest reachable position.
+  std::vector<Point2> done_map_;
+  RobotTime since_;                          ///< begin of the present state
+  std::optional<RobotTime> all_idle_since_;  ///< since when this robot and those that it waits for are idle
+  RobotTime considered_;                     ///< when the goal was last checked again
   std::optional<RobotTime> scan_at_;
-  std::optional<std::uint64_t> turned_at_;  ///< the node (0: none) where it looked about
-  double turned_rad_ = 0.0;
-  double turn_until_rad_ = 0.0;
-  double looked_rad_ = 0.0;  ///< of the turn when it last looked
+  std::optional<std::uint64_t> rotated_at_;  ///< node (0: none) at which the robot last rotated
+  double rotated_rad_ = 0.0;
+  double rotate_until_rad_ = 0.0;
+  double looked_rad_ = 0.0;  ///< rotation at which it last observed
   double heading_rad_ = 0.0;
 };
 

@@ -64,9 +64,9 @@ std::vector<RuledGoal> apply_rules(std::vector<RuledGoal> goals, const RuleInput
   }
   known.pending_map.insert(known.pending_map.end(), input.closed_map.begin(), input.closed_map.end());
   const Pose2& map_T_base = input.present.map_T_base;
-  const auto turn_rad = [&](const RuledGoal& goal) { return std::abs(bearing_to(map_T_base, goal.p_map)); };
+  const auto rotation_rad = [&](const RuledGoal& goal) { return std::abs(bearing_to(map_T_base, goal.p_map)); };
   std::stable_sort(goals.begin(), goals.end(), [&](const RuledGoal& a, const RuledGoal& b) {
-    return a.layer != b.layer ? a.layer > b.layer : turn_rad(a) < turn_rad(b);
+    return a.layer != b.layer ? a.layer > b.layer : rotation_rad(a) < rotation_rad(b);
   });
   for (RuledGoal& goal : goals) {
     if ((goal.p_map - map_T_base.translation()).norm() < input.node_distance_m) {
@@ -84,14 +84,14 @@ std::vector<RuledGoal> apply_rules(std::vector<RuledGoal> goals, const RuleInput
   return goals;
 }
 
-std::optional<Point2> farthest_visible(const Point2& robot_map, const std::vector<Point2>& way_map,
+std::optional<Point2> farthest_visible(const Point2& robot_map, const std::vector<Point2>& path_map,
                                        const Corridors& corridors) {
-  if (way_map.empty()) {
+  if (path_map.empty()) {
     return std::nullopt;
   }
-  Point2 best = way_map.front();
+  Point2 best = path_map.front();
   double best_m = -1.0;
-  for (const Point2& p_map : way_map) {
+  for (const Point2& p_map : path_map) {
     const double d_m = (p_map - robot_map).norm();
     if (d_m > best_m && corridors.free(robot_map, p_map)) {
       best = p_map;

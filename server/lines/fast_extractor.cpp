@@ -90,7 +90,7 @@ bool FastExtractor::is_near(const LineFit& fit, int first, int last, double sigm
 
 bool FastExtractor::is_one_line(double across_m2, double parts_m2, double w, double points, double variance_m2) const {
   return (across_m2 - parts_m2) / w <=
-         params_.bend_chi2 * variance_m2 / points + params_.straightness_m * params_.straightness_m;
+         params_.split_chi2 * variance_m2 / points + params_.straightness_m * params_.straightness_m;
 }
 
 bool FastExtractor::is_line(const Piece& whole) const {

@@ -1,5 +1,6 @@
 /// \file
-/// Lines of a scan in O(n): running sums, iterative split and merge, noise told by the scan (spec S5; S1.4 steps 1-2).
+/// Line extraction in O(n): running sums, iterative split and merge, with range noise estimated from the scan (spec S5;
+/// S1.4 steps 1-2).
 #pragma once
 
 #include <cstdint>
@@ -14,47 +15,51 @@ namespace seeker::lines {
 
 struct FastParams {
   NoiseParams noise;
-  double bearing_sigma_rad = 0.0;  ///< of the beams; 0: their directions are exact
-  double straightness_m = 0.0;     ///< how far a wall may be off a straight line, beside the noise
-  double max_gap_m = 0.15;         ///< neighbours farther apart begin a new group, unless they are in line
+  double bearing_sigma_rad = 0.0;  ///< standard deviation of the bearings of the beams; 0: they are exact
+  double straightness_m = 0.0;     ///< deviation of a wall from a straight line, in addition to the noise
+  double max_gap_m = 0.15;         ///< largest gap between neighbouring points of one group, unless they are in line
   double max_gap_spacings = 3.0;   ///< the same in spacings of beams at their range (spec S1.4 step 1)
-  double in_line_sigmas = 4.0;     ///< a gap between points in line with a neighbour does not begin a group
-  int max_missing_beams = 2;       ///< more beams without return begin a new group
-  double split_sigmas = 4.0;       ///< a point farther from the line splits it
-  double excess_sigmas = 4.0;      ///< ... as does a mean square that is over the noise by so many standard deviations
-  double merge_sigmas = 5.0;       ///< ... but two pieces of one line may have one so far off
-  double bend_chi2 = 16.0;         ///< two parts are one line unless two lines explain them better than by this
-  double max_merge_gap_m = 0.2;    ///< ends of two pieces of one line are not farther apart (spec S5.6)
-  double corner_sigmas = 3.0;      ///< nearer to the next wall's line, noise decides which of the two a point is of
-  double corner_doubt = 1.0;       ///< ... and such a point is off by this much more variance, in units of its noise
-  double inflation_sigmas = 2.0;   ///< the covariance grows with a mean square that is over the noise by more than this
-  int max_outliers = 3;            ///< so many points between two pieces of one line are left out
-  int min_points = 8;              ///< of a line (spec S1.4 step 2d)
+  double in_line_sigmas = 4.0;     ///< distance from a neighbour's line up to which a gap does not begin a new group
+  int max_missing_beams = 2;       ///< number of beams without return above which a new group begins
+  double split_sigmas = 4.0;       ///< distance from the line above which a point splits it
+  /// Excess of the mean square over the noise, in standard deviations, above which a line is split.
+  double excess_sigmas = 4.0;
+  double merge_sigmas = 5.0;     ///< distance from a common line up to which two pieces are merged
+  double split_chi2 = 16.0;      ///< chi-square by which two lines must explain the parts of a piece better than one
+  double max_merge_gap_m = 0.2;  ///< largest gap between the ends of two merged pieces (spec S5.6)
+  /// Distance to the next wall's line below which noise decides to which of the two a point belongs.
+  double corner_sigmas = 3.0;
+  double corner_doubt = 1.0;  ///< additional variance of such a point, in units of its noise
+  /// Excess of the mean square over the noise above which the covariance is increased.
+  double inflation_sigmas = 2.0;
+  int max_outliers = 3;  ///< number of points between two pieces of one line that may be left out
+  int min_points = 8;    ///< smallest number of points of a line (spec S1.4 step 2d)
   double min_length_m = 0.3;
-  double min_range_m = 0.05;  ///< nearer returns are not believed, whatever the scanner says
-  double max_range_m = 0.0;   ///< farther returns are left out; 0: the scanner's own limit
+  double min_range_m = 0.05;  ///< nearer returns are ignored, even where the scanner's own limit is lower
+  double max_range_m = 0.0;   ///< farther returns are ignored; 0: the scanner's own limit
 };
 
-/// Keeps its buffers and the sines of the scanner's beams: use one per scanner. The result depends on the scan alone.
+/// Keeps its buffers and the sines of the scanner's beams, so that each scanner needs its own. The result depends on
+/// the scan alone.
 class FastExtractor {
  public:
   explicit FastExtractor(const FastParams& params = {}) : params_(params) {}
 
-  /// Lines of a scan, which must have passed validate(). `found` is overwritten; its memory is used again.
+  /// Extracts the lines of a scan that has passed validate(). `found` is overwritten; its memory is reused.
   void extract(const LaserScan& scan, ScanLines& found);
   [[nodiscard]] ScanLines extract(const LaserScan& scan);
 
   [[nodiscard]] const FastParams& params() const { return params_; }
-  /// Noise of the scan extracted last.
+  /// Range noise of the most recently extracted scan.
   [[nodiscard]] const RangeNoise& noise() const { return noise_; }
 
  private:
-  /// Beams that graze the wall at a smaller cosine are not believed to know it any better.
+  /// Lower limit of the cosine between beam and normal: at grazing incidence beams do not locate the wall better.
   static constexpr double kMinCosine = 0.05;
-  /// Splitting ends at pieces of fewer points: any three are nearly a line.
+  /// Splitting ends at pieces with fewer points: any three are nearly a line.
   static constexpr int kMinPiece = 4;
 
-  /// Returns first..last (inclusive), those left out among them not in `sums`.
+  /// The returns first..last (inclusive); excluded returns among them are not in `sums`.
   struct Piece {
     int first = 0;
     int last = 0;
@@ -62,11 +67,11 @@ class FastExtractor {
     Moments sums;
     double across_m2 = 0.0;  ///< LineFit::across_m2
     LineFit fit;             ///< of pieces that are lines; fragments have none
-    int doubtful_first = 0;  ///< so many returns at its begin may be the wall's before,
-    int doubtful_last = 0;   ///< so many at its end the next one's
+    int doubtful_first = 0;  ///< number of returns at the begin that may belong to the previous wall
+    int doubtful_last = 0;   ///< number of returns at the end that may belong to the next wall
   };
 
-  /// How a line's points lie about it: their mean square in units of what the noise explains.
+  /// Scatter of the points about a line: their mean square in units of the expected noise.
   struct Scatter {
     double dof = 0.0;
     double excess = 0.0;
@@ -120,20 +125,20 @@ class FastExtractor {
   double sin_step_ = 0.0;
   bool clockwise_ = false;
   bool full_circle_ = false;
-  bool even_seam_ = false;  ///< the step over the cut is like any other
+  bool even_seam_ = false;  ///< the step across the cut of the circle equals the others
   std::vector<float> cos_;
   std::vector<float> sin_;
   std::vector<std::int32_t> all_ranks_;  ///< 0, 1, 2 ...
-  // The returns of the scan, counter-clockwise; on a full circle those before start_ once more behind the last.
+  // The returns of the scan, counter-clockwise; on a full circle those before start_ are repeated behind the last.
   int start_ = 0;
-  std::vector<std::int32_t> rank_;  ///< beam, counted counter-clockwise; goes on beyond the cut
+  std::vector<std::int32_t> rank_;  ///< index of the beam, counted counter-clockwise; continues beyond the cut
   std::vector<float> range_;
   std::vector<float> squares_;  ///< NoiseEstimator::differences()
   std::vector<float> x_;
   std::vector<float> y_;
   std::vector<float> weight_;    ///< 0: left out
   std::vector<float> variance_;  ///< sigma_rho^2 / rho^2
-  std::vector<Moments> sums_;    ///< entry i: of the returns before i
+  std::vector<Moments> sums_;    ///< entry i holds the sums of the returns before i
   std::vector<Piece> pieces_;
   std::vector<Piece> merged_;
   std::vector<std::pair<int, int>> stack_;

@@ -15,7 +15,7 @@ std::vector<Indices> FiveModes::run(std::size_t first, std::size_t last) {
       case LineMode::kContinuousLine: mode = continuous_line(); break;
       case LineMode::kSegmentConfirm: mode = segment_confirm(); break;
       case LineMode::kExpand: mode = expand(); break;
-      case LineMode::kTurn: mode = turn(); break;
+      case LineMode::kCorner: mode = corner(); break;
       case LineMode::kSplit: mode = split(); break;
     }
   }
@@ -60,8 +60,8 @@ LineMode FiveModes::expand() {
   if (next_ == end_ || is_gap(next_)) {
     return LineMode::kSplit;
   }
-  if (std::abs(distance_m(next_)) > limits_.thresholds.turn_m) {
-    return LineMode::kTurn;
+  if (std::abs(distance_m(next_)) > limits_.thresholds.corner_m) {
+    return LineMode::kCorner;
   }
   sums_.add(row_.points[next_].x(), row_.points[next_].y(), row_.polar[next_].weight);
   fit_ = fit_line(sums_);
@@ -70,13 +70,13 @@ LineMode FiveModes::expand() {
 }
 
 /// The point is off the line: a corner, or an outlier when the line goes on behind it.
-LineMode FiveModes::turn() {
+LineMode FiveModes::corner() {
   const double side = distance_m(next_);
   int on_line = 0;
   int looked_at = 0;
   for (std::size_t i = next_ + 1; i < end_ && looked_at < params_.look_ahead && !is_gap(i); ++i, ++looked_at) {
     const double distance = distance_m(i);
-    const bool off = std::abs(distance) > limits_.thresholds.turn_m && distance * side > 0.0;
+    const bool off = std::abs(distance) > limits_.thresholds.corner_m && distance * side > 0.0;
     on_line += off ? 0 : 1;
   }
   if (looked_at > 0 && on_line == looked_at) {

@@ -6,10 +6,10 @@
 
 namespace seeker::lines {
 
-/// What the machine is doing. The paper says four modes and names five.
-enum class LineMode : std::uint8_t { kContinuousLine, kSegmentConfirm, kExpand, kTurn, kSplit };
+/// State of the machine. The paper speaks of four modes and names five.
+enum class LineMode : std::uint8_t { kContinuousLine, kSegmentConfirm, kExpand, kCorner, kSplit };
 
-/// Limits of one round on one packet.
+/// Limits of one round for one packet.
 struct ModeLimits {
   LineThresholds thresholds;
   double max_fit_error_m = 0.0;
@@ -28,7 +28,7 @@ class FiveModes {
   [[nodiscard]] LineMode continuous_line();
   [[nodiscard]] LineMode segment_confirm();
   [[nodiscard]] LineMode expand();
-  [[nodiscard]] LineMode turn();
+  [[nodiscard]] LineMode corner();
   [[nodiscard]] LineMode split();
   void close();
   [[nodiscard]] bool is_gap(std::size_t i) const;
@@ -37,9 +37,9 @@ class FiveModes {
   const PointRow& row_;
   const PaperParams& params_;
   const ModeLimits& limits_;
-  std::size_t next_ = 0;  ///< first point not looked at
-  std::size_t end_ = 0;   ///< behind the packet
-  Indices segment_;       ///< seed, later line
+  std::size_t next_ = 0;  ///< first point that has not been processed
+  std::size_t end_ = 0;   ///< index behind the packet
+  Indices segment_;       ///< points of the seed, and later of the line
   Moments sums_;
   LineFit fit_;
   bool confirmed_ = false;

@@ -1,5 +1,5 @@
 /// \file
-/// A straight line in one laser scan, with everything that is known about it (spec S5.1).
+/// A straight line in one laser scan, with its geometry, covariance and beams (spec S5.1).
 #pragma once
 
 #include <cstdint>
@@ -11,33 +11,33 @@
 
 namespace seeker::lines {
 
-/// x cos(alpha) + y sin(alpha) = r in the frame `laser`, r >= 0, and the piece of it that was seen. Start and end are
-/// in the order of increasing bearing (counter-clockwise) whichever way the scanner turns.
+/// The line x cos(alpha) + y sin(alpha) = r in the frame `laser`, r >= 0, and its observed piece. Start and end are in
+/// the order of increasing bearing (counter-clockwise), whichever direction the scanner rotates in.
 struct Line {
   double r_m = 0.0;
-  double alpha_rad = 0.0;                ///< of the normal, from the sensor to the line, in (-pi, pi]
-  Matrix2 covariance = Matrix2::Zero();  ///< of (r, alpha): spec S5.5, eqs (4)-(7)
+  double alpha_rad = 0.0;                ///< angle of the normal, from the sensor to the line, in (-pi, pi]
+  Matrix2 covariance = Matrix2::Zero();  ///< covariance of (r, alpha): spec S5.5, eqs (4)-(7)
   Point2 start{0.0, 0.0};                ///< first and last point, projected on the line
   Point2 end{0.0, 0.0};
   double start_rad = 0.0;  ///< bearings of start and end; end < start when the line crosses the cut of a full circle
   double end_rad = 0.0;
   double length_m = 0.0;
-  std::optional<double> slope;  ///< kappa and b of y = kappa x + b; nothing for a vertical line
-  std::optional<double> intercept_m;
-  std::size_t first_beam = 0;  ///< the beams of start and end, counter-clockwise; first > last across the cut
+  std::optional<double> slope;        ///< kappa of y = kappa x + b; no value for a vertical line
+  std::optional<double> intercept_m;  ///< b of y = kappa x + b
+  std::size_t first_beam = 0;         ///< the beams of start and end, counter-clockwise; first > last across the cut
   std::size_t last_beam = 0;
-  int points = 0;      ///< inliers that were fitted
-  double rms_m = 0.0;  ///< of the inliers' distances: E_l of spec S5.4
+  int points = 0;      ///< number of inliers of the fit
+  double rms_m = 0.0;  ///< root mean square distance of the inliers: E_l of spec S5.4
 };
 
-/// No line: an entry of ScanLines::line_of_beam.
+/// The entry of ScanLines::line_of_beam for a beam without a line.
 inline constexpr std::int32_t kNoLine = -1;
 
-/// What an extractor found in one scan.
+/// The lines extracted from one scan.
 struct ScanLines {
   std::vector<Line> lines;                 ///< counter-clockwise by start
   std::vector<std::int32_t> line_of_beam;  ///< per beam the index of its line, or kNoLine
-  double range_sigma_m = 0.0;              ///< noise the extractor worked with: given, or estimated from this scan
+  double range_sigma_m = 0.0;              ///< range noise used by the extractor: given, or estimated from this scan
 };
 
 }  // namespace seeker::lines

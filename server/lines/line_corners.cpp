@@ -54,7 +54,7 @@ bool FastExtractor::settle_corner(Piece& a, Piece& b) {
 
 void FastExtractor::settle_corners() {
   for (std::size_t i = 0; i + 1 < merged_.size(); ++i) {
-    // The second time with lines that no longer bend into each other.
+    // The second time with lines that are not distorted by each other's points any more.
     if (settle_corner(merged_[i], merged_[i + 1])) {
       settle_corner(merged_[i], merged_[i + 1]);
     }

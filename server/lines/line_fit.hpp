@@ -35,7 +35,7 @@ struct Moments {
   }
 };
 
-/// A fitted line n . p = r, and what the sums say about its points.
+/// A fitted line n . p = r with the statistics of its points.
 struct LineFit {
   Point2 normal{1.0, 0.0};      ///< unit vector (cos alpha, sin alpha)
   double r_m = 0.0;             ///< >= 0
@@ -45,13 +45,13 @@ struct LineFit {
   double mean_square_m2 = 0.0;  ///< across_m2 / W
 
   [[nodiscard]] double distance_m(double x, double y) const { return normal.x() * x + normal.y() * y - r_m; }
-  /// +90 degrees from the normal: the derivative of the normal by alpha.
+  /// The tangent, +90 degrees from the normal: the derivative of the normal by alpha.
   [[nodiscard]] Point2 tangent() const { return {-normal.y(), normal.x()}; }
   [[nodiscard]] double alpha_rad() const;
 };
 
-/// Spec S5.5, eqs (8), (9) and lambda_min. `sums.w` must be positive; points that all coincide give along_m2 = 0 and an
-/// arbitrary direction.
+/// Fits a line by spec S5.5, eqs (8), (9) and lambda_min. `sums.w` must be positive; points that all coincide give
+/// along_m2 = 0 and an arbitrary direction.
 [[nodiscard]] inline LineFit fit_line(const Moments& sums) {
   LineFit fit;
   const double inverse_w = 1.0 / sums.w;
@@ -87,7 +87,7 @@ struct LineFit {
   return fit;
 }
 
-/// LineFit::across_m2 alone.
+/// Computes LineFit::across_m2 alone.
 [[nodiscard]] inline double across_of(const Moments& sums) {
   const double inverse_w = 1.0 / sums.w;
   const double s_xx = sums.xx - sums.x * sums.x * inverse_w;
@@ -109,7 +109,7 @@ struct NoiseSums {
 
 /// Covariance of (r, alpha). `fit.along_m2` must be positive.
 [[nodiscard]] inline Matrix2 line_covariance(const LineFit& fit, double w, const NoiseSums& noise) {
-  // The line turns by -sum(w s v) / S and moves at the mean by sum(w v) / W, v being the displacements across it.
+  // The line rotates by -sum(w s v) / S and moves at the mean by sum(w v) / W, v being the displacements across it.
   const double alpha_alpha = noise.w2vss / (fit.along_m2 * fit.along_m2);
   const double mean_mean = noise.w2v / (w * w);
   const double mean_alpha = -noise.w2vs / (w * fit.along_m2);

@@ -48,14 +48,14 @@ std::optional<std::size_t> beam_beyond(const Context& context, const End& end, i
   return beam >= 0 && beam < n ? std::optional(static_cast<std::size_t>(beam)) : std::nullopt;
 }
 
-/// Another line that begins at this end and turns away, as at a corner; null where there is none.
+/// Another line that begins at this end in another direction, as at a corner; null where there is none.
 const Line* line_around_corner(const Context& context, std::size_t index, const Point2& end) {
   const Line& line = context.found.lines[index];
   for (std::size_t k = 0; k < context.found.lines.size(); ++k) {
     const Line& other = context.found.lines[k];
-    const double turn_rad = std::abs(wrap_angle(2.0 * (other.alpha_rad - line.alpha_rad))) / 2.0;
+    const double angle_rad = std::abs(wrap_angle(2.0 * (other.alpha_rad - line.alpha_rad))) / 2.0;
     const double gap_m = std::min((other.start - end).norm(), (other.end - end).norm());
-    if (k != index && gap_m <= context.params.corner_gap_m && turn_rad > context.params.corner_angle_rad) {
+    if (k != index && gap_m <= context.params.corner_gap_m && angle_rad > context.params.corner_angle_rad) {
       return &other;
     }
   }

@@ -22,22 +22,22 @@ double worst_error_m(const PointRow& row, const std::vector<Indices>& lines) {
 std::vector<Indices> extract_packet(const PointRow& row, const PaperParams& params, double spacing_rad,
                                     std::size_t first, std::size_t last, PacketHistory& history) {
   const double sigma_m = row.noise.sigma_m(row.polar[(first + last) / 2].range_m);
-  const double min_turn_m = std::max(params.min_turn_m, params.turn_sigmas * sigma_m);
+  const double min_corner_m = std::max(params.min_corner_m, params.corner_sigmas * sigma_m);
   ModeLimits limits{.thresholds = params.start,
                     .max_fit_error_m = std::max(params.max_fit_error_m, params.fit_error_sigmas * sigma_m),
                     .spacing_rad = params.min_gap_spacings * spacing_rad};
-  limits.thresholds.turn_m = std::max(limits.thresholds.turn_m, min_turn_m);
+  limits.thresholds.corner_m = std::max(limits.thresholds.corner_m, min_corner_m);
   std::vector<Indices> lines;
   for (int round = 0; round <= params.max_rounds; ++round) {
     lines = FiveModes(row, params, limits).run(first, last);
     history.rounds.push_back(limits.thresholds);
     history.worst_error_m.push_back(worst_error_m(row, lines));
     const LineThresholds before = limits.thresholds;
-    if (history.worst_error_m.back() <= limits.max_fit_error_m || before.turn_m <= min_turn_m) {
+    if (history.worst_error_m.back() <= limits.max_fit_error_m || before.corner_m <= min_corner_m) {
       break;
     }
     // The floor of the gap, min_gap_spacings, is kept where the gap is applied.
-    limits.thresholds = {params.shrink * before.gap_m, std::max(params.shrink * before.turn_m, min_turn_m)};
+    limits.thresholds = {params.shrink * before.gap_m, std::max(params.shrink * before.corner_m, min_corner_m)};
   }
   return lines;
 }

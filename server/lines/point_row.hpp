@@ -1,6 +1,6 @@
 /// \file
-/// The returns of a scan as a row of points, and lines built from indices into it: what the point-by-point
-/// extractors (paper, split-and-merge, IEPF) share.
+/// The returns of a scan as a row of points, and lines built from indices into it, as shared by the point-by-point
+/// extractors (paper, split-and-merge, IEPF).
 #pragma once
 
 #include <vector>
@@ -11,7 +11,8 @@
 
 namespace seeker::lines {
 
-/// Counter-clockwise. On a full circle the row begins behind the widest gap, so that no line crosses its ends.
+/// Points in counter-clockwise order. On a full circle the row begins behind the widest gap, so that no line crosses
+/// its ends.
 struct PointRow {
   std::vector<PolarPoint> polar;
   std::vector<Point2> points;
@@ -20,25 +21,26 @@ struct PointRow {
   double mean_range_m = 0.0;
 
   [[nodiscard]] std::size_t size() const { return points.size(); }
-  [[nodiscard]] double gap_m(std::size_t i) const { return (points[i] - points[i - 1]).norm(); }  ///< before point i
+  /// Distance from the previous point.
+  [[nodiscard]] double gap_m(std::size_t i) const { return (points[i] - points[i - 1]).norm(); }
 };
 
-/// Returns within the scanner's limits and of quality above 0.
+/// Returns within the scanner's limits with a quality above 0.
 [[nodiscard]] PointRow point_row(const LaserScan& scan, const NoiseParams& noise);
 
 /// Ascending indices into a row.
 using Indices = std::vector<std::size_t>;
 
 [[nodiscard]] LineFit fit_points(const PointRow& row, const Indices& indices);
-/// All numbers of a line, the covariance from eqs (4)-(7). Needs two different points.
+/// Fits all quantities of a line, the covariance by eqs (4)-(7). Needs two different points.
 [[nodiscard]] Line build_line(const LaserScan& scan, const PointRow& row, const Indices& indices,
                               double bearing_sigma_rad);
-/// The lines in order, with the beams of each.
+/// The lines in their order, with the beams of each.
 [[nodiscard]] ScanLines build_lines(const LaserScan& scan, const PointRow& row, std::vector<Indices> lines,
                                     double bearing_sigma_rad);
 
-/// Merging after spec S5.6: two lines become one when their distance D (eq 12) is below `max_distance` and their
-/// nearest ends are not farther apart than `max_gap_m`; repeated until no pair is left.
+/// Merges lines by spec S5.6: two lines are joined when their distance D (eq 12) is below `max_distance` and their
+/// nearest ends are not farther apart than `max_gap_m`; repeated until no such pair is left.
 [[nodiscard]] std::vector<Indices> merge_lines(const LaserScan& scan, const PointRow& row, std::vector<Indices> lines,
                                                double max_distance, double max_gap_m, double bearing_sigma_rad);
 

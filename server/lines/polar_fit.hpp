@@ -1,5 +1,5 @@
 /// \file
-/// The weighted line fit of spec S5.5 as it is written there: point by point, with its gradients.
+/// The weighted line fit of spec S5.5 as printed: point by point, with its gradients.
 #pragma once
 
 #include <span>
@@ -14,18 +14,18 @@ struct PolarPoint {
   double range_m = 0.0;
   double angle_rad = 0.0;
   double weight = 1.0;   ///< q_c of the scanner; 1 where it has none
-  double sigma_m = 0.0;  ///< of the range
+  double sigma_m = 0.0;  ///< standard deviation of the range
 
   [[nodiscard]] Point2 cartesian() const { return {range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)}; }
 };
 
-/// tan(2 alpha) = num / den.
+/// The double angle 2 alpha by tan(2 alpha) = num / den.
 struct DoubleAngle {
   double num = 0.0;
   double den = 0.0;
 };
 
-/// Change of (r, alpha) with one coordinate of one point.
+/// Derivative of (r, alpha) by one coordinate of one point.
 struct LineGradient {
   double r = 0.0;
   double alpha = 0.0;
@@ -45,7 +45,7 @@ struct LineGradient {
 [[nodiscard]] Matrix2 polar_covariance(std::span<const PolarPoint> points, const LineFit& fit,
                                        double bearing_sigma_rad = 0.0);
 
-/// D of eq (12) between two lines. Near r = 0 a line may come with either sign of its normal: the signs are made one.
+/// D of eq (12) between two lines. Near r = 0 a line may have either sign of its normal: the signs are unified first.
 [[nodiscard]] double mahalanobis_distance(const Line& a, const Line& b);
 
 }  // namespace seeker::lines

@@ -1,5 +1,5 @@
 /// \file
-/// How noisy the ranges of a scan are, told by the scan itself.
+/// Estimation of the range noise of a scan from the scan itself.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace seeker::lines {
 
-/// sigma^2(rho) = floor^2 + (slope rho)^2.
+/// The noise law sigma^2(rho) = floor^2 + (slope rho)^2.
 struct RangeNoise {
   double floor_m = 0.01;
-  double slope = 0.0;  ///< metres per metre of range; 0: the same at every range
+  double slope = 0.0;  ///< metres per metre of range; 0: independent of the range
 
   [[nodiscard]] double variance_m2(double range_m) const {
     return floor_m * floor_m + slope * slope * range_m * range_m;
@@ -22,17 +22,18 @@ struct RangeNoise {
 };
 
 struct NoiseParams {
-  double sigma_m = 0.0;             ///< known noise, no estimate; 0: estimate it from each scan
-  double slope = 0.0;               ///< with a known sigma_m: its part proportional to the range
-  double nominal_sigma_m = 0.01;    ///< believed where a scan has too few beams to tell (spec S5.5: LMS200)
-  double min_sigma_m = 0.002;       ///< an estimate is never believed to be smaller (ranges are rounded)
-  double max_sigma_m = 0.1;         ///< ... or larger (clutter looks like noise)
-  int min_samples = 20;             ///< fewer neighbours in line than this: nominal_sigma_m
-  double slope_significance = 4.0;  ///< a growth with range is believed beyond so many of its standard deviations
+  double sigma_m = 0.0;           ///< known noise without an estimate; 0: estimated from each scan
+  double slope = 0.0;             ///< with a known sigma_m: the part proportional to the range
+  double nominal_sigma_m = 0.01;  ///< used where a scan has too few beams for an estimate (spec S5.5: LMS200)
+  double min_sigma_m = 0.002;     ///< lower limit of the estimate (ranges are rounded)
+  double max_sigma_m = 0.1;       ///< upper limit of the estimate (clutter looks like noise)
+  int min_samples = 20;           ///< number of neighbours in line below which nominal_sigma_m is used
+  /// Number of standard deviations from which on a growth with the range is significant.
+  double slope_significance = 4.0;
 };
 
-/// Estimates the noise from what three neighbouring beams differ by. On a straight wall 1/rho is a sinusoid of the
-/// bearing, so that 1/rho(i-1) - 2 cos(step) / rho(i) + 1/rho(i+1) = 0 exactly, at any angle to the wall; what is left
+/// Estimates the noise from the differences of three neighbouring beams. On a straight wall 1/rho is a sinusoid of the
+/// bearing, so that 1/rho(i-1) - 2 cos(step) / rho(i) + 1/rho(i+1) = 0 exactly, at any angle to the wall; the residual
 /// is noise, and corners and edges are the few outliers that a median ignores. O(n): the medians come from histograms.
 class NoiseEstimator {
  public:
@@ -41,7 +42,7 @@ class NoiseEstimator {
   /// beam is as far from the first as any two, else 0.
   void differences(std::span<const float> ranges_m, std::span<const std::int32_t> beams, double step_rad,
                    std::int32_t circle, std::vector<float>& squares_m2);
-  /// The same for one point and its two neighbours.
+  /// The squared difference of one point and its two neighbours.
   [[nodiscard]] static float difference(float before_m, float range_m, float after_m, double step_rad);
   [[nodiscard]] RangeNoise estimate(std::span<const float> ranges_m, std::span<const float> squares_m2,
                                     const NoiseParams& params);

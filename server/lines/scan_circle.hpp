@@ -1,5 +1,5 @@
 /// \file
-/// Whether a scanner looks all around.
+/// Detection of scanners with a field of view of a full circle.
 #pragma once
 
 #include "common/core/angle.hpp"
@@ -9,7 +9,7 @@ namespace seeker::lines {
 
 struct ScanCircle {
   bool closed = false;  ///< the last beam is a neighbour of the first
-  bool even = false;    ///< and one step from it, as any two are
+  bool even = false;    ///< the step from the last beam to the first equals the others
 };
 
 [[nodiscard]] inline ScanCircle circle_of(const LaserScan& scan) {

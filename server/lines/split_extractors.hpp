@@ -1,5 +1,5 @@
 /// \file
-/// Two textbook line detectors with fixed thresholds, to compare with: split-and-merge and iterative end-point fit
+/// Two standard line extractors with fixed thresholds, for comparison: split-and-merge and iterative end-point fit
 /// (Nguyen et al., IROS 2005).
 #pragma once
 
@@ -9,11 +9,11 @@
 namespace seeker::lines {
 
 struct SplitParams {
-  NoiseParams noise;  ///< for the covariances only
+  NoiseParams noise;  ///< noise for the covariances only
   double bearing_sigma_rad = 0.0;
-  double gap_m = 0.150;      ///< neighbours farther apart begin a new group
-  double split_m = 0.025;    ///< a point farther from the line splits it
-  double merge_gap_m = 0.2;  ///< ends of two pieces of one line are not farther apart
+  double gap_m = 0.150;      ///< largest gap between neighbouring points of one group
+  double split_m = 0.025;    ///< distance from the line above which a point splits it
+  double merge_gap_m = 0.2;  ///< largest gap between the ends of two merged pieces
   int min_points = 6;
   double min_length_m = 0.1;
 };

@@ -128,13 +128,13 @@ std::vector<Pairing> associate_anywhere(const DescriptorTable& known, std::span<
   }
   // Backward: the feature most alike to the chosen descriptor must be the one that chose it.
   const auto back = vision::nearest_two(chosen, queries, params.metric);
-  std::vector<Pairing> both_ways;
+  std::vector<Pairing> mutual;
   for (std::size_t k = 0; k < forward.size(); ++k) {
     if (back[k].best == static_cast<std::int32_t>(forward[k].point)) {
-      both_ways.push_back(forward[k]);
+      mutual.push_back(forward[k]);
     }
   }
-  return one_each(both_ways);
+  return one_each(mutual);
 }
 
 std::vector<Pairing> associate(const LandmarkDatabase& database, std::span<const vision::StereoFeature> features,

@@ -1,5 +1,5 @@
 /// \file
-/// Which feature of a sighting is which landmark (spec S2.5), and which of the rest may become one (S2.6).
+/// Data association of features with landmarks (spec S2.5), and selection of new landmarks (S2.6).
 #pragma once
 
 #include <cstddef>
@@ -10,47 +10,48 @@
 
 namespace seeker::localize {
 
-/// A feature taken for a landmark.
+/// A feature associated with a landmark.
 struct Pairing {
   std::size_t point = 0;     ///< index of the SeenPoint
   std::size_t landmark = 0;  ///< index in the database
-  double distance = 0.0;     ///< of descriptors, of unit length
+  double distance = 0.0;     ///< distance of the descriptors of unit length
 
   friend bool operator==(const Pairing&, const Pairing&) = default;
 };
 
 struct AssociationParams {
   vision::Metric metric = vision::Metric::kL2;
-  double max_distance = 0.5;  ///< d_a of descriptors of unit length: 2.5 in the paper, by L1
-  /// Spec S2.5 as printed: the most alike of the whole database, both ways, wherever it lies. Else only landmarks whose
-  /// place agrees are asked.
+  double max_distance = 0.5;  ///< d_a, largest distance of descriptors of unit length: 2.5 in the paper, by L1
+  /// Spec S2.5 as printed: the mutually nearest descriptors of the whole database, at any position. Otherwise only
+  /// landmarks whose position agrees are compared.
   bool anywhere = false;
-  double gate_chi2 = 11.345;   ///< of the places' difference, 3 degrees of freedom, 99 %
-  double max_offset_m = 1.5;   ///< and never farther than this
-  double min_offset_m = 0.05;  ///< and always as near as this, whatever the covariances say
+  double gate_chi2 = 11.345;   ///< gate of the difference in position, 3 degrees of freedom, 99 %
+  double max_offset_m = 1.5;   ///< upper limit of this difference
+  double min_offset_m = 0.05;  ///< difference that is always accepted, for any covariances
 
   friend bool operator==(const AssociationParams&, const AssociationParams&) = default;
 };
 
-/// Spec S2.6.
+/// The sparsity rule of spec S2.6.
 struct SparsityParams {
   bool on = true;
-  double inner_radius_m = 0.05;  ///< R_A: nothing new nearer than this to a landmark; 0.10 with the paper
-  double outer_radius_m = 0.2;   ///< R_B: up to here only what looks different; 0.50 with the paper
-  double min_distance = 0.7;     ///< d_f0 of descriptors: 2.5 in the paper, by L1
-  /// Of what stands too close together the landmark that was seen most often stays, chosen once all are known. Else, as
-  /// printed, the one that was seen first, however seldom it is seen again.
+  double inner_radius_m = 0.05;  ///< R_A: no new landmark within this distance of another; 0.10 in the paper
+  /// R_B: within this distance only landmarks with a different descriptor; 0.50 in the paper
+  double outer_radius_m = 0.2;
+  double min_distance = 0.7;  ///< d_f0, smallest distance of descriptors: 2.5 in the paper, by L1
+  /// Of landmarks too close together the most frequently observed one is kept, chosen once all are known. Otherwise, as
+  /// printed, the first observed one, however seldom it is observed again.
   bool best_first = true;
 
   friend bool operator==(const SparsityParams&, const SparsityParams&) = default;
 };
 
-/// Distance of descriptors of unit length, that of the most alike of a landmark's views.
+/// Smallest distance between a descriptor of unit length and those of a landmark's views.
 [[nodiscard]] double landmark_distance(const Landmark& landmark, const vision::Descriptor& descriptor,
                                        vision::Metric metric);
 
-/// All descriptors of a database as vision::nearest_two() takes them. A layer holds at most one descriptor of each
-/// landmark, so that the two most alike of a layer are two landmarks.
+/// All descriptors of a database in the form that vision::nearest_two() takes. A layer holds at most one descriptor of
+/// each landmark, so that the two nearest of a layer belong to two landmarks.
 struct DescriptorTable {
   struct Layer {
     std::vector<vision::Descriptor> rows;
@@ -62,37 +63,37 @@ struct DescriptorTable {
   explicit DescriptorTable(const LandmarkDatabase& database);
 };
 
-/// A landmark that looks like a feature.
+/// A landmark with a descriptor similar to a feature's.
 struct AlikeLandmark {
   std::size_t landmark = 0;  ///< index in the database
-  double distance = 0.0;     ///< of the view that is most alike
+  double distance = 0.0;     ///< distance of the most similar view
   const vision::Descriptor* view = nullptr;
 };
 
-/// For every query the most alike landmarks, most alike first, each once: the two best of every layer. Points into
-/// the table.
+/// For every query the most similar landmarks, nearest first, each once: the two best of every layer. The results point
+/// into the table.
 [[nodiscard]] std::vector<std::vector<AlikeLandmark>> alike_landmarks(const DescriptorTable& known,
                                                                       std::span<const vision::Descriptor> queries,
                                                                       vision::Metric metric);
 
-/// Spec S2.5 as printed, over all of `known`: the most alike both ways, within params.max_distance.
+/// Associates by spec S2.5 as printed, over all of `known`: the mutually nearest within params.max_distance.
 [[nodiscard]] std::vector<Pairing> associate_anywhere(const DescriptorTable& known,
                                                       std::span<const vision::StereoFeature> features,
                                                       std::span<const SeenPoint> points,
                                                       const AssociationParams& params);
 
-/// One landmark a point and one point a landmark, each the other's most alike, by rising index of the point:
-/// anywhere, or only where the places agree.
+/// Associates each point with at most one landmark and each landmark with at most one point, mutually nearest, in the
+/// order of the points' indices: anywhere, or only where the positions agree.
 [[nodiscard]] std::vector<Pairing> associate(const LandmarkDatabase& database,
                                              std::span<const vision::StereoFeature> features,
                                              std::span<const SeenPoint> points, const AssociationParams& params);
 
-/// Eqs (8)-(9) for a point that no landmark was paired with.
+/// Whether a point that was not associated may become a landmark, by eqs (8)-(9).
 [[nodiscard]] bool may_insert(const LandmarkDatabase& database, const SeenPoint& point,
                               const vision::Descriptor& descriptor, const SparsityParams& params,
                               vision::Metric metric);
-/// Eqs (8)-(9) for a database as it is: erases what stands too close to a landmark that was seen more often, or as
-/// often and earlier. How many.
+/// Applies eqs (8)-(9) to an existing database: erases landmarks too close to one that was observed more often, or as
+/// often and earlier. Returns the number of erased ones.
 std::size_t thin_out(LandmarkDatabase& database, const SparsityParams& params, vision::Metric metric);
 
 }  // namespace seeker::localize

@@ -1,5 +1,5 @@
 /// \file
-/// Whether the pose of a localiser can be believed, from what its frames did.
+/// Confidence in the pose of a localiser, judged by its frames.
 #pragma once
 
 #include <deque>
@@ -10,31 +10,31 @@
 
 namespace seeker::localize {
 
-/// What a frame said about the pose.
+/// Evidence of one frame about the pose.
 struct FrameEvidence {
-  bool usable = true;   ///< false: no features could be had
-  std::string problem;  ///< of a frame that is not usable
+  bool usable = true;   ///< false when no features could be extracted
+  std::string problem;  ///< cause for a frame that is not usable
   int in_range = 0;
   int expected = 0;
   int inliers = 0;
   double nis = 0.0;
 };
 
-/// Rules from ConfidenceParams; remembers the last frames.
+/// Applies the rules of ConfidenceParams; remembers the last frames.
 class Confidence {
  public:
   explicit Confidence(const ConfidenceParams& params) : params_(params) {}
 
   /// Starts with an empty memory.
   void reset();
-  /// Quality and cause after one more frame; `sigma_m` and `sigma_rad` are those of the pose now.
+  /// Updates quality and cause by one more frame; `sigma_m` and `sigma_rad` are those of the present pose.
   void judge(const FrameEvidence& frame, double sigma_m, double sigma_rad);
 
   [[nodiscard]] LocalisationQuality quality() const { return quality_; }
   [[nodiscard]] const std::string& cause() const { return cause_; }
-  /// 0 .. 1.
+  /// Confidence from 0 to 1.
   [[nodiscard]] double value() const { return value_; }
-  /// Frames in a row that corrected nothing.
+  /// Number of frames in a row without a correction.
   [[nodiscard]] int blind_frames() const { return blind_; }
 
  private:
@@ -44,14 +44,14 @@ class Confidence {
   };
 
   [[nodiscard]] double mean_nis() const;
-  /// Empty: not lost.
+  /// The cause for LOST; empty when not lost.
   [[nodiscard]] std::string reason_to_be_lost(double sigma_m, double sigma_rad) const;
 
   ConfidenceParams params_;
   std::deque<Squares> window_;
-  int weak_ = 0;  ///< frames in a row with few inliers
+  int weak_ = 0;  ///< number of frames in a row with few inliers
   int blind_ = 0;
-  int contradicted_ = 0;  ///< frames in a row that should have shown landmarks and did not
+  int contradicted_ = 0;  ///< number of frames in a row in which expected landmarks were not observed
   LocalisationQuality quality_ = LocalisationQuality::kLocalised;
   std::string cause_;
   double value_ = 1.0;

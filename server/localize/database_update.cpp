@@ -27,7 +27,7 @@ UpdateParams paper_update_params() {
   params.database = paper_database_params();
   params.count_misses = true;
   params.min_move_m = 0.0;
-  params.min_turn_rad = 0.0;
+  params.min_rotation_rad = 0.0;
   params.max_teaching_sigma_m = 0.0;
   return params;
 }
@@ -50,8 +50,8 @@ Status validate(const UpdateParams& params) {
   if (!(params.occlusion_px >= 0.0) || !(params.occlusion_ratio >= 1.0)) {
     return bad("occlusion_px must be at least 0 and occlusion_ratio at least 1");
   }
-  if (!(params.min_move_m >= 0.0) || !(params.min_turn_rad >= 0.0)) {
-    return bad("min_move_m and min_turn_deg must be at least 0");
+  if (!(params.min_move_m >= 0.0) || !(params.min_rotation_rad >= 0.0)) {
+    return bad("min_move_m and min_rotation_deg must be at least 0");
   }
   if (!(params.max_teaching_sigma_m >= 0.0)) {
     return bad("max_teaching_sigma_m must be at least 0");
@@ -68,10 +68,10 @@ DatabaseUpdate::DatabaseUpdate(const StereoGeometry& geometry, const UpdateParam
 
 bool DatabaseUpdate::moved(const Pose2& map_T_eye) const {
   return !last_eye_ || distance_m(*last_eye_, map_T_eye) >= params_.min_move_m ||
-         std::abs(wrap_angle(last_eye_->theta_rad - map_T_eye.theta_rad)) >= params_.min_turn_rad;
+         std::abs(wrap_angle(last_eye_->theta_rad - map_T_eye.theta_rad)) >= params_.min_rotation_rad;
 }
 
-/// True where something nearer stands around the landmark's place in the picture.
+/// True where a nearer object is around the landmark's position in the picture.
 bool DatabaseUpdate::hidden(const Landmark& landmark, const Sighting& sighting) const {
   const auto pixel = project(geometry_, to_eye(sighting.map_T_eye, sighting.eye_height_m, landmark.p_map));
   if (!pixel) {
@@ -259,7 +259,7 @@ Result<StagedUpdate> DatabaseUpdate::stage(const LandmarkDatabase& database) con
   if (static_cast<double>(staged.counts.removed) > most) {
     return fail(Errc::kRefused, "the update would remove " + std::to_string(staged.counts.removed) + " of " +
                                     std::to_string(database.size()) +
-                                    " landmarks; the pose may have been wrong: check it, or survey the building anew");
+                                    " landmarks; the pose may have been wrong: check it, or survey the building again");
   }
   add_new(dynamic.database(), staged.database, staged.counts);
   staged.counts.after = staged.database.size();

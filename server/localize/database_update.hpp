@@ -1,7 +1,7 @@
 /// \file
-/// Keeping a database true while the building changes (spec S2.10): what is seen on a drive becomes landmarks, and what
-/// should have been seen and never was is given up. Nothing changes in the database in use: an update is staged as a
-/// new value, to be committed or thrown away.
+/// Update of a database while the building changes (spec S2.10): observations of a drive become landmarks, and
+/// landmarks that should have been observed but never were are removed. The database in use is not changed: an update
+/// is staged as a new value, to be committed or discarded.
 #pragma once
 
 #include <optional>
@@ -14,37 +14,38 @@
 namespace seeker::localize {
 
 struct UpdateParams {
-  DatabaseParams database;  ///< of the landmarks that a drive adds
-  /// Spec S2.10: a landmark goes after so many misses in a row. Else by the odds that it is still there.
+  DatabaseParams database;  ///< parameters of the landmarks that a drive adds
+  /// Spec S2.10: a landmark is removed after so many misses in a row. Otherwise by the odds that it still exists.
   bool count_misses = false;
   int max_misses = 10;      ///< n_del
-  double seen_there = 0.3;  ///< share of frames that show a landmark which is there and in view
-  double seen_gone = 0.02;  ///< and one that is not: false matches
+  double seen_there = 0.3;  ///< share of frames that show an existing landmark in view
+  double seen_gone = 0.02;  ///< share of frames that show a removed one, by false matches
   double remove_log_odds = -3.0;
-  double max_log_odds = 3.0;               ///< so much trust at most is built up
-  double occlusion_px = 25.0;              ///< a feature nearer to the eye than this around a landmark hides it
-  double occlusion_ratio = 1.25;           ///< disparity of what hides over that of the landmark
-  double min_move_m = 0.10;                ///< frames count as new evidence after so much motion,
-  double min_turn_rad = deg_to_rad(10.0);  ///< or so much turning
-  /// Frames from places less certain than this make no landmarks; 0: all do. Landmarks of one frame share its pose's
-  /// error, and a localiser takes them for as many that err each on their own.
+  double max_log_odds = 3.0;  ///< upper limit of the log odds
+  /// A feature closer to the eye within this distance in the picture occludes a landmark.
+  double occlusion_px = 25.0;
+  double occlusion_ratio = 1.25;               ///< disparity of the occluding feature over that of the landmark
+  double min_move_m = 0.10;                    ///< displacement after which a frame counts as new evidence
+  double min_rotation_rad = deg_to_rad(10.0);  ///< or rotation after which it does
+  /// Frames with a less certain position create no landmarks; 0: all do. Landmarks of one frame share the error of its
+  /// pose, but a localiser assumes that their errors are independent.
   double max_teaching_sigma_m = 0.01;
-  double max_removed_share = 0.5;  ///< an update that would remove more is refused
+  double max_removed_share = 0.5;  ///< an update that would remove a larger share is refused
 
   friend bool operator==(const UpdateParams&, const UpdateParams&) = default;
 };
 
-/// Spec S2.10 as printed.
+/// The parameters of spec S2.10 as printed.
 [[nodiscard]] UpdateParams paper_update_params();
-/// kInvalidArgument with the field's name.
+/// Fails with kInvalidArgument and the field's name.
 [[nodiscard]] Status validate(const UpdateParams& params);
 
-/// What an update does.
+/// Summary of an update.
 struct UpdateCounts {
-  int frames = 0;      ///< that went into it
-  int dynamic = 0;     ///< landmarks that the drive made
-  int duplicates = 0;  ///< of these, known already
-  int sparsified = 0;  ///< refused by the sparsity rule
+  int frames = 0;      ///< number of frames that were used
+  int dynamic = 0;     ///< number of landmarks created on the drive
+  int duplicates = 0;  ///< number of these that were known already
+  int sparsified = 0;  ///< number of these that the sparsity rule refused
   int added = 0;
   int removed = 0;
   std::size_t before = 0;
@@ -53,42 +54,44 @@ struct UpdateCounts {
   friend bool operator==(const UpdateCounts&, const UpdateCounts&) = default;
 };
 
-/// A new version of a database that nobody uses yet.
+/// A new version of a database that is not in use yet.
 struct StagedUpdate {
   LandmarkDatabase database;
   UpdateCounts counts;
 };
 
-/// Gathers what the frames of a drive say about a database. The poses of a drive lean on the same landmarks and on each
-/// other: they are made to agree (adjust_poses()) before what they show becomes landmarks, else a drive that began
-/// uncertain would write its first error down.
+/// Collects the evidence of the frames of a drive about a database. The poses of a drive depend on the same landmarks
+/// and on each other: they are adjusted (adjust_poses()) before their observations become landmarks, since otherwise a
+/// drive that began uncertain would store its initial error.
 class DatabaseUpdate {
  public:
-  /// Asserts that the arguments are valid.
+  /// Requires valid arguments (asserted).
   DatabaseUpdate(const StereoGeometry& geometry, const UpdateParams& params);
 
-  /// One frame with the localiser's pose and what it expected and matched there. Only frames while LOCALISED teach
-  /// anything: false where this one was not taken.
+  /// Takes one frame with the localiser's pose and its expected and matched landmarks. Only frames while LOCALISED are
+  /// used: false where this one was not.
   bool observe(const LandmarkDatabase& database, const Sighting& sighting, const LocaliserStep& step);
   [[nodiscard]] int frames() const { return frames_; }
-  /// The next frame will take long: as many as are made to agree at a time have come together. Better stage() now.
+  /// Whether the next frame will take long, since enough frames for an adjustment are collected. It is better to call
+  /// stage() then.
   [[nodiscard]] bool full() const;
-  /// The update of the database that the frames were matched against. kNotReady: no frame taught anything; kRefused:
-  /// it would remove more than the share allowed (with both counts): rather the pose was wrong, or survey anew.
+  /// The update of the database against which the frames were matched. Fails with kNotReady when no frame was used, and
+  /// with kRefused when more than the allowed share would be removed (with both counts), since then the pose was
+  /// probably wrong; otherwise the building should be surveyed again.
   [[nodiscard]] Result<StagedUpdate> stage(const LandmarkDatabase& database) const;
-  /// Forgets everything, for the next drive.
+  /// Discards all frames, for the next drive.
   void clear();
 
  private:
-  /// What the drive says about one landmark.
+  /// Evidence of the drive about one landmark.
   struct Tally {
     int hits = 0;
     int expected = 0;
-    int misses = 0;  ///< in a row, those of the database before included
+    int misses = 0;  ///< number of misses in a row, including those stored in the database
     double log_odds = 0.0;
   };
 
-  /// A frame, what it showed of the database, and how far the eye is from the frame taken before.
+  /// A frame, its matches with the database, and the motion of the eye since the previous used frame.
   struct Frame {
     Sighting sighting;
     std::vector<FrameMatch> matches;
@@ -107,10 +110,10 @@ class DatabaseUpdate {
   StereoGeometry geometry_;
   UpdateParams params_;
   SurveyBuilder dynamic_;
-  std::vector<Frame> recent_;  ///< the drive's last part, not in `dynamic_` yet
+  std::vector<Frame> recent_;  ///< the last part of the drive, not yet in `dynamic_`
   std::unordered_map<LandmarkId, Tally> tallies_;
   std::optional<Pose2> last_eye_;
-  std::optional<UncertainPose> last_T_eye_;  ///< since the last frame taken; nothing after a leap
+  std::optional<UncertainPose> last_T_eye_;  ///< motion since the last used frame; no value after a jump
   int frames_ = 0;
 };
 

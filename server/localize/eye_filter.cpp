@@ -29,7 +29,7 @@ void set_state(EyeBelief& belief, const Vector4& state) {
   belief.disparity_offset_px = state(3);
 }
 
-/// Way of the eye in the frame map while the robot moves as told, and its derivative by the three velocities.
+/// Motion of the eye in the frame map by the given velocity of the robot, and its derivative by the three velocities.
 struct EyeMotion {
   Pose2 map_T_eye;
   Eigen::Matrix<double, 3, 3> by_velocity;  ///< d(x, y, theta)/d(v, across, omega)
@@ -62,14 +62,14 @@ void predict(EyeBelief& belief, const Twist2& velocity, double tau_s, const Leve
              bool exact) {
   SEEKER_ASSERT(tau_s >= 0.0);
   const EyeMotion motion = move_eye(belief.map_T_eye, velocity, tau_s, arm, exact);
-  // Both forms of eq (11) turn their step with the heading, so that F follows from the step itself.
+  // Both forms of eq (11) rotate their step with the heading, so that F follows from the step itself.
   Matrix4 transition = Matrix4::Identity();
   transition(0, 2) = -(motion.map_T_eye.y_m - belief.map_T_eye.y_m);
   transition(1, 2) = motion.map_T_eye.x_m - belief.map_T_eye.x_m;
   const double v = std::abs(velocity.v_m_s);
   const double omega = std::abs(velocity.omega_rad_s);
   const Eigen::Vector3d variances(square(noise.v_share * v + noise.v_floor_m_s), square(noise.across_share * v),
-                                  square(noise.omega_share * omega + noise.omega_floor_rad_s + noise.turn_per_m * v));
+                                  square(noise.omega_share * omega + noise.omega_floor_rad_s + noise.drift_per_m * v));
   belief.covariance = (transition * belief.covariance * transition.transpose()).eval();
   belief.covariance.topLeftCorner<3, 3>() +=
       motion.by_velocity * variances.asDiagonal() * motion.by_velocity.transpose() +
@@ -130,7 +130,7 @@ std::optional<Innovation> innovate(const EyeBelief& belief, const RangeBearing& 
   return result;
 }
 
-double update_in_turn(EyeBelief& belief, std::span<const RangeBearing> seen) {
+double update_sequentially(EyeBelief& belief, std::span<const RangeBearing> seen) {
   double nis = 0.0;
   for (const RangeBearing& one : seen) {
     const auto innovation = innovate(belief, one);

@@ -1,5 +1,5 @@
 /// \file
-/// One landmark: a point of the building that the stereo camera knows again (spec S2.7).
+/// A landmark: a point of the building that the stereo camera recognises (spec S2.7).
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,18 @@
 
 namespace seeker::localize {
 
-/// Never given out twice in the life of a database. 0: none.
+/// Unique identifier, never reused in the life of a database. 0: none.
 using LandmarkId = std::uint64_t;
 
-/// Most descriptors a landmark keeps.
+/// Largest number of descriptors of a landmark.
 inline constexpr std::size_t kMaxViews = 4;
 
-/// How a landmark looks from one side.
+/// Appearance of a landmark from one side.
 struct LandmarkView {
   vision::Descriptor descriptor{};
-  Point3 to_eye = Point3::UnitX();  ///< unit vector from the landmark to the eye that saw it so first
-  int seen = 0;                     ///< sightings from this side
+  /// Unit vector from the landmark to the eye at the first observation from this side.
+  Point3 to_eye = Point3::UnitX();
+  int seen = 0;  ///< number of observations from this side
 
   friend bool operator==(const LandmarkView&, const LandmarkView&) = default;
 };
@@ -31,38 +32,38 @@ struct Landmark {
   LandmarkId id = 0;
   Point3 p_map = Point3::Zero();
   Matrix3 information = Matrix3::Identity();  ///< inverse covariance of p_map, 1/m^2
-  Point3 to_eye = Point3::UnitX();            ///< mean unit vector to the eyes that saw it
-  double concentration = 1.0;       ///< length of the mean of those vectors: 1 all from one side, 0 from everywhere
-  double scale_m = 0.0;             ///< mean size: blur at which it is found, at its distance
-  std::vector<LandmarkView> views;  ///< one for each side it was seen from, at least one
-  int seen = 0;                     ///< sightings that showed it
-  int expected = 0;                 ///< sightings that should have shown it, those that did included
-  int misses = 0;                   ///< of these the last ones in a row that did not
-  double log_odds = 0.0;            ///< of its still being there
+  Point3 to_eye = Point3::UnitX();            ///< mean unit vector to the eyes that observed it
+  double concentration = 1.0;       ///< length of the mean of those vectors: 1 all from one side, 0 from all around
+  double scale_m = 0.0;             ///< mean size: blur at which it is detected, at its distance
+  std::vector<LandmarkView> views;  ///< one for each side from which it was observed, at least one
+  int seen = 0;                     ///< number of sightings that showed it
+  int expected = 0;                 ///< number of sightings that should have shown it, including those that did
+  int misses = 0;                   ///< number of the last sightings in a row that should have shown it but did not
+  double log_odds = 0.0;            ///< log odds that it still exists
   std::uint64_t last_seen = 0;      ///< number of the newest sighting that showed it (LandmarkDatabase::sightings)
 
   [[nodiscard]] Matrix3 covariance() const;
-  /// Spread of the directions it was seen from (circular standard deviation).
+  /// Spread of the directions from which it was observed (circular standard deviation).
   [[nodiscard]] double direction_spread_rad() const;
 
   friend bool operator==(const Landmark&, const Landmark&) = default;
 };
 
-/// How observations change a landmark.
+/// Parameters of the fusion of observations into a landmark.
 struct FusionParams {
-  /// Spec S2.7: position = running mean, descriptor = the first one. Else positions are weighted by their certainty
-  /// and a descriptor is kept for each side.
+  /// Spec S2.7: the position is the running mean, the descriptor is the first one. Otherwise positions are weighted by
+  /// their information and a descriptor is kept for each side.
   bool running_mean = false;
-  double view_cluster_rad = deg_to_rad(25.0);  ///< views closer than this are of one side
+  double view_cluster_rad = deg_to_rad(25.0);  ///< views closer than this belong to one side
 
   friend bool operator==(const FusionParams&, const FusionParams&) = default;
 };
 
-/// A landmark from its first observation; without an id.
+/// Creates a landmark from its first observation, without an id.
 [[nodiscard]] Landmark make_landmark(const SeenPoint& point, const vision::Descriptor& descriptor);
-/// One more observation. Existence and counts of expectation are not touched.
+/// Fuses one more observation. Existence and counts of expected sightings are not changed.
 void fuse(Landmark& landmark, const SeenPoint& point, const vision::Descriptor& descriptor, const FusionParams& params);
-/// Two landmarks that are one: counts are added, the one with more sightings keeps its views first.
+/// Merges two landmarks of one point: counts are added, the one with more sightings keeps its views first.
 void fuse(Landmark& landmark, const Landmark& other, const FusionParams& params);
 
 }  // namespace seeker::localize

@@ -1,5 +1,6 @@
 /// \file
-/// All landmarks of a building: a value that surveys and updates make, and that localisers only read (spec S2.3-S2.7).
+/// All landmarks of a building: a value that surveys and updates create, and that localisers only read (spec
+/// S2.3-S2.7).
 #pragma once
 
 #include <cstddef>
@@ -16,18 +17,18 @@
 
 namespace seeker::localize {
 
-/// Largest database that is read or built.
+/// Largest number of landmarks of a database.
 inline constexpr std::size_t kMaxLandmarks = 1'000'000;
-/// Farthest from the origin a landmark may lie.
+/// Largest absolute coordinate of a landmark.
 inline constexpr double kMaxCoordinate_m = 10'000.0;
 
 struct DatabaseStatistics {
   std::size_t landmarks = 0;
-  std::size_t salient = 0;  ///< seen at least three times
-  std::size_t views = 0;    ///< descriptors
+  std::size_t salient = 0;  ///< number of landmarks observed at least three times
+  std::size_t views = 0;    ///< number of descriptors
   double mean_seen = 0.0;
-  double median_sigma_m = 0.0;  ///< over the floor, of the less certain direction
-  Point3 low = Point3::Zero();  ///< box around all of them, in the frame map
+  double median_sigma_m = 0.0;  ///< horizontal, in the less certain direction
+  Point3 low = Point3::Zero();  ///< lower corner of the bounding box, in the frame map
   Point3 high = Point3::Zero();
 };
 
@@ -35,31 +36,32 @@ class LandmarkDatabase {
  public:
   LandmarkDatabase() = default;
   explicit LandmarkDatabase(std::uint64_t calibration) : calibration_(calibration) {}
-  /// From what a file holds. kCorrupt with the landmark's id: an id twice, 0 or not below `next_id`; numbers that are
-  /// not finite or out of range; an information matrix that is none; no view or too many. kTooLarge.
+  /// Restores a database from the contents of a file. Fails with kCorrupt and the landmark's id for an id that is
+  /// repeated, 0 or not below `next_id`, numbers that are not finite or out of range, an invalid information matrix,
+  /// and no view or too many; fails with kTooLarge above kMaxLandmarks.
   [[nodiscard]] static Result<LandmarkDatabase> restore(std::uint64_t calibration, LandmarkId next_id,
                                                         std::uint64_t sightings, std::vector<Landmark> landmarks);
 
-  /// Hash of the stereo geometry it was made with (calibration_hash()).
+  /// Hash of the stereo geometry with which it was created (calibration_hash()).
   [[nodiscard]] std::uint64_t calibration() const { return calibration_; }
   [[nodiscard]] const std::vector<Landmark>& landmarks() const { return landmarks_; }
   [[nodiscard]] std::size_t size() const { return landmarks_.size(); }
   [[nodiscard]] bool empty() const { return landmarks_.empty(); }
   [[nodiscard]] const Landmark& at(std::size_t index) const { return landmarks_[index]; }
   [[nodiscard]] const Landmark* find(LandmarkId id) const;
-  /// The id that the next new landmark gets: higher than any ever given out.
+  /// The id of the next new landmark: higher than any given before.
   [[nodiscard]] LandmarkId next_id() const { return next_id_; }
-  /// Sightings that went into it so far.
+  /// Number of sightings that were added so far.
   [[nodiscard]] std::uint64_t sightings() const { return sightings_; }
   [[nodiscard]] DatabaseStatistics statistics() const;
 
-  /// Numbers one more sighting; what it shows is `last_seen` then.
+  /// Numbers one more sighting; the landmarks it shows get this number as `last_seen`.
   std::uint64_t begin_sighting() { return ++sightings_; }
-  /// Gives the landmark its id.
+  /// Inserts a landmark and returns its new id.
   LandmarkId insert(Landmark landmark);
-  /// Changes one landmark in place; its id stays.
+  /// Changes one landmark in place; its id is kept.
   void change(std::size_t index, const std::function<void(Landmark&)>& change);
-  /// How many were removed. Indices of the others change.
+  /// Erases landmarks and returns their number. Indices of the others change.
   std::size_t erase_if(const std::function<bool(const Landmark&)>& condition);
 
   /// Calls `visit(index)` for every landmark at most `radius_m` from p_map.
@@ -78,7 +80,7 @@ class LandmarkDatabase {
   }
 
  private:
-  /// A landmark may move so far before the index is built anew.
+  /// A landmark may move by this distance before the index is rebuilt.
   static constexpr double kGridSlack_m = 0.05;
   static constexpr double kGridCell_m = 0.5;
 
@@ -88,7 +90,7 @@ class LandmarkDatabase {
   LandmarkId next_id_ = 1;
   std::uint64_t sightings_ = 0;
   std::vector<Landmark> landmarks_;
-  std::vector<Point3> indexed_at_;  ///< where the index believes each landmark
+  std::vector<Point3> indexed_at_;  ///< position of each landmark in the index
   std::unordered_map<LandmarkId, std::size_t> by_id_;
   PointGrid grid_{kGridCell_m};
 };

@@ -34,7 +34,7 @@ Status check_filter(const LocaliserParams& p) {
                    {"motion.v_floor_m_s", p.motion.v_floor_m_s, 0.0},
                    {"motion.omega_share", p.motion.omega_share, 0.0},
                    {"motion.omega_floor_rad_s", p.motion.omega_floor_rad_s, 0.0},
-                   {"motion.turn_per_m", p.motion.turn_per_m, 0.0},
+                   {"motion.drift_per_m", p.motion.drift_per_m, 0.0},
                    {"motion.across_share", p.motion.across_share, 0.0},
                    {"motion.variance_floor", p.motion.variance_floor, 0.0},
                    {"measurement.range_floor_m", p.measurement.range_floor_m, 0.0},

@@ -1,5 +1,5 @@
 /// \file
-/// A spatial index: which of many points lie near one, without looking at all of them.
+/// A spatial index that finds the points near a position without visiting all of them.
 #pragma once
 
 #include <cmath>
@@ -12,13 +12,13 @@
 
 namespace seeker::localize {
 
-/// Points by the cube of space they lie in.
+/// Points by the cubic cell in which they lie.
 class PointGrid {
  public:
   explicit PointGrid(double cell_m) : cell_m_(cell_m) {}
 
   void insert(std::size_t index, const Point3& p) { cells_[key_of(p)].push_back({index, p}); }
-  /// `from` is where the point was put.
+  /// Moves a point; `from` must be the position at which it was inserted.
   void move(std::size_t index, const Point3& from, const Point3& to) {
     std::erase_if(cells_[key_of(from)], [index](const Entry& entry) { return entry.index == index; });
     insert(index, to);
@@ -60,7 +60,7 @@ class PointGrid {
 
   [[nodiscard]] std::int64_t cell(double x_m) const { return static_cast<std::int64_t>(std::floor(x_m / cell_m_)); }
   [[nodiscard]] std::uint64_t key_of(const Point3& p) const { return key(cell(p.x()), cell(p.y()), cell(p.z())); }
-  /// 21 bits a direction: no two cells of a building share one.
+  /// 21 bits per axis: no two cells of a building share a key.
   [[nodiscard]] static std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
     constexpr unsigned kBits = 21;
     constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;

@@ -68,7 +68,7 @@ class Search {
   std::vector<Voter> voters_;
 };
 
-/// The feature most alike to a chosen landmark must be the one that chose it: both ways, spec S2.5.
+/// The feature most similar to a chosen landmark must be the one that chose it: mutually nearest, spec S2.5.
 void Search::find_voters() {
   std::vector<vision::Descriptor> queries;
   queries.reserve(lifted_.size());
@@ -211,7 +211,7 @@ EyeBelief Search::fit(const Pose2& map_T_eye, std::span<const RangeBearing> seen
   return belief;
 }
 
-/// The inliers are chosen anew each time.
+/// Refines the pose; the inliers are chosen again in each round.
 EyeBelief Search::refine(const Pose2& map_T_eye) const {
   constexpr int kRounds = 3;
   EyeBelief belief;
@@ -223,7 +223,7 @@ EyeBelief Search::refine(const Pose2& map_T_eye) const {
 }
 
 /// How far the place moves when the match that it leans on most is left out, or how uncertain it is then. Far landmarks
-/// side by side leave the eye free to swing around them: a single near one then tells where it is, right or wrong.
+/// side by side leave the eye free to swing around them: a single near one then determines the pose, right or wrong.
 double Search::leaning_m(const RelocaliseAnswer& answer) const {
   std::vector<RangeBearing> seen = seen_by(answer.inliers);
   const Pose2& place = answer.belief.map_T_eye;
@@ -282,23 +282,23 @@ void Search::judge(RelocaliseAnswer& answer) const {
   const double sigma_m = largest_sigma(place);
   if (found < p.min_inliers) {
     answer.verdict = RelocaliseVerdict::kNothing;
-    answer.reason = figures + ", " + std::to_string(p.min_inliers) + " are needed; turn the robot or drive on";
+    answer.reason = figures + ", " + std::to_string(p.min_inliers) + " are needed; rotate the robot or drive on";
   } else if (found < p.min_lead * answer.rival_inliers) {
     answer.verdict = RelocaliseVerdict::kAmbiguous;
     answer.reason = figures + ", " + std::to_string(answer.rival_inliers) +
-                    " on another place; drive on until something tells the places apart";
+                    " on another place; drive on until the places can be distinguished";
   } else if (answer.likeness < p.min_likeness && found < many) {
     answer.verdict = RelocaliseVerdict::kNothing;
     answer.reason = figures + ", but are hardly alike (" + std::to_string(answer.likeness) + ", " +
-                    std::to_string(p.min_likeness) + " is needed); turn the robot or drive on";
+                    std::to_string(p.min_likeness) + " is needed); rotate the robot or drive on";
   } else if (answer.cells < p.min_cells || sigma_m > p.max_sigma_m) {
     answer.verdict = RelocaliseVerdict::kVague;
     answer.reason = figures + ", but in " + std::to_string(answer.cells) + " parts of the picture, sigma " +
-                    std::to_string(sigma_m) + " m; turn the robot to where more can be seen";
+                    std::to_string(sigma_m) + " m; rotate the robot to where more can be seen";
   } else if (const double leaning = leaning_m(answer); leaning > p.max_sigma_m) {
     answer.verdict = RelocaliseVerdict::kVague;
     answer.reason = figures + ", but without one of them the place is another by " + std::to_string(leaning) +
-                    " m; turn the robot to where more can be seen";
+                    " m; rotate the robot to where more can be seen";
   } else {
     answer.verdict = RelocaliseVerdict::kFound;
     answer.reason = figures;
@@ -312,7 +312,7 @@ RelocaliseAnswer Search::run(Rng& rng) {
   const std::vector<Place> places = try_pairs(params_.relocalise.attempts, rng);
   if (places.empty()) {
     answer.reason = std::to_string(voters_.size()) + " features look like landmarks, and no place explains them; " +
-                    "turn the robot or drive on";
+                    "rotate the robot or drive on";
     return answer;
   }
   answer.belief = refine(places.front().map_T_eye);

@@ -1,5 +1,6 @@
 /// \file
-/// The place of one stereo frame in the whole database, without a guess: where a robot wakes up, or was carried to.
+/// Global relocalisation of one stereo frame in the whole database, for a robot that was switched on or carried
+/// elsewhere.
 #pragma once
 
 #include <span>
@@ -13,24 +14,25 @@ namespace seeker::localize {
 
 enum class RelocaliseVerdict : std::uint8_t {
   kFound,
-  kNothing,    ///< too few features agree on a place
-  kAmbiguous,  ///< more than one place explains the frame about as well: repeated structure
-  kVague,      ///< the matches lie too close together in the picture, or leave the place uncertain, or all but one do
+  kNothing,    ///< too few features agree on a pose
+  kAmbiguous,  ///< more than one pose explains the frame about as well: repeated structure
+  kVague,      ///< the matches are too close together in the picture, or leave the pose uncertain, or all but one do
 };
 [[nodiscard]] std::string_view to_string(RelocaliseVerdict verdict);
 
 struct RelocaliseAnswer {
   RelocaliseVerdict verdict = RelocaliseVerdict::kNothing;
-  std::string reason;            ///< one sentence with the figures
-  EyeBelief belief;              ///< best place; only to be used where kFound
+  std::string reason;            ///< one sentence with the evidence
+  EyeBelief belief;              ///< best pose; only valid for kFound
   std::vector<Pairing> inliers;  ///< points are indices of the lifted features
-  int candidates = 0;            ///< matches that were voted on
-  double likeness = 0.0;         ///< of the inliers, RelocaliseParams::min_likeness
-  int cells = 0;                 ///< of the picture, with an inlier
-  int rival_inliers = 0;         ///< of the best other place
+  int candidates = 0;            ///< number of matches that voted
+  double likeness = 0.0;         ///< sum over the inliers, RelocaliseParams::min_likeness
+  int cells = 0;                 ///< number of cells of the picture with an inlier
+  int rival_inliers = 0;         ///< inliers of the best other pose
 };
 
-/// All features against all landmarks, pairs of matches give places (exact in the plane with stereo), matches vote.
+/// Matches all features against all landmarks; pairs of matches propose poses (exact in the plane with stereo), and
+/// matches vote.
 [[nodiscard]] RelocaliseAnswer relocalise(const StereoGeometry& geometry, const LandmarkMap& map,
                                           std::span<const vision::StereoFeature> features,
                                           std::span<const EyeFeature> lifted, const LocaliserParams& params, Rng& rng);

@@ -42,7 +42,7 @@ struct StereoLocaliser::State {
   LandmarkMap map;
   Confidence confidence;
   EyeBelief belief;
-  bool somewhere = false;                       ///< the belief means something: LOCALISED, DEGRADED or just LOST
+  bool somewhere = false;                       ///< the belief is valid: LOCALISED, DEGRADED or just LOST
   EyeBelief moved;                              ///< by odometry since the last frame, in the frame of the eye then
   std::optional<EyeBelief> found;               ///< by relocalisation, to be confirmed by another frame
   std::unordered_map<LandmarkId, int> repeats;  ///< updates that each landmark took part in
@@ -128,13 +128,13 @@ void StereoLocaliser::State::correct(std::span<const Pairing> pairs, std::span<c
     used.push_back(gated[i]);
     step.inliers.push_back({lifted[owners[i].point].feature, map.at(owners[i].landmark).id});
   }
-  // The paper corrects with whatever it has.
+  // The paper corrects with any number of matches.
   const int least = params.mode == FilterMode::kPaper ? 1 : params.confidence.min_update_inliers;
   if (static_cast<int>(used.size()) < least) {
     return;
   }
-  step.nis =
-      params.mode == FilterMode::kJoint ? update_together(belief, used, params.batch) : update_in_turn(belief, used);
+  step.nis = params.mode == FilterMode::kJoint ? update_together(belief, used, params.batch)
+                                               : update_sequentially(belief, used);
   step.corrected = true;
   for (const FrameMatch& match : step.inliers) {
     ++repeats[match.landmark];
@@ -289,7 +289,7 @@ void StereoLocaliser::start_anywhere() {
   s.begin(s.belief_of({}, anywhere));
   s.somewhere = false;
   s.step = {};
-  s.step.cause = "no frame has told the place yet";
+  s.step.cause = "no frame has determined the place yet";
 }
 
 void StereoLocaliser::predict(const Twist2& velocity, double tau_s) {

@@ -1,6 +1,6 @@
 /// \file
-/// The database localiser: where the robot is, from odometry and from what its stereo camera knows again (spec S2.8,
-/// S2.9), from the moment it is switched on.
+/// The database localiser: the pose from odometry and from landmarks that the stereo camera recognises (spec S2.8,
+/// S2.9), beginning without a known pose.
 #pragma once
 
 #include <cstdint>
@@ -24,27 +24,28 @@ struct FrameMatch {
   friend bool operator==(const FrameMatch&, const FrameMatch&) = default;
 };
 
-/// What one frame did.
+/// Result of one frame.
 struct LocaliserStep {
   LocalisationQuality quality = LocalisationQuality::kUnknown;
   std::string cause;        ///< why the quality is not kLocalised; empty otherwise
-  double confidence = 0.0;  ///< 0 .. 1: from inliers, their innovations and the pose's covariance
+  double confidence = 0.0;  ///< 0 to 1: from inliers, their innovations and the pose's covariance
   int features = 0;
-  int in_range = 0;                  ///< of these, near and far enough to be used
-  int matched = 0;                   ///< taken for a landmark before they were asked whether they agree
-  std::vector<FrameMatch> inliers;   ///< that agreed; they corrected the pose if `corrected`
-  std::vector<LandmarkId> expected;  ///< landmarks that should show, matched or not; only while the pose is known
-  double nis = 0.0;                  ///< sum of squared innovations, 2 degrees of freedom an inlier
+  int in_range = 0;                 ///< number of these within the range limits
+  int matched = 0;                  ///< number of associations before the vote
+  std::vector<FrameMatch> inliers;  ///< matches that agreed; they corrected the pose if `corrected`
+  /// Landmarks that should be visible, matched or not; only while the pose is known.
+  std::vector<LandmarkId> expected;
+  double nis = 0.0;  ///< sum of squared innovations, 2 degrees of freedom per inlier
   bool corrected = false;
-  bool relocalised = false;  ///< the pose was found anew with this frame
-  UncertainPose last_T_eye;  ///< the eye seen from where it was at the frame before, by odometry alone
+  bool relocalised = false;  ///< the pose was found by relocalisation with this frame
+  UncertainPose last_T_eye;  ///< pose of the eye relative to the previous frame, by odometry alone
 };
 
-/// Not for two threads at once. Time and chance are arguments; the database is only read.
+/// Not thread-safe. Time and random numbers are arguments; the database is only read.
 class StereoLocaliser {
  public:
-  /// kInvalidArgument: a database of another calibration (with the remedy), parameters out of range; kNotReady: an
-  /// empty database.
+  /// Creates a localiser. Fails with kInvalidArgument for a database of another calibration (with the remedy) or
+  /// parameters out of range, and with kNotReady for an empty database.
   [[nodiscard]] static Result<StereoLocaliser> create(const StereoGeometry& geometry,
                                                       std::shared_ptr<const LandmarkDatabase> database,
                                                       const LocaliserParams& params);
@@ -52,19 +53,20 @@ class StereoLocaliser {
   StereoLocaliser& operator=(StereoLocaliser&&) noexcept;
   ~StereoLocaliser();
 
-  /// Another version of the same database, after an update: the pose stays. Errors of create().
+  /// Replaces the database by another version of it, after an update; the pose is kept. Errors are those of create().
   [[nodiscard]] Status use(std::shared_ptr<const LandmarkDatabase> database);
 
-  /// The pose is known: LOCALISED until frames say otherwise. kInvalidArgument: not finite, or no covariance.
+  /// Starts with a known pose: LOCALISED until frames contradict it. Fails with kInvalidArgument when it is not finite
+  /// or the covariance is invalid.
   [[nodiscard]] Status start_at(const Pose2& map_T_base, const Matrix3& covariance);
-  /// The pose is not known: UNKNOWN until a place is found and another frame confirms it.
+  /// Starts without a known pose: UNKNOWN until a pose is found and another frame confirms it.
   void start_anywhere();
 
   /// Motion of the base over `tau_s` seconds, by its encoders (spec S2.8).
   void predict(const Twist2& velocity, double tau_s);
-  /// One frame's features. `rng` is only drawn from while the place is looked for.
+  /// Processes one frame's features. `rng` is used only during relocalisation.
   const LocaliserStep& update(std::span<const vision::StereoFeature> features, Rng& rng);
-  /// A frame that cannot be used: the pose coasts, and says so with `cause`.
+  /// Processes a frame that cannot be used: the pose continues by odometry, with `cause` as the reason.
   const LocaliserStep& miss(const std::string& cause);
 
   [[nodiscard]] const LocaliserStep& last() const;

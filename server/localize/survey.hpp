@@ -11,14 +11,15 @@
 
 namespace seeker::localize {
 
-/// How the poses of a survey are made to agree with each other before the database is built (adjust_poses()).
+/// Parameters of the adjustment of a survey's poses before the database is built (adjust_poses()).
 struct AdjustmentParams {
   bool on = true;
-  int rounds = 2;                ///< of telling anew what is the same point
-  int iterations = 4;            ///< of the least squares in each
-  double huber_sigmas = 2.0;     ///< observations farther off weigh less
-  double point_sigma_m = 0.003;  ///< of every observation, beside its pixels: blobs differ from side to side
-  double offset_sigma_px = 0.2;  ///< of the error that all disparities share
+  int rounds = 2;             ///< number of data associations
+  int iterations = 4;         ///< iterations of least squares in each
+  double huber_sigmas = 2.0;  ///< observations farther off have a smaller weight
+  /// Error of every observation in addition to its pixels: features differ from side to side.
+  double point_sigma_m = 0.003;
+  double offset_sigma_px = 0.2;  ///< standard deviation of the common error of all disparities
 
   friend bool operator==(const AdjustmentParams&, const AdjustmentParams&) = default;
 };
@@ -30,50 +31,52 @@ struct DatabaseParams {
   SparsityParams sparsity;
   FusionParams fusion;
   AdjustmentParams adjustment;
-  /// Spec S2.7: landmarks seen less often are dropped at the end; 1 keeps all. With 2 the localiser errs by half as
-  /// much (5 mm instead of 10 in `reproduce s2`), and takes 2 of 100 views of rooms never surveyed for places.
+  /// Spec S2.7: landmarks observed less often are dropped at the end; 1 keeps all. With 2 the error of the localiser is
+  /// half as large (5 mm instead of 10 in `reproduce s2`), but 2 of 100 views of rooms never surveyed are localised.
   int salient_seen = 3;
 
   friend bool operator==(const DatabaseParams&, const DatabaseParams&) = default;
 };
 
-/// The gates of the paper: L1, 2.5, whole database, running mean, first descriptor.
+/// The parameters of the paper: L1, 2.5, whole database, running mean, first descriptor.
 [[nodiscard]] DatabaseParams paper_database_params();
-/// kInvalidArgument with the field's name.
+/// Fails with kInvalidArgument and the field's name.
 [[nodiscard]] Status validate(const DatabaseParams& params);
 
-/// What became of the features of one sighting (spec S2.11, Table 2 and Fig 7).
+/// Counts of the features of one sighting (spec S2.11, Table 2 and Fig 7).
 struct SightingCounts {
   int features = 0;
   int in_range = 0;
-  int matched = 0;     ///< taken for a landmark that was there
-  int sparsified = 0;  ///< refused by the sparsity rule; none where that is applied at the end
-  int inserted = 0;    ///< new landmarks
+  int matched = 0;     ///< number associated with an existing landmark
+  int sparsified = 0;  ///< number refused by the sparsity rule; none where it is applied at the end
+  int inserted = 0;    ///< number of new landmarks
 
   friend bool operator==(const SightingCounts&, const SightingCounts&) = default;
 };
 
-/// What became of one feature.
+/// Result of one feature.
 enum class FeatureFate : std::uint8_t { kOutOfRange, kMatched, kSparsified, kInserted };
 [[nodiscard]] std::string_view to_string(FeatureFate fate);
 
-/// Grows a database by one sighting after another, in the order in which they were taken.
+/// Builds a database from sightings in the order in which they were taken.
 class SurveyBuilder {
  public:
-  /// Asserts that both arguments are valid.
+  /// Requires valid arguments (asserted).
   SurveyBuilder(const StereoGeometry& geometry, const DatabaseParams& params);
 
-  /// kInvalidArgument: a pose that is not finite or out of range, a covariance that is none. Nothing is changed then.
+  /// Adds a sighting. Fails with kInvalidArgument, without any change, for a pose that is not finite or out of range,
+  /// or an invalid covariance.
   [[nodiscard]] Result<SightingCounts> add(const Sighting& sighting);
-  /// Of each feature of the newest sighting.
+  /// Results of the features of the newest sighting.
   [[nodiscard]] const std::vector<FeatureFate>& fates() const { return fates_; }
-  /// Which landmark each feature of the newest sighting was taken for, or has become; 0: none.
+  /// The landmark with which each feature of the newest sighting was associated, or which it became; 0: none.
   [[nodiscard]] const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
-  /// All so far, salient or not, and not thinned out yet where SparsityParams::best_first does that at the end.
+  /// All landmarks so far, salient or not, and not thinned out yet where SparsityParams::best_first does that at the
+  /// end.
   [[nodiscard]] const LandmarkDatabase& database() const { return database_; }
-  /// Spec S2.7: those that were seen often enough, and of these what the sparsity rule leaves.
+  /// Spec S2.7: the landmarks observed often enough, after the sparsity rule.
   [[nodiscard]] LandmarkDatabase salient() const;
-  /// Begins anew; ids go on rising.
+  /// Restarts with an empty database; ids continue to rise.
   void clear();
 
  private:
@@ -84,7 +87,7 @@ class SurveyBuilder {
   std::vector<LandmarkId> landmarks_;
 };
 
-/// kInvalidArgument for a sighting whose pose cannot be one.
+/// Fails with kInvalidArgument for a sighting with an invalid pose.
 [[nodiscard]] Status check_pose(const Sighting& sighting);
 
 }  // namespace seeker::localize

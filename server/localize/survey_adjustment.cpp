@@ -26,7 +26,7 @@ using Track = std::vector<Observation>;
 
 using Block = Eigen::Matrix<double, 2, 3>;
 constexpr double kLeastDisparity_px = 1.0;
-/// A pose told without any doubt stays where it is, to a tenth of a millimetre.
+/// A pose given without uncertainty is kept to a tenth of a millimetre.
 constexpr double kLeastVariance = 1e-8;
 
 /// Observations of one point at the present poses: where each puts it, what each is worth, how the poses move it.
@@ -50,8 +50,8 @@ class Adjustment {
         apart_(apart),
         adjusted_(sightings),
         led_to_(sightings.size(), false) {
-    for (const SightingsApart& way : apart_) {
-      led_to_[way.to] = true;
+    for (const SightingsApart& motion : apart_) {
+      led_to_[motion.to] = true;
     }
   }
 
@@ -63,7 +63,7 @@ class Adjustment {
   Status find_tracks();
   [[nodiscard]] Linearised linearise(const Track& track) const;
   void add_priors();
-  void add(const SightingsApart& way);
+  void add(const SightingsApart& motion);
   void add(const Track& track);
   void move();
   [[nodiscard]] double rms_m() const;
@@ -154,7 +154,7 @@ Linearised Adjustment::linearise(const Track& track) const {
     weighted += at.weights.back() * at.places.back();
   }
   at.mean = at.total.inverse() * weighted;
-  // Huber: what lies far from the others' mean weighs less, and the mean is told anew.
+  // Huber: observations far from the others' mean have a smaller weight, and the mean is computed again.
   at.total.setZero();
   weighted.setZero();
   for (std::size_t i = 0; i < track.size(); ++i) {
@@ -184,15 +184,15 @@ void Adjustment::add_priors() {
   gradient_(offset_row()) += weight * offset_px_;
 }
 
-void Adjustment::add(const SightingsApart& way) {
-  const Pose2& a = adjusted_[way.from].map_T_eye;
-  const Pose2& b = adjusted_[way.to].map_T_eye;
+void Adjustment::add(const SightingsApart& motion) {
+  const Pose2& a = adjusted_[motion.from].map_T_eye;
+  const Pose2& b = adjusted_[motion.to].map_T_eye;
   const Matrix3 by_a = compose_jacobian_a(inverse(a), b) * inverse_jacobian(a);
   const Matrix3 by_b = compose_jacobian_b(inverse(a), b);
-  const Eigen::Vector3d off = offset_of(inverse(a) * b, way.from_T_to.a_T_b);
-  const Matrix3 weight = (way.from_T_to.covariance + kLeastVariance * Matrix3::Identity()).inverse();
-  const Eigen::Index row_a = row_of(way.from);
-  const Eigen::Index row_b = row_of(way.to);
+  const Eigen::Vector3d off = offset_of(inverse(a) * b, motion.from_T_to.a_T_b);
+  const Matrix3 weight = (motion.from_T_to.covariance + kLeastVariance * Matrix3::Identity()).inverse();
+  const Eigen::Index row_a = row_of(motion.from);
+  const Eigen::Index row_b = row_of(motion.to);
   gradient_.segment<3>(row_a) += by_a.transpose() * weight * off;
   gradient_.segment<3>(row_b) += by_b.transpose() * weight * off;
   information_.block<3, 3>(row_a, row_a) += by_a.transpose() * weight * by_a;
@@ -278,8 +278,8 @@ Status Adjustment::run(AdjustmentReport& report) {
       information_ = Eigen::MatrixXd::Zero(size, size);
       gradient_ = Eigen::VectorXd::Zero(size);
       add_priors();
-      for (const SightingsApart& way : apart_) {
-        add(way);
+      for (const SightingsApart& motion : apart_) {
+        add(motion);
       }
       for (const Track& track : tracks_) {
         add(track);

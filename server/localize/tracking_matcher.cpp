@@ -148,7 +148,7 @@ std::vector<std::size_t> agreeing(const EyeBelief& belief, std::span<const Range
   const std::size_t step = std::max<std::size_t>(1, seen.size() / static_cast<std::size_t>(params.max_votes));
   for (std::size_t voter = 0; voter < seen.size(); voter += step) {
     EyeBelief corrected = belief;
-    static_cast<void>(update_in_turn(corrected, seen.subspan(voter, 1)));
+    static_cast<void>(update_sequentially(corrected, seen.subspan(voter, 1)));
     std::vector<std::size_t> group;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const auto innovation = innovate(corrected, seen[i]);

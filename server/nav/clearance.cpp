@@ -14,10 +14,10 @@ namespace {
 constexpr double kStraightRadius_m = 1000.0;
 constexpr double kStandingSpeed_m_s = 1e-4;
 
-/// Shares of a turn that are tried where the whole of it meets something, the largest first.
-constexpr std::array kLesserTurns{0.75, 0.5, 0.25, 0.0};
+/// Shares of the rotation speed that are tried where the whole of it leads to a contact, the largest first.
+constexpr std::array kReducedRotations{0.75, 0.5, 0.25, 0.0};
 
-/// Way along +x until a disc of `radius_m` meets p; nothing when it never does.
+/// Distance along +x until a disc of `radius_m` touches p. Nothing: it never does.
 std::optional<double> straight_contact(const Point2& p, double radius_m) {
   if (p.x() <= 0.0 || std::abs(p.y()) >= radius_m) {
     return std::nullopt;
@@ -25,16 +25,16 @@ std::optional<double> straight_contact(const Point2& p, double radius_m) {
   return std::max(0.0, p.x() - std::sqrt(radius_m * radius_m - p.y() * p.y()));
 }
 
-/// The same along the circle of signed radius `turn_m` (positive: to the left) that starts along +x.
-std::optional<double> arc_contact(const Point2& p, double turn_m, double radius_m) {
-  const double turn_abs = std::abs(turn_m);
-  const Point2 from_centre = p - Point2(0.0, turn_m);
+/// The same along the circle of signed radius `turn_radius_m` (positive: to the left) that starts along +x.
+std::optional<double> arc_contact(const Point2& p, double turn_radius_m, double radius_m) {
+  const double turn_radius_abs_m = std::abs(turn_radius_m);
+  const Point2 from_centre = p - Point2(0.0, turn_radius_m);
   const double rho = from_centre.norm();
-  if (std::abs(rho - turn_abs) >= radius_m || rho <= 0.0) {
+  if (std::abs(rho - turn_radius_abs_m) >= radius_m || rho <= 0.0) {
     return std::nullopt;
   }
-  const double side = turn_m > 0.0 ? 1.0 : -1.0;
-  // Angle from the robot to the point about the turning centre, in the direction of travel, 0..2 pi.
+  const double side = turn_radius_m > 0.0 ? 1.0 : -1.0;
+  // Angle from the robot to the point about the centre of the circle, in the direction of travel, 0..2 pi.
   double ahead_rad = std::atan2(from_centre.x(), -side * from_centre.y());
   if (ahead_rad < 0.0) {
     ahead_rad += kTwoPi;
@@ -42,8 +42,9 @@ std::optional<double> arc_contact(const Point2& p, double turn_m, double radius_
   if (p.norm() < radius_m) {
     return ahead_rad < kPi ? std::optional<double>(0.0) : std::nullopt;
   }
-  const double cosine = (rho * rho + turn_abs * turn_abs - radius_m * radius_m) / (2.0 * rho * turn_abs);
-  return turn_abs * std::max(0.0, ahead_rad - std::acos(std::clamp(cosine, -1.0, 1.0)));
+  const double cosine =
+      (rho * rho + turn_radius_abs_m * turn_radius_abs_m - radius_m * radius_m) / (2.0 * rho * turn_radius_abs_m);
+  return turn_radius_abs_m * std::max(0.0, ahead_rad - std::acos(std::clamp(cosine, -1.0, 1.0)));
 }
 
 }  // namespace
@@ -52,9 +53,9 @@ double free_arc_m(const Twist2& twist, const std::vector<Point2>& points_base, c
   if (std::abs(twist.v_m_s) < kStandingSpeed_m_s) {
     return params.horizon_m;
   }
-  // Driving backwards is driving forwards in the mirrored frame (x -> -x), where left and right turns change places.
+  // Driving backwards is driving forwards in the mirrored frame (x -> -x), where left and right are exchanged.
   const double mirror = twist.v_m_s > 0.0 ? 1.0 : -1.0;
-  const double turn_m =
+  const double turn_radius_m =
       twist.omega_rad_s != 0.0 ? std::abs(twist.v_m_s) / (mirror * twist.omega_rad_s) : 2.0 * kStraightRadius_m;
   double free_m = params.horizon_m;
   for (const Point2& point : points_base) {
@@ -62,8 +63,8 @@ double free_arc_m(const Twist2& twist, const std::vector<Point2>& points_base, c
       continue;
     }
     const Point2 p(mirror * point.x(), point.y());
-    const auto contact = std::abs(turn_m) > kStraightRadius_m ? straight_contact(p, params.radius_m)
-                                                              : arc_contact(p, turn_m, params.radius_m);
+    const auto contact = std::abs(turn_radius_m) > kStraightRadius_m ? straight_contact(p, params.radius_m)
+                                                                     : arc_contact(p, turn_radius_m, params.radius_m);
     free_m = std::min(free_m, contact.value_or(params.horizon_m));
   }
   return free_m;
@@ -85,8 +86,8 @@ Twist2 limit_for_clearance(const Twist2& twist, const std::vector<Point2>& point
   return {scale * twist.v_m_s, scale * twist.omega_rad_s};
 }
 
-Twist2 limit_turn_while_rolling(const Twist2& allowed, const Twist2& present, const std::vector<Point2>& points_base,
-                                const ClearanceParams& params) {
+Twist2 limit_rotation_while_rolling(const Twist2& allowed, const Twist2& present,
+                                    const std::vector<Point2>& points_base, const ClearanceParams& params) {
   if (std::abs(present.v_m_s) <= std::abs(allowed.v_m_s)) {
     return allowed;
   }
@@ -96,13 +97,13 @@ Twist2 limit_turn_while_rolling(const Twist2& allowed, const Twist2& present, co
   const double braking_m = present.v_m_s * present.v_m_s / (2.0 * params.decel_m_s2) + params.slow_margin_m;
   double best = 1.0;
   double best_m = free_m(best);
-  for (const double share : kLesserTurns) {
+  for (const double share : kReducedRotations) {
     if (best_m >= braking_m) {
       break;
     }
-    if (const double way_m = free_m(share); way_m > best_m) {
+    if (const double distance_m = free_m(share); distance_m > best_m) {
       best = share;
-      best_m = way_m;
+      best_m = distance_m;
     }
   }
   return {allowed.v_m_s, best * allowed.omega_rad_s};

@@ -1,6 +1,6 @@
 /// \file
-/// Collision check of a commanded velocity against what the sensors see now: pure functions for follower and
-/// supervisor.
+/// /// Collision check of a commanded velocity against the obstacle points that the sensors see now: pure functions,
+/// used by the path follower and by the safety supervisor.
 #pragma once
 
 #include <vector>
@@ -11,30 +11,32 @@ namespace seeker::nav {
 
 /// Circular footprint and braking of the base.
 struct ClearanceParams {
-  double radius_m = 0.26;       ///< footprint that must stay free of points
+  double radius_m = 0.26;       ///< radius of the circle around the base that must stay free of obstacle points
   double slow_margin_m = 0.03;  ///< extra room kept in front, beyond the stopping distance
-  double decel_m_s2 = 0.3;      ///< what the base can brake with (Pioneer 3-DX)
-  double reaction_s = 0.2;      ///< from the reading to the first braking
-  double horizon_m = 3.0;       ///< points farther along the arc are ignored
-  double self_radius_m = 0.10;  ///< nearer points are the robot itself
+  double decel_m_s2 = 0.3;      ///< deceleration when the base brakes (default: Pioneer 3-DX)
+  double reaction_s = 0.2;      ///< delay from the sensor reading to the start of braking
+  double horizon_m = 3.0;       ///< points farther along the arc than this are ignored
+  double self_radius_m = 0.10;  ///< points nearer to the base's centre than this are the robot itself
 };
 
-/// Distance the base may travel along the arc of `twist` before its footprint touches the first point; horizon_m when
-/// it meets none. A point already inside the footprint counts only when the motion would bring it nearer. Rotation in
-/// place of a circular footprint meets nothing.
+/// Distance that the base may travel along the arc of `twist` before its footprint touches the first obstacle point;
+/// horizon_m when it touches none. A point that lies inside the footprint already counts only when the motion would
+/// bring it nearer. Rotation in place of a circular footprint touches no point.
 [[nodiscard]] double free_arc_m(const Twist2& twist, const std::vector<Point2>& points_base,
                                 const ClearanceParams& params);
 
-/// The same arc, slowed so that the base can halt before contact: v <= what allows stopping within the free way,
-/// omega in proportion. With no room at all v is zero and omega stays, since turning in place meets nothing and is the
-/// way out. Never speeds up, never changes a sign.
+/// The same arc, slowed so that the base can halt before contact: v is at most what allows stopping within the free
+/// distance, and omega is reduced in proportion. With no room at all v is zero and omega stays, because rotation in
+/// place touches no obstacle and lets the robot leave. The result is never faster than `twist`, and no sign changes.
 [[nodiscard]] Twist2 limit_for_clearance(const Twist2& twist, const std::vector<Point2>& points_base,
                                          const ClearanceParams& params = {});
 
-/// What limit_for_clearance() allows a base that stands, made safe for one that rolls at `present`: told to slow down
-/// it rolls on for a while but turns as told at once, on a tighter arc than the one that was checked. Where it would
-/// meet something before it stands, omega is lessened to what leaves it the most way. v stays; never changes a sign.
-[[nodiscard]] Twist2 limit_turn_while_rolling(const Twist2& allowed, const Twist2& present,
-                                              const std::vector<Point2>& points_base, const ClearanceParams& params);
+/// What limit_for_clearance() allows a base at rest, made safe for a base that rolls at `present`. A base that is
+/// commanded to slow down rolls on for a while but takes up the commanded rotation at once, so it drives a tighter arc
+/// than the one that was checked. Where it would meet an obstacle before it stands, omega is reduced to the share that
+/// leaves the longest free distance. v stays, and no sign changes.
+[[nodiscard]] Twist2 limit_rotation_while_rolling(const Twist2& allowed, const Twist2& present,
+                                                  const std::vector<Point2>& points_base,
+                                                  const ClearanceParams& params);
 
 }  // namespace seeker::nav

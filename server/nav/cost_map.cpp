@@ -77,6 +77,8 @@ Result<CostMap> CostMap::build(const Grid<std::uint8_t>& occupancy, const CostMa
   }
   CostMap map;
   map.params_ = params;
+  map.bound_ = limits.bound;
+  map.keep_out_ = limits.keep_out;
   map.states_ = Grid<CellState>(occupancy.frame(), occupancy.width(), occupancy.height());
   Grid<std::uint8_t> obstacles(occupancy.frame(), occupancy.width(), occupancy.height());
   for (std::size_t k = 0; k < occupancy.cells().size(); ++k) {
@@ -97,11 +99,32 @@ Result<CostMap> CostMap::build(const Grid<std::uint8_t>& occupancy, const CostMa
   return map;
 }
 
+double CostMap::inflation_m() const {
+  // The obstacle's surface is somewhere in its cell: up to half a cell nearer than the cell's centre.
+  return params_.robot_radius_m + frame().resolution_m / 2.0;
+}
+
+UnreachableCause CostMap::obstruction(const Point2& p_map) const {
+  if (bound_ && !contains(*bound_, p_map)) {
+    return UnreachableCause::kOutsideBound;
+  }
+  for (const Polygon& polygon : keep_out_) {
+    if (contains(polygon, p_map) || distance_to_edge_m(polygon, p_map) < inflation_m()) {
+      return UnreachableCause::kKeptOut;
+    }
+  }
+  const CellIndex cell = frame().cell_of(p_map);
+  if (states_.contains(cell) && clearance_m(cell) < inflation_m()) {
+    return UnreachableCause::kObstacle;
+  }
+  // What is left are discs that were forbidden: another robot, or a place that could not be reached before.
+  return state(cell) == CellState::kUnknown ? UnreachableCause::kUnknownFloor : UnreachableCause::kBlocked;
+}
+
 void CostMap::compute_costs() {
   costs_ = Grid<float>(states_.frame(), states_.width(), states_.height(), 0.0F);
   const double resolution_m = frame().resolution_m;
-  // The obstacle's surface is somewhere in its cell: up to half a cell nearer than the cell's centre.
-  const double inflation_m = params_.robot_radius_m + resolution_m / 2.0;
+  const double inflation_m = this->inflation_m();
   const double soft_m = std::max(params_.preferred_clearance_m - inflation_m, resolution_m);
   for (std::size_t k = 0; k < costs_.cells().size(); ++k) {
     const double clearance = resolution_m * static_cast<double>(clearance_.cells()[k]);
@@ -144,7 +167,7 @@ CostMap CostMap::without_disc(const Point2& centre_map, double radius_m) const {
   return map;
 }
 
-bool CostMap::way_is_clear(const Point2& a_map, const Point2& b_map) const {
+bool CostMap::segment_is_clear(const Point2& a_map, const Point2& b_map) const {
   const GridFrame& f = frame();
   RayWalk walk((a_map - f.origin) / f.resolution_m, (b_map - f.origin) / f.resolution_m);
   do {

@@ -93,7 +93,7 @@ std::optional<CostMap> FloorSource::around_movers(const FloorView& view) const {
   for (const Mover& mover : movers_) {
     const double distance = distance_m(mover.frame_T_base, map_T_base_);
     if (distance < kNearMover_m) {
-      // One that is nearer than it should be is no wall around the robot: the way leads off.
+      // A mover nearer than its radius does not enclose the robot: the path may lead away from it.
       const double apart_m = std::min(mover.radius_m + mover.slack_m + cost_.robot_radius_m, distance - kBeside_m);
       costs = (costs ? *costs : view.cost).without_disc(mover.frame_T_base.translation(), apart_m);
     }

@@ -1,5 +1,5 @@
 /// \file
-/// The map as planning sees it: occupancy, where the robot may go, what of it is connected.
+/// The map as planning uses it: occupancy, driving costs, and the floor connected to the robot.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@
 
 namespace seeker::nav {
 
-/// One snapshot, immutable.
+/// One immutable snapshot of the floor.
 struct FloorView {
-  Grid<std::uint8_t> occupancy;  ///< cells as in OccupancyTile; what others have seen where the robot has not
+  Grid<std::uint8_t> occupancy;  ///< cells as in OccupancyTile; observations of other robots where this robot has none
   CostMap cost;
   Grid<std::uint8_t> reachable;  ///< floor in coarse cells: 1 = allowed and connected to the robot
-  std::uint64_t revision = 0;    ///< of the map it was made from
+  std::uint64_t revision = 0;    ///< revision of the occupancy map that the snapshot was made from
   RobotTime built;
-  /// What the robot has seen itself, where the floor of others was added to it.
+  /// What the robot has observed itself, when the floor of other robots was added to the snapshot.
   struct Own {
     Grid<std::uint8_t> occupancy;
     Grid<std::uint8_t> reachable;
@@ -34,31 +34,33 @@ struct FloorView {
   std::optional<Own> own = std::nullopt;
 };
 
-/// Makes snapshots only when the map has changed and the last one is old enough.
+/// Makes floor snapshots, a new one only when the map has changed and the last one is old enough.
 class FloorSource {
  public:
   FloorSource(const CostMapParams& cost, ForbiddenAreas areas, double floor_cell_m, double period_s);
 
-  /// Called once per step with the present map, where other robots are now, and what floor they have seen (cells as
-  /// carried() makes them; null: nothing), both in the frame `map`; cheap.
+  /// Called once per step with the present map, the present places of other robots, and the floor that those have
+  /// observed (cells as carried() makes them; null when there is none), both in the frame `map`. The call is cheap.
   void attend(const OccupancyMap& map, const Pose2& map_T_base, RobotTime now, std::vector<Mover> movers = {},
               std::shared_ptr<const Grid<std::uint8_t>> others_floor = nullptr);
-  /// The newest view, at most `period_s` old; `fresh` asks for one of the present map. kNotReady: no map yet;
-  /// kUnreachable: the robot stands walled in.
+  /// The newest snapshot, at most `period_s` old; `fresh` asks for one of the present map. kNotReady: there is no map
+  /// yet. kUnreachable: the robot is enclosed by obstacles.
   [[nodiscard]] Result<std::shared_ptr<const FloorView>> view(bool fresh = false);
-  /// The last view that could be made, if any.
+  /// The last snapshot that could be made; null before the first.
   [[nodiscard]] const std::shared_ptr<const FloorView>& last() const { return last_; }
-  /// The costs of a view for a way to be planned now: around the other robots that are near. Nothing where none is, for
-  /// those farther off will have moved on before the robot gets there.
+  /// The costs of a snapshot for a path to be planned now, with the nearby robots as obstacles. Nothing: no robot is
+  /// near. Robots farther off are left out, because they will have moved on before this robot gets there.
   [[nodiscard]] std::optional<CostMap> around_movers(const FloorView& view) const;
-  /// Obstacles that the map does not show (sonar echoes below the lidar's plane), frame `map`. Other robots are none.
-  /// Forgotten when not added again for a minute: who stood in a door has gone on, what stands there is met again.
+  /// Adds an obstacle that the map does not show (for example a sonar echo below the lidar's plane), frame `map`.
+  /// Places that another robot may cover are ignored. An obstacle is forgotten when it was not added again for a
+  /// minute: a person who stood in a door has moved on, and an object that still stands there is observed again.
   void add_obstacle(const Point2& p_map);
-  /// Sooner than that, before a way is tried once more: all that were not added again just now.
+  /// Forgets all obstacles that were not added again within the last moments, before a path is tried once more.
   void forget_past_obstacles();
-  /// Those that are remembered now, frame `map`.
+  /// The obstacles that are remembered now, frame `map`.
   [[nodiscard]] std::vector<Point2> obstacles_map() const;
-  /// Floor connected to the last view's position when nothing is forbidden: what the forbidden areas cost.
+  /// Floor connected to the robot's position in the last snapshot if no area were forbidden: compared with the
+  /// reachable floor it shows what the forbidden areas exclude.
   [[nodiscard]] std::optional<Grid<std::uint8_t>> unrestricted_floor() const;
   [[nodiscard]] const ForbiddenAreas& areas() const { return areas_; }
   void transform(const MapMove& move);
@@ -66,7 +68,7 @@ class FloorSource {
  private:
   struct Obstacle {
     Point2 p_map;
-    RobotTime noted;  ///< last
+    RobotTime noted;  ///< when it was last added
   };
 
   void forget_older_than(double age_s);
@@ -80,7 +82,7 @@ class FloorSource {
   std::vector<Obstacle> obstacles_;
   std::vector<Mover> movers_;
   std::shared_ptr<const Grid<std::uint8_t>> others_floor_;
-  const OccupancyMap* map_ = nullptr;  ///< of the present step only
+  const OccupancyMap* map_ = nullptr;  ///< valid during the present step only
   Pose2 map_T_base_;
   RobotTime now_;
   bool stale_ = true;

@@ -1,5 +1,5 @@
 /// \file
-/// Ground that a mission keeps the robot from.
+/// Areas that a mission forbids the robot to enter.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,8 @@ struct ForbiddenAreas {
   [[nodiscard]] bool empty() const { return !bound && keep_out.empty(); }
 };
 
-/// Distance along a ray to the first border that leads from allowed to forbidden ground; nothing within `max_m`.
+/// Distance along a ray to the first border that leads from allowed to forbidden ground. Nothing: there is none within
+/// `max_m`.
 [[nodiscard]] std::optional<double> distance_to_forbidden(const ForbiddenAreas& areas, const Point2& from_map,
                                                           double direction_rad, double max_m);
 

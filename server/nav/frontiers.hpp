@@ -1,5 +1,5 @@
 /// \file
-/// Where known free floor meets the unknown.
+/// Frontiers: borders between known free floor and unknown space.
 #pragma once
 
 #include <vector>
@@ -9,20 +9,21 @@
 
 namespace seeker::nav {
 
-/// A border between reachable free floor and the unknown.
+/// A frontier: a border between reachable free floor and unknown space.
 struct Frontier {
-  Point2 p_map = Point2::Zero();  ///< its cheapest cell
-  double cost = 0.0;              ///< to get there
-  /// Of all of it. A border ends at obstacles, from which the robot's centre keeps its radius: of a door of 0.8 m it
-  /// can reach 0.2 m, and yet the door is as wide as it is.
+  Point2 p_map = Point2::Zero();  ///< the cell of the frontier with the lowest path cost
+  double cost = 0.0;              ///< path cost from the robot to that cell
+  /// Length of the whole border, in metres. A border ends at obstacles, from which the robot's centre keeps its radius:
+  /// of a door 0.8 m wide the centre can reach 0.2 m, but the border is 0.8 m long.
   double length_m = 0.0;
-  std::vector<CellIndex> cells;  ///< what the robot's centre can reach of it, of the cost map
+  std::vector<CellIndex> cells;  ///< cells of the cost map on the border that the robot's centre can reach
 };
 
-/// Every frontier of at least `min_length_m` of which the robot's centre can reach something, cheapest first.
+/// All frontiers of at least `min_length_m` that the robot's centre can reach in at least one cell, in order of rising
+/// path cost.
 [[nodiscard]] std::vector<Frontier> find_frontiers(const CostMap& map, const DistanceField& costs, double min_length_m);
 
-/// True when p lies within `radius_m` of one of the places.
+/// Whether p lies within `radius_m` of one of the places.
 [[nodiscard]] bool near_any(const Point2& p_map, const std::vector<Point2>& places, double radius_m);
 
 }  // namespace seeker::nav

@@ -9,9 +9,9 @@
 namespace seeker::nav {
 namespace {
 
-/// Occupied cells so near to each other are one thing; fewer cells are noise.
-constexpr double kSameThing_m = 1.0;
-constexpr std::size_t kThingCells = 3;
+/// Occupied cells within this distance of each other are one object; fewer cells are noise.
+constexpr double kSameObject_m = 1.0;
+constexpr std::size_t kObjectCells = 3;
 /// Cells so near to a mapped wall are the wall's; shorter segments may be what stands there.
 constexpr double kWallBand_m = 0.2;
 constexpr double kShortestWall_m = 0.5;
@@ -122,9 +122,9 @@ bool KnownFloor::contains(const Point2& p_map) const { return holds(floor_, p_ma
 
 bool KnownFloor::was_reachable(const Point2& p_map) const { return holds(from_afar_, p_map); }
 
-std::vector<StandingThing> KnownFloor::occupied_now(const FloorView& view,
-                                                    const std::vector<MapSegment>& segments) const {
-  std::vector<StandingThing> things;
+std::vector<StandingObject> KnownFloor::occupied_now(const FloorView& view,
+                                                     const std::vector<MapSegment>& segments) const {
+  std::vector<StandingObject> objects;
   const Grid<CellState>& states = view.cost.states();
   for (std::size_t k = 0; k < states.cells().size(); ++k) {
     if (states.cells()[k] != CellState::kOccupied) {
@@ -134,16 +134,17 @@ std::vector<StandingThing> KnownFloor::occupied_now(const FloorView& view,
     if (!contains(p) || !seen_by_itself(view, p) || on_wall(p, segments)) {
       continue;
     }
-    const auto same = std::find_if(things.begin(), things.end(),
-                                   [&](const StandingThing& thing) { return (thing.p_map - p).norm() < kSameThing_m; });
-    if (same == things.end()) {
-      things.push_back({p, {states.cell(k)}});
+    const auto same = std::find_if(objects.begin(), objects.end(), [&](const StandingObject& object) {
+      return (object.p_map - p).norm() < kSameObject_m;
+    });
+    if (same == objects.end()) {
+      objects.push_back({p, {states.cell(k)}});
     } else {
       same->cells.push_back(states.cell(k));
     }
   }
-  std::erase_if(things, [](const StandingThing& thing) { return thing.cells.size() < kThingCells; });
-  return things;
+  std::erase_if(objects, [](const StandingObject& object) { return object.cells.size() < kObjectCells; });
+  return objects;
 }
 
 void KnownFloor::transform(const MapMove& move) {

@@ -7,17 +7,17 @@
 namespace seeker::nav {
 namespace {
 
-/// From so near one sees best whether somebody still stands in the way,
+/// Within this distance the robot sees best whether somebody still stands on the path,
 constexpr double kNear_m = 1.5;
 /// and from here well enough.
 constexpr double kFar_m = 3.0;
 /// Whoever stands there hides the place itself.
 constexpr double kBody_m = 0.4;
-/// Room for a robot and somebody who walks by: he keeps a step away from both.
+/// Room for a robot and a person who walks by and keeps a step away from both.
 constexpr double kRoom_m = 1.5;
-/// A metre of room more is worth so many metres of way;
-constexpr double kWayForRoom = 10.0;
-/// farther away it is not looked for.
+/// One more metre of room is worth this many metres of path length.
+constexpr double kDistanceForRoom = 10.0;
+/// Places farther away than this are not examined.
 constexpr double kFarthest_m = 15.0;
 
 bool sees(const Point2& from_map, const Point2& place_map, const FloorView& floor) {
@@ -52,7 +52,7 @@ std::optional<Point2> place_aside(const Point2& place_map, const FloorView& floo
       continue;
     }
     const double room_m = std::min<double>(floor.cost.clearance_m(cell), kRoom_m);
-    const double worth_m = kWayForRoom * room_m - *cost;
+    const double worth_m = kDistanceForRoom * room_m - *cost;
     if (!best || worth_m > best_m) {
       best = p_map;
       best_m = worth_m;

@@ -11,7 +11,7 @@ namespace {
 /// Slower ones stand.
 constexpr double kStanding_m_s = 0.02;
 constexpr double kStep_s = 0.1;
-/// Whatever takes longer to brake is not looked at to its end.
+/// Motions are predicted for at most this time.
 constexpr double kLongest_s = 5.0;
 /// Coming nearer by less is no coming nearer.
 constexpr double kCloser_m = 0.005;
@@ -32,9 +32,9 @@ struct Braking {
       return frame_T_base;
     }
     const double braking_s = std::clamp(t_s - drives_on_s, 0.0, speed_m_s / decel_m_s2);
-    const double way_m =
+    const double distance_m =
         speed_m_s * (std::min(t_s, drives_on_s) + braking_s) - 0.5 * decel_m_s2 * braking_s * braking_s;
-    return frame_T_base * integrate(velocity, way_m / speed_m_s);
+    return frame_T_base * integrate(velocity, distance_m / speed_m_s);
   }
 };
 
@@ -48,9 +48,9 @@ double nearest_m(const Braking& own, const Braking& other) {
   return nearest;
 }
 
-/// Told to drive slower than it does, the base brakes at once, and goes on to do so if it has not slowed enough by the
-/// time it may be told again; else it does as told until then.
-Braking told(const Twist2& twist, const Twist2& present, const ClearanceParams& params) {
+/// Commanded to drive slower than it does, the base brakes at once, and continues to brake if it is not slow enough
+/// when the next command may come; otherwise it drives as commanded until then.
+Braking braking_towards(const Twist2& twist, const Twist2& present, const ClearanceParams& params) {
   const double slower_m_s = std::abs(present.v_m_s) - std::abs(twist.v_m_s);
   const double drives_on_s = params.reaction_s - std::max(0.0, slower_m_s) / params.decel_m_s2;
   return {{}, slower_m_s > 0.0 ? present : twist, std::max(0.0, drives_on_s), params.decel_m_s2};
@@ -95,7 +95,7 @@ Twist2 limit_for_movers(const Twist2& wanted, const Twist2& present, const std::
         const double apart_m = std::min(params.radius_m + mover.radius_m + mover.slack_m,
                                         mover.frame_T_base.translation().norm() - kCloser_m);
         const Braking other{mover.frame_T_base, mover.velocity, params.reaction_s, params.decel_m_s2};
-        room = std::min(room, nearest_m(told(twist, present, params), other) - apart_m);
+        room = std::min(room, nearest_m(braking_towards(twist, present, params), other) - apart_m);
       }
     }
     return room;

@@ -17,45 +17,47 @@
 
 namespace seeker::nav {
 
-/// Log-odds are natural logarithms. A wall needs two sweeps to be believed, and a cell that people have left is free
-/// again after at most (max - min) / -miss = 7 sweeps: moving people do not become walls.
+/// Log-odds are natural logarithms. A wall is mapped after two sweeps, and a cell that people have left is free again
+/// after at most (max - min) / -miss = 7 sweeps, so that moving people do not become walls.
 struct OccupancyParams {
-  double max_range_m = 12.0;        ///< a longer ray is cut here and clears only
-  double no_return_clear_m = 4.0;   ///< a beam without return clears up to here; 0: it says nothing
-  double log_odds_hit = 0.9;        ///< > 0
-  double log_odds_miss = -0.6;      ///< < 0
-  double log_odds_min = -2.0;       ///< clamp of the sum
-  double log_odds_max = 2.4;        ///< clamp of the sum
-  double sonar_max_range_m = 3.0;   ///< beyond it, an echo marks nothing and clears up to here
-  double sonar_log_odds_hit = 0.4;  ///< weak: the echo came from anywhere on the arc
+  double max_range_m = 12.0;        ///< a longer ray is cut here and only clears cells
+  double no_return_clear_m = 4.0;   ///< a beam without return clears up to here; 0: it clears nothing
+  double log_odds_hit = 0.9;        ///< added for a hit, above 0
+  double log_odds_miss = -0.6;      ///< added for a miss, below 0
+  double log_odds_min = -2.0;       ///< lower limit of the sum
+  double log_odds_max = 2.4;        ///< upper limit of the sum
+  double sonar_max_range_m = 3.0;   ///< an echo from farther away marks nothing and clears up to here
+  double sonar_log_odds_hit = 0.4;  ///< small, because the echo came from anywhere on the arc
   double sonar_log_odds_miss = -0.3;
-  double sonar_log_odds_limit = 1.2;  ///< sonar never pushes a cell beyond this, nor moves one that is beyond it
-  int max_tiles = 2048;               ///< 2048 tiles = 21 000 m2 and 24 MB
+  /// Sonar never moves a cell beyond this, and leaves a cell that is beyond it unchanged.
+  double sonar_log_odds_limit = 1.2;
+  int max_tiles = 2048;  ///< 2048 tiles = 21 000 m2 and 24 MB
 };
 
 /// Occupancy of the frame `map`. Within one sweep each cell is updated once and a hit wins over a miss, so that grazing
-/// beams do not erase a wall. Sonar writes into the same layer, weaker than the lidar: where both are fitted the lidar
-/// wins, so obstacles below the lidar's plane must be given to CostMap as extra obstacles.
+/// beams do not erase a wall. Sonar writes into the same layer with smaller steps than the lidar. Where both are fitted
+/// the lidar wins, so obstacles below the lidar's plane must be given to CostMap as extra obstacles.
 class OccupancyMap {
  public:
   explicit OccupancyMap(const OccupancyParams& params = {});
 
-  /// Writes one sweep taken from `map_T_base`. kInvalidArgument: unusable scan or pose, nothing is written.
-  /// kTooLarge: the map is at max_tiles; what lies inside the present tiles is still written.
+  /// Writes one sweep taken from `map_T_base`. kInvalidArgument: the scan or the pose is unusable; nothing is written.
+  /// kTooLarge: the map has max_tiles tiles; what lies inside them is still written.
   [[nodiscard]] Status integrate(const LaserScan& scan, const Pose2& map_T_base);
-  /// Writes the newest readings of a ring as cones. Errors as above. No echo writes nothing: smooth walls swallow it.
+  /// Writes the newest readings of a sonar ring as cones, with errors as above. A reading without echo writes nothing,
+  /// because smooth walls reflect the sound away.
   [[nodiscard]] Status integrate(const SonarScan& scan, const Pose2& map_T_base);
 
   /// Rises with every integrate() that changed a cell, and with clear(); 0 for a new map.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   /// Tiles changed after `revision`, ordered by row and column.
   [[nodiscard]] std::vector<OccupancyTile> tiles_since(std::uint64_t revision) const;
-  /// Probability of occupied; nothing where no beam has been.
+  /// Occupancy probability of the cell at the place. Nothing: no beam has crossed it.
   [[nodiscard]] std::optional<double> probability_at(const Point2& p_map) const;
-  /// Everything known in one grid (cells as in OccupancyTile); nothing for an empty map.
+  /// All known cells in one grid (cells as in OccupancyTile). Nothing: the map is empty.
   [[nodiscard]] std::optional<Grid<std::uint8_t>> snapshot() const;
   [[nodiscard]] std::size_t tile_count() const { return tiles_.size(); }
-  /// Forgets everything; the revision still rises.
+  /// Removes all cells; the revision still rises.
   void clear();
 
  private:
@@ -68,7 +70,7 @@ class OccupancyMap {
     std::uint64_t revision = 0;
     bool changed = false;
   };
-  /// What one sweep adds: log-odds step and the interval it may move cells in.
+  /// The effect of one sweep on a cell: the log-odds step and the interval in which it may move the cell.
   struct Evidence {
     int step = 0;
     int low = 0;

@@ -18,8 +18,8 @@ constexpr double kBrakeShare = 0.8;
 constexpr double kWindowBack_m = 0.5;   ///< the robot's projection is searched this far behind the last one
 constexpr double kWindowAhead_m = 1.5;  ///< and this far ahead
 constexpr double kLookaheadStep_m = 0.05;
-/// A way that is longer by so much than what was left of the one before leads another way round.
-constexpr double kAnotherWay_m = 0.5;
+/// A path that is longer than what was left of the previous one by this much leads around another side.
+constexpr double kAnotherPath_m = 0.5;
 constexpr double kStanding_m_s = 0.03;
 constexpr double kStanding_rad_s = 0.08;
 
@@ -45,7 +45,7 @@ void PathFollower::set_path(Path path, RobotTime now, std::optional<double> fina
   }
   final_heading_rad_ = final_heading_rad;
   reached_m_ = 0.0;
-  turning_ = false;
+  rotating_ = false;
   at_goal_ = false;
   blocked_since_.reset();
   progress_at_ = now;
@@ -54,15 +54,15 @@ void PathFollower::set_path(Path path, RobotTime now, std::optional<double> fina
 }
 
 void PathFollower::replace_path(Path path, RobotTime now) {
-  const bool same_way = path.length_m < best_remaining_m_ + kAnotherWay_m;
+  const bool same_path = path.length_m < best_remaining_m_ + kAnotherPath_m;
   const auto blocked_since = blocked_since_;
   const RobotTime progress_at = progress_at_;
   const double best_remaining_m = best_remaining_m_;
   const double best_error_rad = best_error_rad_;
-  const bool turning = turning_;
+  const bool turning = rotating_;
   set_path(std::move(path), now, final_heading_rad_);
-  turning_ = turning;
-  if (same_way) {
+  rotating_ = turning;
+  if (same_path) {
     blocked_since_ = blocked_since;
     progress_at_ = progress_at;
     best_remaining_m_ = best_remaining_m;
@@ -114,7 +114,7 @@ PathFollower::Target PathFollower::find_target(const Point2& p_map) {
     }
   }
   reached_m_ = along_m;
-  // Aim less far where the straight way there would cut a corner.
+  // The point aimed at is nearer where the straight segment to it would cut a corner.
   double aim_m = std::min(along_m + params_.lookahead_m, arc_m_.back());
   const auto cuts_corner = [&] {
     for (std::size_t k = 0; k < arc_m_.size(); ++k) {
@@ -139,15 +139,15 @@ double PathFollower::corner_speed(double along_m) const {
     }
     const Point2 in = path_.waypoints[k] - path_.waypoints[k - 1];
     const Point2 out = path_.waypoints[k + 1] - path_.waypoints[k];
-    const double turn_rad = std::abs(wrap_angle(std::atan2(out.y(), out.x()) - std::atan2(in.y(), in.x())));
-    const double through = params_.max_v_m_s * std::max(0.0, 1.0 - turn_rad / params_.turn_in_place_rad);
+    const double corner_rad = std::abs(wrap_angle(std::atan2(out.y(), out.x()) - std::atan2(in.y(), in.x())));
+    const double through = params_.max_v_m_s * std::max(0.0, 1.0 - corner_rad / params_.rotate_in_place_rad);
     const double brake = 2.0 * kBrakeShare * params_.accel_m_s2 * (arc_m_[k] - along_m);
     allowed = std::min(allowed, std::sqrt(through * through + brake));
   }
   return allowed;
 }
 
-Twist2 PathFollower::turn_towards(double error_rad) const {
+Twist2 PathFollower::rotate_towards(double error_rad) const {
   const double stoppable = std::sqrt(2.0 * kBrakeShare * params_.alpha_rad_s2 * std::abs(error_rad));
   const double speed = std::min({params_.heading_gain_1_s * std::abs(error_rad), stoppable, params_.max_omega_rad_s});
   return {0.0, std::copysign(speed, error_rad)};
@@ -155,10 +155,10 @@ Twist2 PathFollower::turn_towards(double error_rad) const {
 
 Twist2 PathFollower::desired(const Pose2& map_T_base, const Target& target) {
   const double error_rad = bearing_to(map_T_base, target.p_map);
-  const double limit_rad = turning_ ? params_.turn_done_rad : params_.turn_in_place_rad;
-  turning_ = std::abs(error_rad) > limit_rad;
-  if (turning_) {
-    return turn_towards(error_rad);
+  const double limit_rad = rotating_ ? params_.rotate_done_rad : params_.rotate_in_place_rad;
+  rotating_ = std::abs(error_rad) > limit_rad;
+  if (rotating_) {
+    return rotate_towards(error_rad);
   }
   const double chord_m = std::max((target.p_map - map_T_base.translation()).norm(), params_.goal_tolerance_m / 2.0);
   const double curvature = 2.0 * std::sin(error_rad) / chord_m;
@@ -214,7 +214,7 @@ bool PathFollower::stuck(double remaining_m, double error_rad, RobotTime now) {
 
 std::optional<FollowStep> PathFollower::watch(const Pose2& map_T_base, const std::vector<Point2>& points_base,
                                               const Target& target, RobotTime now) {
-  const bool no_room = !turning_ && command_.v_m_s <= 0.0;
+  const bool no_room = !rotating_ && command_.v_m_s <= 0.0;
   if (no_room || path_blocked(map_T_base, points_base, target.along_m)) {
     blocked_since_ = blocked_since_.value_or(now);
     if (to_seconds(now - *blocked_since_) >= params_.blocked_for_s) {
@@ -232,7 +232,7 @@ std::optional<FollowStep> PathFollower::watch(const Pose2& map_T_base, const std
 FollowStep PathFollower::finish(const Pose2& map_T_base, const Target& target, double dt_s, RobotTime now) {
   const double error_rad = final_heading_rad_ ? wrap_angle(*final_heading_rad_ - map_T_base.theta_rad) : 0.0;
   const bool aligned = std::abs(error_rad) <= params_.heading_tolerance_rad;
-  command_ = smooth(aligned ? Twist2{} : turn_towards(error_rad), dt_s);
+  command_ = smooth(aligned ? Twist2{} : rotate_towards(error_rad), dt_s);
   const bool standing = std::abs(command_.v_m_s) < kStanding_m_s && std::abs(command_.omega_rad_s) < kStanding_rad_s;
   if (aligned && standing) {
     command_ = {};
@@ -240,7 +240,7 @@ FollowStep PathFollower::finish(const Pose2& map_T_base, const Target& target, d
   }
   if (stuck(0.0, error_rad, now)) {
     command_ = smooth({}, dt_s);
-    return {command_, FollowState::kStuck, target.remaining_m, "the robot does not turn to the heading asked for"};
+    return {command_, FollowState::kStuck, target.remaining_m, "the robot does not rotate to the requested heading"};
   }
   return {command_, FollowState::kFollowing, target.remaining_m, ""};
 }

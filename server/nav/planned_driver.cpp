@@ -11,7 +11,7 @@ namespace {
 constexpr double kNearEcho_m = 0.5;
 constexpr double kFrontEcho_rad = deg_to_rad(35.0);
 constexpr double kFarEcho_m = 2.0;
-/// A path blocked from so near is blocked by something the map may not show.
+/// A path blocked from within this distance is blocked by an obstacle that the map may not show.
 constexpr double kUnmappedObstacle_m = 0.8;
 
 bool echo_counts(const SonarReading& reading, bool laser_fitted) {
@@ -47,7 +47,7 @@ bool PlannedDriver::start(const DriveInput& input, const Point2& goal_map, std::
   goal_ = goal_map;
   final_heading_rad_ = final_heading_rad;
   failures_ = 0;
-  drive_.start(input.now);
+  drive_progress_.start(input.now);
   driving_ = plan(input);
   return driving_;
 }
@@ -66,7 +66,7 @@ void PlannedDriver::stop() {
   follower_.clear();
 }
 
-Result<Path> PlannedDriver::way(const DriveInput& input) const {
+Result<Path> PlannedDriver::find_path(const DriveInput& input) const {
   const auto floor = input.floors.view(true);
   if (!floor) {
     return tl::unexpected(floor.error());
@@ -75,19 +75,27 @@ Result<Path> PlannedDriver::way(const DriveInput& input) const {
   if (const std::optional<CostMap> crowded = input.floors.around_movers(**floor)) {
     if (auto path = nav::plan(*crowded, here, goal_, params_.planner)) {
       return path;
-    }  // else up to the one that is in the way: it may have gone on by then
+    }  // otherwise up to the mover that blocks the path: it may have moved on by then
   }
   return nav::plan((*floor)->cost, here, goal_, params_.planner);
 }
 
+UnreachableCause PlannedDriver::cause_of_failure(const DriveInput& input) const {
+  const Point2 here = input.map_T_base.translation();
+  if (const auto floor = input.floors.view()) {
+    return cause_of_no_path((*floor)->cost, here, goal_, params_.planner);
+  }
+  return input.floors.areas().allows(here) ? UnreachableCause::kRobotEnclosed : UnreachableCause::kRobotForbidden;
+}
+
 bool PlannedDriver::plan(const DriveInput& input) {
-  auto path = way(input);
+  auto path = find_path(input);
   if (!path) {
-    reason_ = path.error().message;
+    failure_ = {cause_of_failure(input), path.error().message};
     return false;
   }
   planned_ = input.now;
-  way_.start(input.now);
+  path_progress_.start(input.now);
   follower_.set_path(std::move(*path), input.now, final_heading_rad_);
   return true;
 }
@@ -98,7 +106,7 @@ void PlannedDriver::refresh(const DriveInput& input) {
     return;
   }
   planned_ = input.now;
-  if (auto path = way(input)) {
+  if (auto path = find_path(input)) {
     follower_.replace_path(std::move(*path), input.now);
   }
 }
@@ -111,7 +119,9 @@ DriveStep PlannedDriver::plan_again(const DriveInput& input, const FollowStep& f
   }
   if (++failures_ > params_.max_failures || !plan(input)) {
     stop();
-    return {{}, DriveState::kFailed, failures_ > params_.max_failures ? follow.reason : reason_};
+    const DriveFailure failure =
+        failures_ > params_.max_failures ? DriveFailure{UnreachableCause::kBlocked, follow.reason} : failure_;
+    return {{}, DriveState::kFailed, failure.text, 0.0, failure.cause};
   }
   return {{}, DriveState::kDriving, {}, follow.remaining_m};
 }
@@ -122,12 +132,12 @@ DriveStep PlannedDriver::step(const DriveInput& input) {
   }
   refresh(input);
   const FollowStep follow = follower_.step(input.map_T_base, obstacles_in_base(input), input.now);
-  if (drive_.nearer(follow.remaining_m, kNearer_m, input.now)) {
+  if (drive_progress_.nearer(follow.remaining_m, kNearer_m, input.now)) {
     failures_ = 0;
   }
   switch (follow.state) {
     case FollowState::kFollowing:
-      if (way_.idle_s(follow.remaining_m, kNearer_m, input.now) > params_.goal_time_s) {
+      if (path_progress_.idle_s(follow.remaining_m, kNearer_m, input.now) > params_.goal_time_s) {
         stop();
         return {{}, DriveState::kFailed, "no progress towards the goal"};
       }

@@ -1,5 +1,5 @@
 /// \file
-/// Drives to one goal over planned paths, planning again when the way is blocked.
+/// Drives to one goal over planned paths, and plans again when the path is blocked.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@
 
 namespace seeker::nav {
 
-/// What a drive needs to know at one control step.
+/// The inputs of one control step of a drive.
 struct DriveInput {
-  RobotTime now;  ///< of the mission: stands still while something else moves the robot
+  RobotTime now;  ///< mission time: stands still while another behaviour moves the robot
   Pose2 map_T_base;
   const SonarScan* sonar = nullptr;
   const LaserScan* laser = nullptr;
@@ -27,49 +27,59 @@ struct DriveInput {
 };
 
 struct DriverParams {
-  int max_failures = 2;        ///< ways that turned out blocked, without getting nearer, before a drive is given up
-  double goal_time_s = 120.0;  ///< nor may a drive go on for so long without getting nearer to its goal
+  /// Paths that turned out blocked in a row, without progress towards the goal, before the drive is given up.
+  int max_failures = 2;
+  double goal_time_s = 120.0;  ///< longest time without progress towards the goal before the drive is given up
   FollowerParams follower;
   PlannerParams planner = {};
-  /// Plans anew so often while it drives, for what the map shows by then; 0: only where the way is blocked. Needed
-  /// where ways lead over floor that nobody has seen.
+  /// Period of replanning while driving, with the map of that moment, in seconds; 0: plan only where the path is
+  /// blocked. It is needed where paths lead over floor that no robot has observed.
   double replan_period_s = 0.0;
-  /// A robot so near to its goal when blocked has as good as arrived.
+  /// A robot that is blocked within this distance of its goal has arrived.
   double close_enough_m = 0.4;
 };
 
-/// The way that is left must have become shorter by so much than it ever was before for what failed on it to be
-/// forgotten.
+/// The remaining path length must fall this far below its previous minimum for earlier failures to be forgotten.
 inline constexpr double kNearer_m = 0.5;
+
+/// Why a drive failed: what a caller may branch on, and a sentence for people.
+struct DriveFailure {
+  UnreachableCause cause = UnreachableCause::kBlocked;
+  std::string text;
+};
 
 enum class DriveState : std::uint8_t { kIdle, kDriving, kArrived, kFailed };
 
-/// Answer of one control step of a drive.
+/// Result of one control step of a drive.
 struct DriveStep {
   Twist2 command;
   DriveState state = DriveState::kIdle;
-  std::string reason;        ///< of kFailed
-  double remaining_m = 0.0;  ///< of kDriving: along the way
+  std::string reason;                                   ///< cause of kFailed in words; else empty
+  double remaining_m = 0.0;                             ///< remaining path length while kDriving
+  UnreachableCause cause = UnreachableCause::kBlocked;  ///< cause of kFailed
 };
 
 class PlannedDriver {
  public:
   explicit PlannedDriver(const DriverParams& params);
 
-  /// Plans and starts; false when no way leads there now (reason()).
+  /// Plans and starts a drive; false when no path leads to the goal now (the cause is in reason()).
   bool start(const DriveInput& input, const Point2& goal_map, std::optional<double> final_heading_rad = {});
   [[nodiscard]] DriveStep step(const DriveInput& input);
-  /// The map moved: the way that is left goes along with the robot.
+  /// The map was corrected: the rest of the path moves with the robot.
   void transform(const MapMove& move);
   void stop();
   [[nodiscard]] const std::vector<Point2>& path() const { return follower_.path().waypoints; }
   [[nodiscard]] const Point2& goal() const { return goal_; }
-  [[nodiscard]] const std::string& reason() const { return reason_; }
+  [[nodiscard]] const std::string& reason() const { return failure_.text; }
+  /// Of the last plan that failed.
+  [[nodiscard]] const DriveFailure& failure() const { return failure_; }
 
  private:
-  [[nodiscard]] Result<Path> way(const DriveInput& input) const;
+  [[nodiscard]] Result<Path> find_path(const DriveInput& input) const;
   bool plan(const DriveInput& input);
-  /// A way that could not be found leaves the present one: who is in the way may have gone on by then.
+  [[nodiscard]] UnreachableCause cause_of_failure(const DriveInput& input) const;
+  /// Replans while driving. If no path is found the present one is kept: whoever blocks it may have moved on by then.
   void refresh(const DriveInput& input);
   [[nodiscard]] DriveStep plan_again(const DriveInput& input, const FollowStep& follow);
 
@@ -78,14 +88,15 @@ class PlannedDriver {
   Point2 goal_ = Point2::Zero();
   std::optional<double> final_heading_rad_;
   RobotTime planned_;
-  ProgressWatch drive_;  ///< of the whole drive: forgets its failures
-  ProgressWatch way_;    ///< of the present way: a detour may be longer
-  int failures_ = 0;     ///< in a row, without getting nearer
+  ProgressWatch drive_progress_;  ///< progress of the whole drive; progress forgets its failures
+  ProgressWatch path_progress_;   ///< progress on the present path, which may be longer after a detour
+  int failures_ = 0;              ///< failures in a row, without progress towards the goal
   bool driving_ = false;
-  std::string reason_;
+  DriveFailure failure_;
 };
 
-/// What lies around the robot now, in the base: laser returns, and near sonar echoes (things below the laser's plane).
+/// The obstacle points around the robot now, frame `base`: laser returns, and near sonar echoes (objects below the
+/// laser's plane).
 [[nodiscard]] std::vector<Point2> obstacles_in_base(const DriveInput& input);
 
 }  // namespace seeker::nav

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "server/nav/departure_cell.hpp"
 #include "server/nav/ray.hpp"
-#include "server/nav/way_out.hpp"
 
 namespace seeker::nav {
 namespace {
@@ -193,7 +193,7 @@ void attach_ends(const CostMap& map, const Point2& start, const Point2& goal, st
     }
   }
   // The first cell's centre is kept only where the straight way to the second waypoint would leave the free floor.
-  if (waypoints.size() > 1 && map.traversable(start) && map.way_is_clear(start, waypoints[1])) {
+  if (waypoints.size() > 1 && map.traversable(start) && map.segment_is_clear(start, waypoints[1])) {
     waypoints.front() = start;
   } else {
     waypoints.insert(waypoints.begin(), start);
@@ -223,7 +223,7 @@ Result<CellIndex> snap_start(const CostMap& map, const Point2& start, const Plan
   if (!start.allFinite()) {
     return fail(Errc::kInvalidArgument, "the start of the way is not a finite point");
   }
-  if (const auto cell = way_out(map, start, params.start_snap_m)) {
+  if (const auto cell = departure_cell(map, start, params.start_snap_m)) {
     return *cell;
   }
   return fail(Errc::kUnreachable,
@@ -237,8 +237,9 @@ Result<CellIndex> snap_goal(const CostMap& map, const Point2& goal, const Planne
   if (const auto cell = map.nearest_traversable(goal, params.goal_snap_m)) {
     return *cell;
   }
-  return fail(Errc::kUnreachable,
-              "the goal lies in or too near an obstacle, outside the bound, or in unknown space; choose free floor");
+  const UnreachableCause cause = map.obstruction(goal);
+  return fail(Errc::kUnreachable, "the goal is no place for the robot: " + std::string(explain(cause)) + "; " +
+                                      std::string(remedy_of(cause)));
 }
 
 tl::unexpected<Error> no_connection() {
@@ -262,6 +263,16 @@ Result<Path> plan(const CostMap& map, const Point2& start_map, const Point2& goa
     return no_connection();
   }
   return make_path(map, search.costs, search.parent, start_map, goal_map, *goal, params.shorten);
+}
+
+UnreachableCause cause_of_no_path(const CostMap& map, const Point2& start_map, const Point2& goal_map,
+                                  const PlannerParams& params) {
+  if (!departure_cell(map, start_map, params.start_snap_m)) {
+    const UnreachableCause here = map.obstruction(start_map);
+    const bool forbidden = here == UnreachableCause::kOutsideBound || here == UnreachableCause::kKeptOut;
+    return forbidden ? UnreachableCause::kRobotForbidden : UnreachableCause::kRobotEnclosed;
+  }
+  return map.nearest_traversable(goal_map, params.goal_snap_m) ? UnreachableCause::kCutOff : map.obstruction(goal_map);
 }
 
 Result<DistanceField> DistanceField::build(const CostMap& map, const Point2& start_map, const PlannerParams& params) {

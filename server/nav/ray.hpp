@@ -26,13 +26,13 @@ class RayWalk {
 
   [[nodiscard]] CellIndex cell() const { return cell_; }
   [[nodiscard]] int steps_left() const { return steps_left_; }
-  /// Moves on by one cell across a side; false when the last cell was reached before.
+  /// Moves on to the next cell, across a side; false when the last cell was reached before.
   bool advance() {
     if (steps_left_ == 0) {
       return false;
     }
     --steps_left_;
-    // Counting the steps left per axis makes the walk end in the right cell whatever rounding does.
+    // Counting the steps left per axis makes the walk end in the right cell despite rounding.
     if (left_j_ == 0 || (left_i_ > 0 && next_i_ < next_j_)) {
       cell_.i += step_i_;
       next_i_ += delta_i_;

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <vector>
 
+#include "server/nav/departure_cell.hpp"
 #include "server/nav/planner.hpp"
-#include "server/nav/way_out.hpp"
 
 namespace seeker::nav {
 namespace {
@@ -23,7 +23,7 @@ Result<Grid<std::uint8_t>> reachable_floor(const CostMap& map, const Point2& sta
   if (!(resolution_m >= map.frame().resolution_m)) {
     return fail(Errc::kInvalidArgument, "the floor's resolution must not be finer than that of the occupancy");
   }
-  const auto start = way_out(map, start_map, params.start_snap_m);
+  const auto start = departure_cell(map, start_map, params.start_snap_m);
   if (!start) {
     return fail(Errc::kUnreachable, "the robot is walled in: no free floor near where it stands; move it away");
   }

@@ -12,7 +12,7 @@ void RetryDrive::go(const Point2& goal_map, RobotTime now, std::optional<double>
   failures_ = 0;
   progress_.start(now);
   next_try_ = now;
-  waiting_for_.clear();
+  waiting_for_.reset();
   interrupted();
 }
 
@@ -31,10 +31,10 @@ void RetryDrive::transform(const MapMove& move) {
 }
 
 bool RetryDrive::begin(const DriveInput& input) {
-  if (!waiting_for_.empty()) {
-    // Who stood in the way may have left, and would be remembered for longer than all attempts last.
+  if (waiting_for_) {
+    // A person who blocked the path may have left, but is remembered for longer than all attempts last.
     input.floors.forget_past_obstacles();
-    waiting_for_.clear();
+    waiting_for_.reset();
   }
   driving_ = driver_.start(input, goal_, final_heading_rad_);
   return driving_;
@@ -46,12 +46,12 @@ DriveStep RetryDrive::step(const DriveInput& input) {
       return {{}, DriveState::kDriving, {}};
     }
     if (!begin(input)) {
-      return failed(driver_.reason(), input.now);
+      return failed(driver_.failure(), input.now);
     }
   }
   const DriveStep driven = driver_.step(input);
   if (driven.state == DriveState::kFailed || driven.state == DriveState::kIdle) {
-    return failed(driven.reason, input.now);
+    return failed({driven.cause, driven.reason}, input.now);
   }
   if (driven.state == DriveState::kDriving && progress_.nearer(driven.remaining_m, kNearer_m, input.now)) {
     failures_ = 0;
@@ -59,10 +59,10 @@ DriveStep RetryDrive::step(const DriveInput& input) {
   return driven;
 }
 
-DriveStep RetryDrive::failed(const std::string& why, RobotTime now) {
+DriveStep RetryDrive::failed(const DriveFailure& why, RobotTime now) {
   interrupted();
   if (++failures_ >= retry_.attempts) {
-    return {{}, DriveState::kFailed, why};
+    return {{}, DriveState::kFailed, why.text, 0.0, why.cause};
   }
   next_try_ = now + seconds(retry_.retry_s);
   waiting_for_ = why;

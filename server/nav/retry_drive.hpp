@@ -1,5 +1,5 @@
 /// \file
-/// A drive that does not give up at once: what blocks the way may be people who move on.
+/// A drive with several attempts: people who block the path may move on.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 namespace seeker::nav {
 
 struct RetryParams {
-  int attempts = 4;       ///< that may fail in a row, without getting nearer to the goal
-  double retry_s = 15.0;  ///< standing still before the next one
+  int attempts = 4;       ///< attempts that may fail in a row, without progress towards the goal
+  double retry_s = 15.0;  ///< pause at rest before the next attempt
 };
 
 class RetryDrive {
@@ -21,18 +21,18 @@ class RetryDrive {
   RetryDrive(const DriverParams& params, const RetryParams& retry);
 
   void go(const Point2& goal_map, RobotTime now, std::optional<double> final_heading_rad = {});
-  /// kFailed only when every attempt has failed.
+  /// Computes one control step. The state is kFailed only when every attempt has failed.
   [[nodiscard]] DriveStep step(const DriveInput& input);
-  /// Something else moved the robot: plans anew with the next step; the attempts count on.
+  /// Another behaviour has moved the robot: the next step plans again, and the attempts keep their count.
   void interrupted();
   void transform(const MapMove& move);
   [[nodiscard]] const std::vector<Point2>& path() const { return driver_.path(); }
-  /// Why the last attempt failed, while it stands before the next one; else empty.
-  [[nodiscard]] const std::string& waiting_for() const { return waiting_for_; }
+  /// Why the last attempt failed, while the robot waits for the next one; else nothing.
+  [[nodiscard]] const std::optional<DriveFailure>& waiting_for() const { return waiting_for_; }
 
  private:
   [[nodiscard]] bool begin(const DriveInput& input);
-  [[nodiscard]] DriveStep failed(const std::string& why, RobotTime now);
+  [[nodiscard]] DriveStep failed(const DriveFailure& why, RobotTime now);
 
   PlannedDriver driver_;
   RetryParams retry_;
@@ -40,9 +40,9 @@ class RetryDrive {
   std::optional<double> final_heading_rad_;
   bool driving_ = false;
   int failures_ = 0;
-  ProgressWatch progress_;  ///< over all attempts
+  ProgressWatch progress_;  ///< progress over all attempts
   RobotTime next_try_;
-  std::string waiting_for_;
+  std::optional<DriveFailure> waiting_for_;
 };
 
 }  // namespace seeker::nav

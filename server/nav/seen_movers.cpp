@@ -33,7 +33,7 @@ constexpr double kLookedFor_s = 1.0;
 /// Slower ones may be pillars whose other side comes into sight; faster ones are two bodies taken for one.
 constexpr double kSlowest_m_s = 0.25;
 constexpr double kFastest_m_s = 2.0;
-/// Half way through, an even drive was half way along.
+/// At half of the time an even drive has covered half of the distance, to within this.
 constexpr double kUneven_m = 0.05;
 constexpr double kSlack_m = 0.1;
 /// A beam that ends so far behind a point passed it; half of what the slowest body moves by while it is followed.
@@ -58,7 +58,7 @@ std::optional<std::size_t> next_on_body(const LaserScan& scan, std::size_t beam)
   return std::nullopt;
 }
 
-/// Of beams that end at one thing, in their order.
+/// The body of beams that end at one object, in their order.
 std::optional<FreeBody> body_of(const LaserScan& scan, const std::vector<std::size_t>& beams) {
   const std::size_t first = beams.front();
   const std::size_t last = beams.back();

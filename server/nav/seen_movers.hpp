@@ -1,5 +1,5 @@
 /// \file
-/// Things that drive about as a laser sees them: others than those that tell of themselves.
+/// Detection and tracking of moving robots in laser scans, for robots that do not report their poses.
 #pragma once
 
 #include <deque>
@@ -14,32 +14,34 @@
 
 namespace seeker::nav {
 
-/// A body that stands free before whatever is beside it.
+/// A body that stands in front of what is beside it, seen from the laser.
 struct FreeBody {
-  Point2 centre;  ///< in the frame of the scan's base, or where the holder says
+  Point2 centre;  ///< in the base frame of the scan, or in the frame that the holder names
   double radius_m = 0.0;
-  std::vector<Point2> surface;  ///< where beams end at it, in the same frame
+  std::vector<Point2> surface;  ///< end points of the beams at the body, in the same frame
 };
 
-/// Bodies as wide as robots are, frame `base`; what the edge of the scan cuts is none.
+/// All bodies in the scan that are as wide as robots are, frame `base`. Bodies cut by the edge of the scan are left
+/// out.
 [[nodiscard]] std::vector<FreeBody> free_bodies(const LaserScan& scan);
 
-/// A scan, and where it was taken.
+/// A scan and the pose where it was taken.
 struct ScanAt {
   Pose2 odom_T_base;
   LaserScan scan;
 
-  /// Whether both beams beside the point end clearly behind it: nothing was there.
+  /// Whether the beams on both sides of the point end clearly behind it, so that the point was free.
   [[nodiscard]] bool sees_through(const Point2& p_odom) const;
 };
 
-/// Follows such bodies from scan to scan by odometry, which over half a second is right to a centimetre. One drives if
-/// it leaves free what it covered or covers what was free: of what stands, one may see another side from another place,
-/// and its middle then moves, but nothing is ever seen through it.
+/// Follows such bodies from scan to scan by odometry, which is accurate to a centimetre over half a second. A body
+/// moves if it frees space that it covered or covers space that was free. The centre of a standing body may shift too,
+/// when the robot sees another side of it, but the scan never sees through it.
 class SeenMovers {
  public:
+  /// Adds a scan.
   void look(const LaserScan& scan, const Pose2& odom_T_base, RobotTime now);
-  /// Those that drive on evenly, or have done so shortly before and are still in sight; brought on to the present,
+  /// The bodies that drive evenly now, or have done so shortly before and are still in sight, predicted to the present,
   /// frame `base`.
   [[nodiscard]] std::vector<Mover> movers_base(const Pose2& odom_T_base, RobotTime now) const;
 
@@ -50,21 +52,22 @@ class SeenMovers {
   };
   struct Track {
     std::deque<Seen> seen;
-    double radius_m = 0.0;  ///< the widest that was seen: what is half hidden is no smaller
+    double radius_m = 0.0;  ///< the largest radius seen, because a body that is half hidden is no smaller
     std::optional<RobotTime> drove_at;
 
-    /// On average while it was followed.
+    /// Average velocity since tracking began, frame `odom`.
     [[nodiscard]] Point2 velocity_odom() const;
-    /// Evenly and fast, which where things stand in each other's way they may seem to do, too.
+    /// Whether the motion is even and fast. Standing objects that hide each other may fulfil this too.
     [[nodiscard]] bool seems_to_drive() const;
   };
 
   void follow(FreeBody body_odom, RobotTime now);
-  /// Over what it was followed; of the scans since then.
+  /// Whether scans since tracking began see through places that the body covered, or covered places that were seen
+  /// through.
   [[nodiscard]] bool leaves_or_takes_free_space(const Track& track) const;
 
   std::vector<Track> tracks_;
-  std::map<RobotTime, ScanAt> scans_;  ///< as long as one is followed
+  std::map<RobotTime, ScanAt> scans_;  ///< scans since the start of the oldest track
 };
 
 }  // namespace seeker::nav

@@ -8,10 +8,10 @@
 namespace seeker::nav {
 namespace {
 
-/// Farther echoes are too vague to say where the thing is.
+/// Farther echoes are too inaccurate to locate the object.
 constexpr double kNear_m = 0.7;
 constexpr double kFront_rad = deg_to_rad(60.0);
-/// A laser return so near to the echo is the same thing: the cone is wide, the echo's place is not exact.
+/// A laser return within this distance of the echo is the same object: the cone is wide, the echo's place is not exact.
 constexpr double kExplained_m = 0.3;
 constexpr double kSameEcho_m = 0.15;
 constexpr int kTimes = 4;

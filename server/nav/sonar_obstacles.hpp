@@ -1,5 +1,5 @@
 /// \file
-/// Things that sonars see and the laser does not (chair legs, mats, glass): obstacles of the floor.
+/// Obstacles that sonars detect and the laser does not (chair legs, mats, glass).
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace seeker::nav {
 
-/// An echo becomes an obstacle when it came from about the same place several times, and the laser shows nothing there
-/// that explains it.
+/// Collects sonar echoes. An echo becomes an obstacle when it came from about the same place several times and no laser
+/// return there explains it.
 class SonarObstacles {
  public:
   void note(const DriveInput& input);
@@ -25,7 +25,7 @@ class SonarObstacles {
   void note_echo(const Point2& p_map, const DriveInput& input);
 
   std::vector<Echo> echoes_;
-  RobotTime stamp_;  ///< of the last scan used: one that stands still is not seen again and again
+  RobotTime stamp_;  ///< stamp of the last scan used, so that a scan is counted once
 };
 
 }  // namespace seeker::nav

@@ -11,8 +11,8 @@ namespace seeker::server_net {
 
 class Session;
 
-/// Carries a request out. The answer is sent when the robot replies, from whatever thread; on the network thread it is
-/// turned into a message. Nothing is sent when the session has ended meanwhile.
+/// Carries out a request. The robot may reply on any thread; the response is made and sent on the network thread. No
+/// response is sent when the session has ended meanwhile.
 void handle(const std::shared_ptr<Session>& session, const seeker::v1::Request& request, RobotTime received);
 
 }  // namespace seeker::server_net

@@ -1,5 +1,5 @@
 /// \file
-/// The way of updates from the robot's thread to the network's: bounded, never blocking the robot.
+/// A bounded queue of updates from the robot's thread to the network thread, which never blocks the robot.
 #pragma once
 
 #include <array>
@@ -13,15 +13,16 @@
 
 namespace seeker::server_net {
 
-/// LATEST: the newest of each topic, and of tiles the newest of each index. RELIABLE: a queue; when the network thread
-/// stands still for so long that it is full, the oldest go, which shows as a step in their sequence.
+/// LATEST topics keep their newest update, and of tiles the newest of each index. RELIABLE topics are queued; when the
+/// network thread stalls until the queue is full, the oldest updates are dropped, which shows as a step in their
+/// sequence.
 class Mailbox {
  public:
   explicit Mailbox(std::size_t max_reliable) : max_reliable_(max_reliable) {}
 
-  /// True: it was empty before, so somebody must be told to drain it.
+  /// Adds an update. True: the mailbox was empty before, so that the caller must have it drained.
   [[nodiscard]] bool push(const api::UpdatePtr& update);
-  /// All that waits, RELIABLE first; the tiles as one update.
+  /// Removes all waiting updates, RELIABLE ones first; the tiles are one update.
   [[nodiscard]] std::vector<api::UpdatePtr> drain();
 
  private:
@@ -32,8 +33,9 @@ class Mailbox {
   bool empty_ = true;
   std::deque<api::UpdatePtr> reliable_;
   std::array<api::UpdatePtr, api::kTopicCount> latest_;
-  api::UpdatePtr tiles_head_;                                                   ///< newest update that held tiles
-  std::map<CellIndex, std::pair<api::UpdatePtr, const OccupancyTile*>> tiles_;  ///< where each newest tile lies
+  api::UpdatePtr tiles_head_;  ///< the newest update with tiles
+  std::map<CellIndex, std::pair<api::UpdatePtr, const OccupancyTile*>>
+      tiles_;  ///< the newest tile of each index, with its update
 };
 
 }  // namespace seeker::server_net

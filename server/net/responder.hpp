@@ -1,5 +1,5 @@
 /// \file
-/// How handlers answer: the robot replies on any thread, the response is made and sent on the network thread.
+/// Responses of handlers: the robot replies on any thread, the response is made and sent on the network thread.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace seeker::server_net {
 namespace pb = ::seeker::v1;
 using SessionPtr = std::shared_ptr<Session>;
 
-/// Everything an answer needs, valid on any thread and after the session's end.
+/// All that a response needs, valid on any thread and after the end of the session.
 struct Responder {
   std::weak_ptr<Session> session;
   std::shared_ptr<boost::asio::io_context> io;
@@ -24,7 +24,7 @@ struct Responder {
   wire::CallNumber call = 0;
   RobotTime received;
 
-  /// On the network thread.
+  /// Begins a response; to be called on the network thread.
   [[nodiscard]] pb::Response begin(const Session& to, const Status& outcome) const {
     pb::Response response;
     wire::begin_response(header, to.hub().robot.robot_id, received, to.hub().robot_now(), response);
@@ -44,7 +44,7 @@ Status status_of(const Result<T>& result) {
   return result ? Status{} : Status(tl::unexpected<Error>(result.error()));
 }
 
-/// A reply for the robot that sends the answer; `fill` puts the value into the response (network thread).
+/// A reply, for a call of the robot, that sends the response; `fill` writes the value into it on the network thread.
 template <class T, class Fill>
 api::Reply<T> reply_with(const Responder& responder, Fill fill) {
   return [responder, fill](Result<T> result) {
@@ -68,7 +68,7 @@ inline api::Reply<void> reply_empty(const Responder& responder) {
   return reply_with<void>(responder, [] {});
 }
 
-/// Calls `go` when a map, or a database of landmarks, may be named so; else the answer is that it may not.
+/// Calls `go` when `name` is a valid name of a map or a database of landmarks; else responds with the error.
 template <class Go>
 void with_name(const Responder& responder, const std::string& name, Go go) {
   if (const Status ok = validate_map_name(name); !ok) {
@@ -78,7 +78,7 @@ void with_name(const Responder& responder, const std::string& name, Go go) {
   }
 }
 
-/// The calls about maps of segments (map_handlers.cpp) and about landmarks (landmark_handlers.cpp); false when the
+/// Handles calls about maps of segments (map_handlers.cpp) and about landmarks (landmark_handlers.cpp); false when the
 /// request is none of them.
 [[nodiscard]] bool handle_map_call(const Responder& responder, Session& session, const pb::Request& request);
 [[nodiscard]] bool handle_landmark_call(const Responder& responder, Session& session, const pb::Request& request);

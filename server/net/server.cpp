@@ -31,7 +31,7 @@ constexpr std::string_view kPart = "server/net";
 /// Sessions are looked after this often per heartbeat.
 constexpr int kTicksPerHeartbeat = 5;
 constexpr Duration kMinTick = std::chrono::milliseconds(5);
-/// Wall time for the robot to tell who it is at the start.
+/// Wall time for the robot to report its identity at the start.
 constexpr Duration kInfoTimeout = std::chrono::seconds(10);
 constexpr std::string_view kOwnName = "seekerd/net";
 
@@ -130,7 +130,7 @@ class Server::Impl {
     auto future = promise->get_future();
     robot_->get_info([promise](Result<api::RobotInfo> info) { promise->set_value(std::move(info)); });
     if (future.wait_for(kInfoTimeout) != std::future_status::ready) {
-      return fail(Errc::kTimeout, "the robot does not tell who it is");
+      return fail(Errc::kTimeout, "the robot does not report its identity");
     }
     Result<api::RobotInfo> info = future.get();
     if (!info) {
@@ -160,7 +160,7 @@ class Server::Impl {
     const auto said_hello =
         std::count_if(sessions_.begin(), sessions_.end(), [](const auto& session) { return session->open(); });
     const bool full = static_cast<std::size_t>(said_hello) >= params_.max_sessions;
-    // Some more are let in then, to be told why they are refused.
+    // Some more are let in then, to receive the reason why they are refused.
     constexpr std::size_t kRefusing = 32;
     const std::size_t most = params_.max_sessions + (full ? kRefusing : 0);
     while (sessions_.size() >= most) {

@@ -31,7 +31,7 @@ wire::ServerSessionParams session_params(const SessionHub& hub, bool full) {
 wire::Ending ending_of(const Error& error) {
   wire::Ending ending;
   ending.text = error.message;
-  ending.tell = error.code != Errc::kLinkLost;
+  ending.send_close = error.code != Errc::kLinkLost;
   ending.reason = error.code == Errc::kTooLarge  ? pb::Close::REASON_FRAME_TOO_LARGE
                   : error.code == Errc::kTimeout ? pb::Close::REASON_TOO_SLOW
                                                  : pb::Close::REASON_SILENT;
@@ -167,7 +167,7 @@ void Session::end(const wire::Ending& ending) {
     return;
   }
   due_.cancel();
-  if (ending.tell) {
+  if (ending.send_close) {
     pb::Envelope envelope;
     envelope.mutable_close()->set_reason(ending.reason);
     envelope.mutable_close()->set_message(ending.text);

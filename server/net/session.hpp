@@ -1,5 +1,5 @@
 /// \file
-/// One client: its connection, its protocol state, its streams and its view of the robot.
+/// One client: its connection, its protocol state, its streams and its RobotApi.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ namespace seeker::server_net {
 
 class Session;
 
-/// What all sessions of a server share. Lives on the network thread.
+/// State that all sessions of a server share; used on the network thread.
 struct SessionHub {
   const ServerParams& params;
   api::RobotHost& host;
@@ -42,17 +42,17 @@ class Session : public std::enable_shared_from_this<Session> {
 
   void start();
   void tick(wire::WallTime now);
-  /// Says why and closes; harmless when repeated.
+  /// Sends the reason and closes. Further calls have no effect.
   void end(const wire::Ending& ending);
 
   void offer(api::Topic topic, std::uint64_t sequence, const wire::SharedBody& body) {
     streams_.offer(topic, sequence, body);
   }
   void offer_tiles(const wire::EncodedTiles& tiles) { streams_.offer_tiles(tiles); }
-  /// New items may wait: write, or end when the client is too far behind.
+  /// Writes new items of streams, or ends the session when the client is too far behind.
   void wake();
 
-  /// Sends an answer (from a handler). The last one of a request makes room for another request.
+  /// Sends a response of a handler. The last response of a request allows another request.
   void respond(const seeker::v1::Response& response, wire::CallNumber call, bool last = true);
   [[nodiscard]] api::RobotApi& robot() { return *robot_; }
   [[nodiscard]] wire::StreamSender& streams() { return streams_; }

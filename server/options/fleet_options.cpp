@@ -90,7 +90,7 @@ void describe(config::Fields& f, OverlapParams& params) {
   f.field("match_points", params.match_points);
 }
 
-void describe(config::Fields& f, BendParams& params) {
+void describe(config::Fields& f, DistortionParams& params) {
   f.field("sigma_m", params.sigma_m);
   f.angle_deg("sigma_deg", params.sigma_rad);
   f.check("sigma", params.sigma_m > 0.0 && params.sigma_rad > 0.0, "must be above 0");
@@ -105,7 +105,7 @@ void describe(config::Fields& f, MergeParams& params) {
   f.field("max_relations", params.max_relations);
   f.section("consistency", params.consistency);
   f.section("overlap", params.overlap);
-  f.section("bend", params.bend);
+  f.section("distortion", params.distortion);
   f.field("max_hypotheses", params.max_hypotheses);
   f.check("max_hypotheses", params.max_hypotheses >= 1 && params.max_hypotheses <= 16, "must be from 1 to 16");
   f.field("min_pairs", params.min_pairs);

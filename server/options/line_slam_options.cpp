@@ -40,10 +40,10 @@ void describe(config::Fields& f, PointNetParams& params) {
 }
 
 void describe(config::Fields& f, LocalMapParams& params) {
-  f.field("max_way_m", params.max_way_m);
+  f.field("max_distance_m", params.max_distance_m);
   f.field("max_segments", params.max_segments);
   f.field("keyframe_distance_m", params.keyframe_distance_m);
-  f.angle_deg("keyframe_turn_deg", params.keyframe_turn_rad);
+  f.angle_deg("keyframe_rotation_deg", params.keyframe_rotation_rad);
   f.field("joint_sigma_m", params.joint_sigma_m);
   f.angle_deg("joint_sigma_deg", params.joint_sigma_rad);
 }
@@ -93,9 +93,9 @@ void describe(config::Fields& f, FusionParams& params) {
 }
 
 void describe(config::Fields& f, OdometryBiasParams& params) {
-  f.field("way_sigma", params.way_sigma);
-  f.angle_deg("bend_sigma_deg_per_m", params.bend_sigma_rad_per_m);
-  f.field("turn_sigma", params.turn_sigma);
+  f.field("scale_sigma", params.scale_sigma);
+  f.angle_deg("drift_sigma_deg_per_m", params.drift_sigma_rad_per_m);
+  f.field("rotation_scale_sigma", params.rotation_scale_sigma);
   f.field("skew_sigma", params.skew_sigma);
   f.field("lever_sigma_m", params.lever_sigma_m);
   f.field("drift_share", params.drift_share);
@@ -108,12 +108,12 @@ void describe(config::Fields& f, UnseenMotionParams& params) {
   f.field("still_m", params.still_m);
   f.angle_deg("still_deg", params.still_rad);
   f.field("speed_sigma_mps", params.speed_sigma_mps);
-  f.angle_deg("turn_sigma_degps", params.turn_sigma_radps);
+  f.angle_deg("rotation_sigma_degps", params.rotation_sigma_radps);
   f.field("max_speed_mps", params.max_speed_mps);
-  f.angle_deg("max_turn_degps", params.max_turn_radps);
+  f.angle_deg("max_rotation_degps", params.max_rotation_radps);
 }
 
-void describe(config::Fields& f, TurnSenseParams& params) {
+void describe(config::Fields& f, RotationSenseParams& params) {
   f.angle_deg("least_deg", params.least_rad);
   f.angle_deg("most_deg", params.most_rad);
   f.angle_deg("enough_deg", params.enough_rad);
@@ -131,7 +131,7 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.section("relocalise", params.relocalise);
   f.section("fusion", params.fusion);
   f.field("min_move_m", params.min_move_m);
-  f.angle_deg("min_turn_deg", params.min_turn_rad);
+  f.angle_deg("min_rotation_deg", params.min_rotation_rad);
   f.field("still_range_m", params.still_range_m);
   f.field("still_share", params.still_share);
   f.field("silent_share", params.silent_share);
@@ -141,7 +141,7 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.field("odometry_scale_down", params.odometry_scale.down);
   f.section("odometry_bias", params.odometry_bias);
   f.section("unseen", params.unseen);
-  f.section("turn_sense", params.turn_sense);
+  f.section("rotation_sense", params.rotation_sense);
   f.field("lost_after", params.lost_after);
   f.field("repeats_fault", params.repeats_fault);
 }

@@ -27,7 +27,7 @@ void describe(config::Fields& f, FastParams& params) {
   f.field("split_sigmas", params.split_sigmas);
   f.field("excess_sigmas", params.excess_sigmas);
   f.field("merge_sigmas", params.merge_sigmas);
-  f.field("bend_chi2", params.bend_chi2);
+  f.field("split_chi2", params.split_chi2);
   f.field("max_merge_gap_m", params.max_merge_gap_m);
   f.field("corner_sigmas", params.corner_sigmas);
   f.field("corner_doubt", params.corner_doubt);
@@ -61,9 +61,9 @@ void describe(config::Fields& f, ObservationParams& params) {
 
 void describe(config::Fields& f, LineThresholds& params) {
   f.field("gap_m", params.gap_m);
-  f.field("turn_m", params.turn_m);
+  f.field("corner_m", params.corner_m);
   f.check("gap_m", params.gap_m > 0.0, "must be positive");
-  f.check("turn_m", params.turn_m > 0.0, "must be positive");
+  f.check("corner_m", params.corner_m > 0.0, "must be positive");
 }
 
 void describe(config::Fields& f, PaperParams& params) {
@@ -74,11 +74,11 @@ void describe(config::Fields& f, PaperParams& params) {
   f.field("look_ahead", params.look_ahead);
   f.field("max_fit_error_m", params.max_fit_error_m);
   f.field("fit_error_sigmas", params.fit_error_sigmas);
-  f.field("turn_sigmas", params.turn_sigmas);
+  f.field("corner_sigmas", params.corner_sigmas);
   f.field("shrink", params.shrink);
   f.field("max_rounds", params.max_rounds);
   f.field("min_gap_spacings", params.min_gap_spacings);
-  f.field("min_turn_m", params.min_turn_m);
+  f.field("min_corner_m", params.min_corner_m);
   f.field("min_points", params.min_points);
   f.field("min_length_m", params.min_length_m);
   f.field("merge_distance", params.merge_distance);

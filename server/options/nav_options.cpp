@@ -47,8 +47,8 @@ void describe(config::Fields& f, FollowerParams& params) {
   f.field("accel_m_s2", params.accel_m_s2);
   f.angle_deg("alpha_deg_s2", params.alpha_rad_s2);
   f.field("lookahead_m", params.lookahead_m);
-  f.angle_deg("turn_in_place_deg", params.turn_in_place_rad);
-  f.angle_deg("turn_done_deg", params.turn_done_rad);
+  f.angle_deg("rotate_in_place_deg", params.rotate_in_place_rad);
+  f.angle_deg("rotate_done_deg", params.rotate_done_rad);
   f.field("heading_gain_1_s", params.heading_gain_1_s);
   f.field("goal_tolerance_m", params.goal_tolerance_m);
   f.angle_deg("heading_tolerance_deg", params.heading_tolerance_rad);

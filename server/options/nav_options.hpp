@@ -10,7 +10,7 @@
 #include "server/nav/planned_driver.hpp"
 #include "server/nav/planner.hpp"
 #include "server/nav/retry_drive.hpp"
-#include "server/nav/wait_turns.hpp"
+#include "server/nav/wait_schedule.hpp"
 
 namespace seeker::nav {
 

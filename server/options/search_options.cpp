@@ -14,7 +14,7 @@ void describe(config::Fields& f, PaperParams& params) {
   f.field("stuck_time_s", params.stuck_time_s);
   f.field("stuck_move_m", params.stuck_move_m);
   f.field("recovery_back_m", params.recovery_back_m);
-  f.field("recovery_turn_s", params.recovery_turn_s);
+  f.field("recovery_rotation_s", params.recovery_rotation_s);
   f.angle_deg("recovery_omega_deg_s", params.recovery_omega_rad_s);
   f.field("recovery_clear_m", params.recovery_clear_m);
   f.field("max_recoveries", params.max_recoveries);
@@ -25,7 +25,7 @@ void describe(config::Fields& f, PaperParams& params) {
 void describe(config::Fields& f, DriveLawParams& params) {
   f.field("max_v_m_s", params.max_v_m_s);
   f.angle_deg("max_omega_deg_s", params.max_omega_rad_s);
-  f.field("turn_time_s", params.turn_time_s);
+  f.field("rotation_time_s", params.rotation_time_s);
   f.field("stop_distance_m", params.stop_distance_m);
   f.field("slow_span_m", params.slow_span_m);
 }

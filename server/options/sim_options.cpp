@@ -16,8 +16,8 @@ void describe(config::Fields& f, Mount& mount) { f.field("pose", mount.pose); }
 
 void describe(config::Fields& f, OdometryModel& model) {
   f.field("sigma_distance", model.sigma_distance);
-  f.field("sigma_turn", model.sigma_turn);
-  f.field("sigma_turn_per_distance", model.sigma_turn_per_distance);
+  f.field("sigma_rotation", model.sigma_rotation);
+  f.field("sigma_rotation_per_distance", model.sigma_rotation_per_distance);
   f.field("left_wheel_scale", model.left_wheel_scale);
   f.field("right_wheel_scale", model.right_wheel_scale);
   f.field("wheel_base_scale", model.wheel_base_scale);

@@ -56,10 +56,10 @@ void describe(config::Fields& f, MatchParams& params) {
 void describe(config::Fields& f, LocalCloudParams& params) {
   f.field("keyframe_points", params.keyframe_points);
   f.field("keyframe_distance_m", params.keyframe_distance_m);
-  f.angle_deg("keyframe_turn_deg", params.keyframe_turn_rad);
+  f.angle_deg("keyframe_rotation_deg", params.keyframe_rotation_rad);
   f.field("known_share", params.known_share);
   f.field("new_view_distance_m", params.new_view_distance_m);
-  f.angle_deg("new_view_turn_deg", params.new_view_turn_rad);
+  f.angle_deg("new_view_rotation_deg", params.new_view_rotation_rad);
   f.field("local_keyframes", params.local_keyframes);
   f.field("local_range_m", params.local_range_m);
   f.field("rebuild_m", params.rebuild_m);
@@ -74,7 +74,7 @@ void describe(config::Fields& f, ScanMapParams& params) {
   f.section("cloud", params.cloud);
   f.field("match_points", params.match_points);
   f.field("min_move_m", params.min_move_m);
-  f.angle_deg("min_turn_deg", params.min_turn_rad);
+  f.angle_deg("min_rotation_deg", params.min_rotation_rad);
   f.field("good_ratio", params.good_ratio);
   f.field("accept_ratio", params.accept_ratio);
   f.field("gap_m", params.gap_m);

@@ -19,9 +19,9 @@ void describe(config::Fields& f, SolidModel& model);
 
 namespace seeker::options {
 
-/// A model from its file. kParse, kUnsupportedVersion, kInvalidArgument: with the file's name.
+/// Loads a model. The errors kParse, kUnsupportedVersion and kInvalidArgument name the file.
 [[nodiscard]] Result<vision::SolidModel> load_solid_model(const std::filesystem::path& path);
-/// The text of such a file.
+/// The text of the file of a model.
 [[nodiscard]] std::string print_solid_model(const vision::SolidModel& model);
 
 }  // namespace seeker::options

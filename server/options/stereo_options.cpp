@@ -24,7 +24,7 @@ void describe(config::Fields& f, StereoMatchParams& params) {
   f.field("max_row_offset_px", params.max_row_offset_px);
   f.field("min_disparity_px", params.min_disparity_px);
   f.field("max_disparity_px", params.max_disparity_px);
-  f.angle_deg("max_turn_deg", params.max_turn_rad);
+  f.angle_deg("max_rotation_deg", params.max_rotation_rad);
   f.choice("scale_gate_kind", params.scale_gate_kind,
            config::Choices<ScaleGate>{{"difference", ScaleGate::kDifference}, {"ratio", ScaleGate::kRatio}});
   f.field("scale_gate", params.scale_gate);
@@ -110,7 +110,7 @@ void describe(config::Fields& f, MotionNoise& params) {
   f.field("v_floor_m_s", params.v_floor_m_s);
   f.field("omega_share", params.omega_share);
   f.angle_deg("omega_floor_deg_s", params.omega_floor_rad_s);
-  f.angle_deg("turn_deg_per_m", params.turn_per_m);
+  f.angle_deg("drift_deg_per_m", params.drift_per_m);
   f.field("across_share", params.across_share);
   f.field("variance_floor", params.variance_floor);
 }
@@ -209,7 +209,7 @@ void describe(config::Fields& f, UpdateParams& params) {
   f.field("occlusion_px", params.occlusion_px);
   f.field("occlusion_ratio", params.occlusion_ratio);
   f.field("min_move_m", params.min_move_m);
-  f.angle_deg("min_turn_deg", params.min_turn_rad);
+  f.angle_deg("min_rotation_deg", params.min_rotation_rad);
   f.field("max_teaching_sigma_m", params.max_teaching_sigma_m);
   f.field("max_removed_share", params.max_removed_share);
 }

@@ -1,5 +1,5 @@
 /// \file
-/// A target file (config/targets/*.yaml): how a thing that is searched for looks and how large it is.
+/// A target file (config/targets/*.yaml): appearance and size of an object that is searched for.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@
 
 namespace seeker::options {
 
-/// The file as it stands.
+/// The content of the file.
 struct TargetFile {
   std::string name;
   std::string picture;  ///< PNG, relative to the file
   double width_m = 0.30;
   double height_m = 0.70;
   double depth_m = 0.30;  ///< 0: a flat poster
-  double z_min_m = 0.05;  ///< lower edge over the floor
+  double z_min_m = 0.05;  ///< height of the lower edge above the floor
   std::string recogniser = "template";
-  std::string solid{};  ///< which one, of the recogniser `solid`; such a target has no picture
+  std::string solid{};  ///< name of the solid, for the recogniser `solid`; such a target has no picture
 };
 void describe(config::Fields& f, TargetFile& target);
 

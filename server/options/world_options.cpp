@@ -65,8 +65,8 @@ void describe(config::Fields& f, TurbidWater& water) {
   f.field("ambient", water.ambient);
   f.field("lamp_right_m", water.lamp_right_m);
   f.field("lamp_up_m", water.lamp_up_m);
-  f.field("lamp_turn_u", water.lamp_turn_u);
-  f.field("lamp_turn_v", water.lamp_turn_v);
+  f.field("lamp_offset_u", water.lamp_offset_u);
+  f.field("lamp_offset_v", water.lamp_offset_v);
   f.field("beam", water.beam);
   f.field("gain", water.gain);
 }

@@ -1,5 +1,5 @@
 /// \file
-/// World files (config/worlds/*.yaml) to sim::World.
+/// World files (config/worlds/*.yaml) and their conversion to sim::World.
 #pragma once
 
 #include <filesystem>
@@ -27,8 +27,8 @@ void describe(config::Fields& f, TurbidWater& water);
 
 namespace seeker::options {
 
-/// An opening in a wall of a single leg: `at_m` from its first corner to the middle of the opening. Above
-/// `height_m` the wall goes on.
+/// An opening in a wall of a single leg: `at_m` is the distance from its first corner to the middle of the
+/// opening. Above `height_m` the wall continues.
 struct DoorFile {
   double at_m = 0.0;
   double width_m = 0.95;
@@ -66,7 +66,7 @@ struct TableFile {
 void describe(config::Fields& f, TableFile& table);
 
 struct BookcaseFile {
-  Pose2 pose;  ///< the books look along its y axis
+  Pose2 pose;  ///< pose in the world; the books face along its y axis
   sim::BookcaseShape shape;
   sim::Surface surface;
   std::string object;  ///< empty: a piece of its own
@@ -119,14 +119,14 @@ void describe(config::Fields& f, StartFile& start);
 
 /// Rearranges the furniture: see sim::move_objects.
 struct MovedFile {
-  double share = 0.0;  ///< of the objects; 0: none
+  double share = 0.0;  ///< share of the objects that are moved; 0: none
   std::uint64_t seed = 1;
 };
 void describe(config::Fields& f, MovedFile& moved);
 
-/// The file as it stands.
+/// The content of the file.
 struct WorldFile {
-  std::string base;  ///< another world file in the same folder; this one changes it
+  std::string base;  ///< name of another world file in the same folder, whose values this one overrides
   std::string name;
   Point2 min_corner = Point2::Zero();
   Point2 max_corner = Point2(5.0, 5.0);
@@ -144,21 +144,21 @@ struct WorldFile {
   sim::TurbidWater water;
   std::vector<PersonFile> people;
   bool people_walk = false;
-  std::uint64_t pattern_seed = 0;  ///< the same building in other textures
+  std::uint64_t pattern_seed = 0;  ///< seed of the textures of all surfaces
   MovedFile moved;
 };
 void describe(config::Fields& f, WorldFile& world);
 
-/// Gets the target of a file named in a world.
+/// Loads the target of a file that a world names.
 using TargetLoader = std::function<Result<TargetDescription>(const std::string& file)>;
 
-/// The text of one world file, `defaults` where it is silent. No file is opened.
+/// Parses the text of one world file; keys that it does not have keep the values of `defaults`. No file is opened.
 [[nodiscard]] Result<WorldFile> parse_world(std::string_view text, const std::string& name, WorldFile defaults = {},
                                             const std::vector<std::string>& overrides = {});
-/// Walls cut, tables built, pictures loaded, all of it validated.
+/// Builds a world: cuts doors into walls, builds tables, loads pictures, and validates the result.
 [[nodiscard]] Result<sim::World> build_world(const WorldFile& file, const TargetLoader& load_target);
 
-/// A whole world file with its base, targets and pictures. `overrides` are "key.path=value".
+/// Loads a world file with its base, targets and pictures. `overrides` are "key.path=value".
 [[nodiscard]] Result<sim::World> load_world(const std::filesystem::path& path,
                                             const std::vector<std::string>& overrides = {});
 

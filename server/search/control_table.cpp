@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kInputs = kSectors + 1;
 constexpr std::size_t kMaxNodes = 16'000'000;
-constexpr double kFullTurn_deg = 360.0;
+constexpr double kFullCircle_deg = 360.0;
 
 /// Lower node and how far towards the next one, of one input.
 struct Position {
@@ -40,7 +40,7 @@ Status validate(const ControlTableParams& params) {
   if (!ascending) {
     return fail(Errc::kInvalidArgument, "the control table needs two or more ascending distances within 0..3 m");
   }
-  const double steps = kFullTurn_deg / params.target_step_deg;
+  const double steps = kFullCircle_deg / params.target_step_deg;
   constexpr double kRounding = 1e-9;
   if (!(params.target_step_deg >= 1.0) || std::abs(steps - std::round(steps)) > kRounding) {
     return fail(Errc::kInvalidArgument, "the control table's target step must divide 360 degrees and be at least 1");
@@ -62,7 +62,7 @@ Result<ControlTable> ControlTable::create(const ControlTableParams& params) {
   }
   ControlTable table;
   table.params_ = params;
-  table.target_nodes_ = static_cast<int>(std::lround(kFullTurn_deg / params.target_step_deg)) + 1;
+  table.target_nodes_ = static_cast<int>(std::lround(kFullCircle_deg / params.target_step_deg)) + 1;
   table.fill();
   return table;
 }

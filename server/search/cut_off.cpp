@@ -64,9 +64,9 @@ bool worth_a_wait(const std::vector<CellIndex>& piece, const nav::FloorView& vie
          static_cast<double>(border) * cell_m >= worth.border_m;
 }
 
-/// Over floor that a way led over once, from the piece to what can be reached: its middle. A piece that no such way
-/// leads from lies where the map has moved, and stands for itself.
-Point2 middle_of_way(const std::vector<CellIndex>& piece, const nav::FloorView& view, const nav::KnownFloor& known) {
+/// The middle of the path that led at some time from the piece to floor that can be reached now. A piece without such a
+/// path lies where the map was corrected, and the result is a place on it.
+Point2 middle_of_path(const std::vector<CellIndex>& piece, const nav::FloorView& view, const nav::KnownFloor& known) {
   const GridFrame& frame = view.reachable.frame();
   Grid<std::uint8_t> seen(frame, view.reachable.width(), view.reachable.height(), 0);
   std::vector<CellIndex> open = piece;
@@ -81,11 +81,11 @@ Point2 middle_of_way(const std::vector<CellIndex>& piece, const nav::FloorView& 
       }
       seen[next] = 1;
       if (view.reachable[next] != 0) {
-        std::vector<std::size_t> way{k};
-        while (way.back() >= piece.size()) {
-          way.push_back(before[way.back()]);
+        std::vector<std::size_t> path{k};
+        while (path.back() >= piece.size()) {
+          path.push_back(before[path.back()]);
         }
-        return frame.centre_of(open[way[way.size() / 2]]);
+        return frame.centre_of(open[path[path.size() / 2]]);
       }
       if (known.was_reachable(frame.centre_of(next))) {
         open.push_back(next);
@@ -116,7 +116,7 @@ std::vector<nav::BlockedPlace> blocked_places(const nav::FloorView& view, const 
     }
     const std::vector<CellIndex> piece = take_piece(lost, lost.cell(k));
     if (worth_a_wait(piece, view, evidence, worth)) {
-      places.push_back({middle_of_way(piece, view, known), true});
+      places.push_back({middle_of_path(piece, view, known), true});
     }
   }
   return places;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxObservations = 64;
 /// Repeated sightings from one place share their errors: only the best of them is kept.
 constexpr double kSamePlace_m = 0.1;
-/// Two sightings of one thing differ at least so much: its extent.
+/// Two sightings of one object may differ by this distance: its extent.
 constexpr double kTargetSpread_m = 0.15;
 
 /// The surest range is that of the highest rank.
@@ -106,7 +106,7 @@ DetectionTracker::Track* DetectionTracker::match(const Observation& observation,
   Track* best = nullptr;
   double best_distance = 0.0;
   for (Track& track : tracks_) {
-    // One picture shows one thing once.
+    // One picture shows one object once.
     const bool used = std::find(taken.begin(), taken.end(), track.detection.id) != taken.end();
     if (used || track.detection.target != target) {
       continue;

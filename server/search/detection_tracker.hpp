@@ -1,5 +1,6 @@
 /// \file
-/// Sightings -> detections: which sightings are the same thing, where it is, whether to believe it (spec S3.5).
+/// Fusion of sightings into detections: which sightings belong to the same object, its position, and whether it is
+/// confirmed (spec S3.5).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@
 
 namespace seeker::search {
 
-/// Everything one picture gave.
+/// All data of one picture.
 struct Look {
   RobotTime stamp;
   Pose2 map_T_base;
@@ -28,26 +29,26 @@ struct Look {
 };
 
 /// Joins sightings to tracks by Mahalanobis distance, fuses their positions, confirms and refutes. A track is confirmed
-/// when `confirm_places` places saw it or one score is at least `sure_score`; an unconfirmed track is refuted when
-/// looks in vain outnumber its sightings by max_misses.
+/// when `confirm_places` places saw it or one score is at least `sure_score`. An unconfirmed track is refuted when its
+/// misses outnumber its sightings by max_misses.
 class DetectionTracker {
  public:
   DetectionTracker(std::vector<SearchTarget> targets, const DetectionParams& params);
 
-  /// Takes one picture. Returns the ids of the tracks it touched, in the order of the sightings.
+  /// Adds one picture. Returns the ids of the tracks that it changed, in the order of the sightings.
   std::vector<std::uint64_t> add(const Look& look);
 
-  /// Negative evidence: `should_see(p_map, target)` tells the probability that the picture just taken from
-  /// `map_T_base` would have shown the target at a place. `seen`: what add() returned.
+  /// Negative evidence: `should_see(p_map, target)` returns the probability that the picture just taken would have
+  /// shown the target at a place. `seen` is the result of add().
   using ShouldSee = std::function<double(const Point2& p_map, int target)>;
-  /// Returns the ids of the tracks that this refuted (they are gone).
+  /// Records the misses of a picture and returns the ids of the tracks that they refuted and that are removed.
   std::vector<std::uint64_t> note_misses(const std::vector<std::uint64_t>& seen, const ShouldSee& should_see);
-  /// The mission looked for confirmation in vain.
+  /// Removes a track that the mission could not confirm.
   void refute(std::uint64_t id);
 
   [[nodiscard]] std::vector<Detection> detections() const;
   [[nodiscard]] std::optional<Detection> find(std::uint64_t id) const;
-  /// Where the track was seen from, one entry per place.
+  /// The places from which the track was seen, one entry per place.
   [[nodiscard]] std::vector<Point2> places(std::uint64_t id) const;
   void transform(const MapMove& move);
 
@@ -61,7 +62,7 @@ class DetectionTracker {
     Detection detection;
     std::vector<Observation> observations;
     std::vector<Point2> places;
-    Matrix3 pose_covariance = Matrix3::Zero();  ///< of the newest sighting
+    Matrix3 pose_covariance = Matrix3::Zero();  ///< covariance of the robot's pose at the newest sighting
   };
 
   [[nodiscard]] Observation observe(const Look& look, const vision::Sighting& sighting) const;

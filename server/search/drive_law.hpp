@@ -9,7 +9,7 @@ namespace seeker::search {
 struct DriveLawParams {
   double max_v_m_s = 0.2;
   double max_omega_rad_s = 0.6;
-  double turn_time_s = 1.0;       ///< omega = u* / turn_time
+  double rotation_time_s = 1.0;   ///< omega = u* / rotation_time_s
   double stop_distance_m = 0.35;  ///< no forward motion at or below this front distance
   double slow_span_m = 0.65;      ///< full speed from stop_distance + slow_span
 };

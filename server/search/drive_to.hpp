@@ -1,5 +1,5 @@
 /// \file
-/// Drives to a point by whatever the strategy has: planned paths, or the local planner and a bearing.
+/// Drives to a point by the means of the strategy: planned paths, or the local planner and a bearing.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,13 @@
 
 namespace seeker::search {
 
-/// Used for confirming and approaching. Arrived means within `tolerance_m` (local planner) or at the path's end.
+/// The drive used for confirming and approaching. The robot has arrived within `tolerance_m` (local planner) or at the
+/// end of the path.
 class DriveTo {
  public:
   DriveTo(const SearchParams& params, LocalPlanner planner, bool use_map);
 
-  /// False when no way is known.
+  /// Starts a drive; false when no path is known.
   bool start(const StrategyInput& input, const Point2& goal_map, double tolerance_m);
   [[nodiscard]] nav::DriveStep step(const StrategyInput& input);
   void stop();

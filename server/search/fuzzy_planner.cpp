@@ -62,7 +62,7 @@ Result<FuzzyPlanner> FuzzyPlanner::create(const std::string& fll_text) {
   if (impl->engine->numberOfRuleBlocks() == 0 || impl->engine->getRuleBlock(0)->numberOfRules() == 0) {
     return fail(Errc::kParse, "the rule file has no rules; restore config/fuzzy/planner.fll");
   }
-  // Not defined means NaN, whatever the file says: it is turned into a stop below.
+  // An undefined output is NaN, in spite of the file: it becomes a stop below.
   impl->output->setDefaultValue(fl::nan);
   impl->output->setLockPreviousValue(false);
   return FuzzyPlanner(std::move(impl));

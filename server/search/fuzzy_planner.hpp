@@ -1,5 +1,5 @@
 /// \file
-/// The fuzzy local planner on fuzzylite (spec S3.2). Reference implementation: slow but the one others are compared
+/// The fuzzy local planner on fuzzylite (spec S3.2). It is the slow reference implementation that others are compared
 /// with.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace seeker::search {
 
-/// Why a planner has no heading to offer. The robot must stop.
+/// Why a planner has no heading change to offer. The robot must stop.
 enum class PlannerStop : std::uint8_t {
   kInvalidInput,  ///< a distance or the target's bearing is NaN or infinite
   kNoRule,        ///< no rule fired: the output would be undefined
@@ -25,10 +25,10 @@ enum class PlannerStop : std::uint8_t {
 /// Heading change u* in rad, positive to the left, or the reason to stop.
 using HeadingResult = tl::expected<double, PlannerStop>;
 
-/// One inference engine. Not shared between threads: the engine keeps its inputs inside.
+/// One inference engine. It must not be shared between threads, because the engine stores its inputs.
 class FuzzyPlanner {
  public:
-  /// Reads an engine in the FuzzyLite Language (see generate_fll() and config/fuzzy/planner.fll). Refuses text that
+  /// Reads an engine in the FuzzyLite Language (see generate_fll() and config/fuzzy/planner.fll). It refuses text that
   /// does not parse, that lacks one of the six inputs or the output, or that has no rules.
   [[nodiscard]] static Result<FuzzyPlanner> create(const std::string& fll_text);
 

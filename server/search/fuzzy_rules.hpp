@@ -16,11 +16,11 @@ inline constexpr std::size_t kSectors = 5;
 /// Sets of the target's bearing and of the heading change: -2 (NB, TNB) .. +2 (PB, TPB).
 inline constexpr std::size_t kLevels = 5;
 
-/// Break points of the membership functions (spec S3.2). They are what config/fuzzy/planner.fll states.
+/// Break points of the membership functions (spec S3.2), as in config/fuzzy/planner.fll.
 inline constexpr double kNearFull_m = 0.4;     ///< NEAR is 1 up to here
-inline constexpr double kNearNone_m = 1.0;     ///< NEAR is 0 from here, linear between
+inline constexpr double kNearNone_m = 1.0;     ///< NEAR is 0 from here on, linear between
 inline constexpr double kMaxDistance_m = 3.0;  ///< sectors are clipped to [0, 3] m
-inline constexpr int kCentroidSamples = 361;   ///< of the output's universe [-pi, pi]
+inline constexpr int kCentroidSamples = 361;   ///< samples of the output's universe [-pi, pi]
 
 /// IF the sectors are near or far as in `near` AND the target is at `target` THEN the heading change is `output`.
 struct FuzzyRule {
@@ -34,8 +34,9 @@ struct FuzzyRule {
 /// Heading level of a sector: L = +2, LF = +1, F = 0, RF = -1, R = -2.
 [[nodiscard]] constexpr int level_of(std::size_t sector) { return 2 - static_cast<int>(sector); }
 
-/// The law of spec S3.2: the free sector closest to the target's, ties to the smaller |k| and then to the left; none
-/// free turns far left; straight ahead beside a single near flank is bent away from it.
+/// The law of spec S3.2: the output is the free sector closest to the target's, with ties to the smaller |k| and then
+/// to the left. With no free sector it is far left. Straight ahead beside a single near flank is changed by one level
+/// away from it.
 [[nodiscard]] int output_level(const std::array<bool, kSectors>& near, int target);
 
 /// All 2^5 x 5 = 160 rules: sectors count in binary with L as the highest bit (NEAR = 1), the target varies fastest.

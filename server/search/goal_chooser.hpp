@@ -1,5 +1,5 @@
 /// \file
-/// Where to go next: what tells the planned coverage from its baselines.
+/// Choice of the next goal: the rule by which the planned coverage differs from its baselines.
 #pragma once
 
 #include <map>
@@ -21,9 +21,10 @@ namespace seeker::search {
 struct Goal {
   Point2 p_map = Point2::Zero();
   std::string why;                         ///< "unsearched cell", "frontier", "open wall", "spiral", ...
-  bool is_frontier = false;                ///< it is there for the map rather than for the pictures
-  double expected_gain = 0.0;              ///< cells x probability
-  std::optional<double> heading_rad = {};  ///< to stand in at the end
+  bool is_frontier = false;                ///< the goal serves the map rather than the search
+  double expected_gain = 0.0;              ///< expected new evidence, cells x probability
+  std::optional<double> heading_rad = {};  ///< heading of the robot at the goal
+  double size_m = 0.0;                     ///< length of a frontier
 
   friend bool operator==(const Goal&, const Goal&) = default;
 };
@@ -45,17 +46,18 @@ class GoalChooser {
   GoalChooser& operator=(const GoalChooser&) = delete;
   virtual ~GoalChooser() = default;
 
-  /// Nothing: no goal is left anywhere.
+  /// The next goal. Nothing: no goal is left.
   [[nodiscard]] virtual std::optional<Goal> choose(const ChooseInput& input) = 0;
-  /// The robot reached the goal (or came as near as it can) and looked.
+  /// Records that the robot reached the goal (or came as near as it can) and took its picture.
   virtual void visited(const Goal& goal, const Pose2& map_T_base) = 0;
-  /// Asked after every look on the way: false drops the goal for a better one.
+  /// Checked after every picture taken while driving: false drops the goal for a better one.
   [[nodiscard]] virtual bool still_worth(const Goal& goal, const nav::FloorView& floor, const EvidenceGrid& evidence,
                                          double target_size_m) const = 0;
   virtual void transform(const MapMove& move) = 0;
 };
 
-/// Gain over cost among 0.8 m cells of the reachable floor, frontiers and views for the map (the default mode).
+/// Default mode: the best gain over cost among 0.8 m cells of the reachable floor, frontiers, and viewpoints that
+/// extend the map.
 class PlanChooser final : public GoalChooser {
  public:
   explicit PlanChooser(const PlanParams& params) : params_(params) {}
@@ -69,20 +71,21 @@ class PlanChooser final : public GoalChooser {
   struct Candidate {
     Goal goal;
     double cost = 0.0;
-    double bound = 0.0;  ///< no better score is possible
+    double bound = 0.0;  ///< upper bound of the score
   };
   [[nodiscard]] std::vector<Candidate> cells(const ChooseInput& input, const Grid<std::uint8_t>& wanted) const;
   void add_frontiers(const ChooseInput& input, std::vector<Candidate>& candidates) const;
   void add_map_views(const ChooseInput& input, std::vector<Candidate>& candidates) const;
 
   PlanParams params_;
-  std::map<CellIndex, int> visits_;     ///< of 0.8 m cells as goals: none is tried for ever
-  std::vector<Point2> seen_frontiers_;  ///< frontiers that stayed after a visit
-  std::vector<Pose2> seen_views_;       ///< and views for the map
+  std::map<CellIndex, int> visits_;     ///< visits of 0.8 m cells as goals, so that none is tried for ever
+  std::vector<Point2> seen_frontiers_;  ///< frontiers that stayed open after a visit
+  std::vector<Pose2> seen_views_;       ///< viewpoints for the map that stayed after a visit
 };
 
-/// Backtracking spiral algorithm on 0.8 m cells: keep the visited and the blocked on the reference side, go round in a
-/// shrinking spiral; when it ends go to the nearest cell that was left aside (Gonzalez et al. 2005, BSA).
+/// Backtracking spiral algorithm on 0.8 m cells: the robot keeps visited and blocked cells on its reference side and
+/// drives in a shrinking spiral; when the spiral ends it drives to the nearest cell that was left out (Gonzalez et al.
+/// 2005, BSA).
 class SpiralChooser final : public GoalChooser {
  public:
   explicit SpiralChooser(const PlanParams& params) : params_(params) {}

@@ -21,11 +21,11 @@ double target_membership(int level, double target_rad) {
   if ((level == 2 && target_rad >= centre) || (level == -2 && target_rad <= centre)) {
     return 1.0;
   }
-  return turn_membership(level, target_rad);
+  return heading_change_membership(level, target_rad);
 }
 
-double turn_membership(int level, double turn_rad) {
-  return std::max(0.0, 1.0 - std::abs(turn_rad - level * kSpread_rad) / kSpread_rad);
+double heading_change_membership(int level, double heading_change_rad) {
+  return std::max(0.0, 1.0 - std::abs(heading_change_rad - level * kSpread_rad) / kSpread_rad);
 }
 
 MamdaniPlanner::MamdaniPlanner() : rules_(generate_rules()) {
@@ -33,7 +33,7 @@ MamdaniPlanner::MamdaniPlanner() : rules_(generate_rules()) {
   for (std::size_t s = 0; s < sample_rad_.size(); ++s) {
     sample_rad_[s] = -kPi + (static_cast<double>(s) + 0.5) * kTwoPi / kCentroidSamples;
     for (std::size_t level = 0; level < kLevels; ++level) {
-      output_sets_[s][level] = turn_membership(static_cast<int>(level) - 2, sample_rad_[s]);
+      output_sets_[s][level] = heading_change_membership(static_cast<int>(level) - 2, sample_rad_[s]);
     }
   }
 }

@@ -1,6 +1,6 @@
 /// \file
-/// The planner's inference in our own arithmetic, many times faster than the general engine: it fills
-/// control tables. A test proves it equal to FuzzyPlanner; bench_fuzzy measures both.
+/// Direct implementation of the planner's inference, many times faster than the general engine; it fills control
+/// tables. A test compares it with FuzzyPlanner; bench_fuzzy measures both.
 #pragma once
 
 #include <array>
@@ -33,6 +33,6 @@ class MamdaniPlanner {
 /// Membership of a bearing in NB..PB (level -2..2), the outer two saturating.
 [[nodiscard]] double target_membership(int level, double target_rad);
 /// Membership of a heading change in TNB..TPB (level -2..2), plain triangles.
-[[nodiscard]] double turn_membership(int level, double turn_rad);
+[[nodiscard]] double heading_change_membership(int level, double heading_change_rad);
 
 }  // namespace seeker::search

@@ -8,10 +8,10 @@
 namespace seeker::search {
 namespace {
 
-constexpr double kTurnOmega_rad_s = 0.5;
-constexpr double kTurnTime_s = 3.0;
-/// Together a bit more than a full turn.
-constexpr int kMaxTurns = 5;
+constexpr double kRotationOmega_rad_s = 0.5;
+constexpr double kRotationTime_s = 3.0;
+/// Together a bit more than a full rotation.
+constexpr int kMaxRotations = 5;
 /// Share of a cell's reachable floor that must be covered before it counts as searched.
 constexpr double kSearchedShare = 0.8;
 
@@ -35,7 +35,7 @@ StrategyStep MapCoverage::step(const StrategyInput& input) {
       out.activity = "taking a picture at " + text(input.map_T_base.translation());
       out.wants_image = true;
       break;
-    case State::kTurn: turn(input, out); break;
+    case State::kRotate: rotate(input, out); break;
     case State::kWait: wait(input, out); break;
     case State::kDone: break;
   }
@@ -50,15 +50,15 @@ StrategyStep MapCoverage::step(const StrategyInput& input) {
 void MapCoverage::choose(const StrategyInput& input, StrategyStep& out) {
   const auto floor = input.floors.view(true);
   if (!floor) {
-    begin_turn(input, floor.error().message, out);
+    begin_rotation(input, floor.error().message, out);
     return;
   }
   const auto costs = nav::DistanceField::build((*floor)->cost, input.map_T_base.translation());
   if (!costs) {
-    begin_turn(input, costs.error().message, out);
+    begin_rotation(input, costs.error().message, out);
     return;
   }
-  turns_ = 0;
+  rotations_ = 0;
   const std::vector<Point2> avoid = avoided(input.now);
   goal_ = chooser_->choose(choice(input, **floor, *costs, avoid));
   if (!goal_) {
@@ -66,7 +66,7 @@ void MapCoverage::choose(const StrategyInput& input, StrategyStep& out) {
     return;
   }
   if (!driver_.start(input, goal_->p_map, goal_->heading_rad)) {
-    fail_goal(driver_.reason(), input.now, out);
+    fail_goal(driver_.failure(), input.now, out);
     return;
   }
   out.events.push_back({"goal", goal_->why + " " + text(goal_->p_map)});
@@ -79,27 +79,27 @@ ChooseInput MapCoverage::choice(const StrategyInput& input, const nav::FloorView
   return {floor, costs, input.evidence, input.map_T_base, input.target_size_m, avoid, input.map_views};
 }
 
-void MapCoverage::begin_turn(const StrategyInput& input, const std::string& why, StrategyStep& out) {
-  if (++turns_ > kMaxTurns) {
+void MapCoverage::begin_rotation(const StrategyInput& input, const std::string& why, StrategyStep& out) {
+  if (++rotations_ > kMaxRotations) {
     state_ = State::kDone;
     trapped_ = true;
     cause_ = why;
     return;
   }
-  state_ = State::kTurn;
-  turn_since_ = input.now;
-  out.events.push_back({"recovery", "turning to see more: " + why});
-  out.activity = "turning to see more";
+  state_ = State::kRotate;
+  rotation_since_ = input.now;
+  out.events.push_back({"recovery", "rotating to see more: " + why});
+  out.activity = "rotating to see more";
 }
 
-void MapCoverage::turn(const StrategyInput& input, StrategyStep& out) {
+void MapCoverage::rotate(const StrategyInput& input, StrategyStep& out) {
   out.phase = "recover";
-  out.activity = "turning to see more";
-  if (to_seconds(input.now - turn_since_) > kTurnTime_s) {
+  out.activity = "rotating to see more";
+  if (to_seconds(input.now - rotation_since_) > kRotationTime_s) {
     state_ = State::kChoose;
     return;
   }
-  out.command.omega_rad_s = kTurnOmega_rad_s;
+  out.command.omega_rad_s = kRotationOmega_rad_s;
 }
 
 bool MapCoverage::look_due(const StrategyInput& input) const {
@@ -124,19 +124,21 @@ void MapCoverage::drive(const StrategyInput& input, StrategyStep& out) {
       state_ = State::kLook;
       break;
     case nav::DriveState::kFailed:
-    case nav::DriveState::kIdle: fail_goal(drive.reason, input.now, out); break;
+    case nav::DriveState::kIdle: fail_goal({drive.cause, drive.reason}, input.now, out); break;
   }
 }
 
-void MapCoverage::fail_goal(const std::string& why, RobotTime now, StrategyStep& out) {
+void MapCoverage::fail_goal(const nav::DriveFailure& why, RobotTime now, StrategyStep& out) {
   auto place = std::find_if(failed_.begin(), failed_.end(), [&](const Failed& one) {
     return (one.p_map - goal_->p_map).norm() < params_.failed_radius_m;
   });
   place = place == failed_.end() ? failed_.insert(place, Failed{goal_->p_map, 0, now}) : place;
   place->last = now;
+  place->place = {goal_->p_map, why.cause, goal_->size_m, why.text};
   const bool given_up = ++place->times >= params_.max_failures;
   list_unreachable();
-  out.events.push_back({given_up ? "unreachable" : "goal_failed", goal_->why + " " + text(goal_->p_map) + ": " + why});
+  out.events.push_back(
+      {given_up ? "unreachable" : "goal_failed", goal_->why + " " + text(goal_->p_map) + ": " + why.text});
   out.activity = given_up ? "giving up an unreachable goal" : "leaving a goal for later";
   goal_.reset();
   driver_.stop();
@@ -160,6 +162,17 @@ void MapCoverage::list_unreachable() {
       lists_.unreachable.push_back(one.p_map);
     }
   }
+}
+
+std::vector<UnreachablePlace> MapCoverage::unreachable() const {
+  std::vector<UnreachablePlace> places;
+  for (const Failed& one : failed_) {
+    if (one.times >= params_.max_failures) {
+      places.push_back(one.place);
+      places.back().p_map = one.p_map;
+    }
+  }
+  return places;
 }
 
 void MapCoverage::image_taken(const StrategyInput& input) {
@@ -210,7 +223,7 @@ void MapCoverage::update_lists(const StrategyInput& input) {
 
 void MapCoverage::interrupted(RobotTime /*now*/) {
   driver_.stop();
-  if (state_ == State::kDrive || state_ == State::kTurn) {
+  if (state_ == State::kDrive || state_ == State::kRotate) {
     state_ = State::kChoose;
   }
 }

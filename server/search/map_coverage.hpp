@@ -1,5 +1,5 @@
 /// \file
-/// Coverage over the map: choose a goal, drive there, look, again, until no goal is left.
+/// Coverage over the map: choose a goal, drive there, take a picture, and repeat until no goal is left.
 #pragma once
 
 #include <memory>
@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "server/nav/planned_driver.hpp"
-#include "server/nav/wait_turns.hpp"
+#include "server/nav/wait_schedule.hpp"
 #include "server/search/goal_chooser.hpp"
 #include "server/search/strategy.hpp"
 
 namespace seeker::search {
 
-/// Pictures are taken at every goal and every look_spacing_m on the way. Without a usable map (start, or a wall of
-/// noise around the robot) it turns on the spot to let the sensors see, and ends as trapped when that does not help.
-/// A goal that could not be reached rests for a while. When nothing else is left, the robot waits where a way is
-/// blocked that led on before, and tries once more what it could not reach, before it ends. Lists: cells of 0.8 m of
-/// the reachable floor; searched when at least 80 % of the cell's floor is covered.
+/// Takes pictures at every goal and every look_spacing_m while driving. Without a usable map (at the start, or with
+/// noise around the robot) it rotates on the spot so that the sensors can observe, and ends as trapped when that does
+/// not help. A goal that could not be reached rests for a while. When no other goal is left, the robot waits at blocked
+/// paths that led on before, and tries the unreached goals once more, before it ends. Lists: cells of 0.8 m of the
+/// reachable floor, searched when at least 80 % of the cell's floor is covered.
 class MapCoverage final : public CoverageStrategy {
  public:
   MapCoverage(const PlanParams& params, std::unique_ptr<GoalChooser> chooser);
@@ -28,54 +28,56 @@ class MapCoverage final : public CoverageStrategy {
   void interrupted(RobotTime now) override;
   void transform(const MapMove& move) override;
   [[nodiscard]] const GridLists& lists() const override { return lists_; }
+  [[nodiscard]] std::vector<UnreachablePlace> unreachable() const override;
 
  private:
-  enum class State : std::uint8_t { kChoose, kDrive, kLook, kTurn, kWait, kDone };
+  enum class State : std::uint8_t { kChoose, kDrive, kLook, kRotate, kWait, kDone };
 
   void choose(const StrategyInput& input, StrategyStep& out);
-  /// Keeps references to all of them.
+  /// The inputs of a choice; the result keeps references to all arguments.
   [[nodiscard]] static ChooseInput choice(const StrategyInput& input, const nav::FloorView& floor,
                                           const nav::DistanceField& costs, const std::vector<Point2>& avoid);
-  void begin_turn(const StrategyInput& input, const std::string& why, StrategyStep& out);
-  void turn(const StrategyInput& input, StrategyStep& out);
+  void begin_rotation(const StrategyInput& input, const std::string& why, StrategyStep& out);
+  void rotate(const StrategyInput& input, StrategyStep& out);
   void drive(const StrategyInput& input, StrategyStep& out);
-  void fail_goal(const std::string& why, RobotTime now, StrategyStep& out);
-  /// Goals near these are not to be chosen now.
+  void fail_goal(const nav::DriveFailure& why, RobotTime now, StrategyStep& out);
+  /// Places near which no goal may be chosen now.
   [[nodiscard]] std::vector<Point2> avoided(RobotTime now) const;
   void list_unreachable();
 
   // map_coverage_wait.cpp
   void nothing_left(const StrategyInput& input, const nav::FloorView& floor, const nav::DistanceField& costs,
                     StrategyStep& out);
-  void begin_wait(const nav::WaitTurn& turn, const StrategyInput& input, const nav::FloorView& floor,
+  void begin_wait(const nav::PlannedWait& planned, const StrategyInput& input, const nav::FloorView& floor,
                   const nav::DistanceField& costs, StrategyStep& out);
   void wait(const StrategyInput& input, StrategyStep& out);
   void update_lists(const StrategyInput& input);
   [[nodiscard]] bool look_due(const StrategyInput& input) const;
 
-  /// Drives to about this place that failed since it was last waited.
+  /// Failed drives to about this place since the robot last waited there.
   struct Failed {
     Point2 p_map;
     int times = 0;
     RobotTime last;
+    UnreachablePlace place = {};  ///< as it failed last; its position is p_map
   };
 
   PlanParams params_;
   std::unique_ptr<GoalChooser> chooser_;
   nav::PlannedDriver driver_;
-  State state_ = State::kLook;  ///< the first thing to do is to look around
+  State state_ = State::kLook;  ///< the first action is to take a picture
   std::optional<Goal> goal_;
   std::optional<Point2> last_look_;
-  RobotTime turn_since_;
-  int turns_ = 0;
+  RobotTime rotation_since_;
+  int rotations_ = 0;
   std::vector<Failed> failed_;
-  nav::WaitTurns waits_;
+  nav::WaitSchedule waits_;
   RobotTime waiting_since_;
   bool trapped_ = false;
   std::string cause_;
   GridLists lists_;
   std::set<CellIndex> searched_cells_;
-  std::vector<Point2> new_cells_;  ///< searched since the last step, for events
+  std::vector<Point2> new_cells_;  ///< cells searched since the last step, for events
 };
 
 }  // namespace seeker::search

@@ -21,43 +21,43 @@ void MapCoverage::nothing_left(const StrategyInput& input, const nav::FloorView&
                                StrategyStep& out) {
   std::vector<nav::BlockedPlace> places =
       blocked_places(floor, input.known, input.evidence, {params_.min_cut_off_m2, params_.min_frontier_m});
-  // What was not reached is waited for where something is still to be had from it.
+  // The robot waits for a place that was not reached where evidence can still be gained there.
   const std::vector<Point2> nowhere;
   if (const auto goal = failed_.empty() ? std::nullopt : chooser_->choose(choice(input, floor, costs, nowhere))) {
     places.push_back({goal->p_map, false});
   }
-  if (const auto turn = waits_.next(places)) {
-    begin_wait(*turn, input, floor, costs, out);
+  if (const auto planned = waits_.next(places)) {
+    begin_wait(*planned, input, floor, costs, out);
     return;
   }
   state_ = State::kDone;
   // Floor lies all around, and of it the robot has what it stands on.
   trapped_ = !places.empty() && area_m2(floor.reachable) < params_.cell_m * params_.cell_m;
-  cause_ = trapped_ ? "no way leads out of where the robot stands" : "no reachable gap and no frontier is left";
+  cause_ = trapped_ ? "no path leads out of where the robot stands" : "no reachable gap and no frontier is left";
   update_lists(input);
 }
 
-/// Goes to where it sees the place, or out of the way of who is there, and stands there.
-void MapCoverage::begin_wait(const nav::WaitTurn& turn, const StrategyInput& input, const nav::FloorView& floor,
+/// Drives to a place in sight of the blocked place, or aside of the person who blocks it, and stands there.
+void MapCoverage::begin_wait(const nav::PlannedWait& planned, const StrategyInput& input, const nav::FloorView& floor,
                              const nav::DistanceField& costs, StrategyStep& out) {
   state_ = State::kWait;
   waiting_since_ = input.now;
-  const std::string where = "waiting for the way to " + text(turn.p_map) + " to become free again";
+  const std::string where = "waiting for the path to " + text(planned.p_map) + " to become free again";
   out.events.push_back({"wait", where});
   out.phase = "wait";
   out.activity = where;
   const auto found =
-      turn.aside ? nav::place_aside(turn.p_map, floor, costs) : nav::lookout_for(turn.p_map, floor, costs);
+      planned.aside ? nav::place_aside(planned.p_map, floor, costs) : nav::lookout_for(planned.p_map, floor, costs);
   const Point2 place = found.value_or(input.map_T_base.translation());
-  const Point2 to = turn.p_map - place;
+  const Point2 to = planned.p_map - place;
   if (!driver_.start(input, place, std::atan2(to.y(), to.x()))) {
-    out.activity += "; no way to where one would wait: " + driver_.reason();
+    out.activity += "; no path to the place for waiting: " + driver_.reason();
   }
 }
 
 void MapCoverage::wait(const StrategyInput& input, StrategyStep& out) {
   out.phase = "wait";
-  out.activity = "waiting for the way to become free again";
+  out.activity = "waiting for the path to become free again";
   const nav::DriveStep driven = driver_.step(input);
   out.command = driven.command;
   out.planned_path = driver_.path();

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kBackSpeed_m_s = 0.1;
 constexpr double kBackLag_s = 1.0;  ///< to gather speed
-/// A recovery turns at least so far, or it would end where it began.
-constexpr double kMinRecoveryTurn_rad = deg_to_rad(40.0);
+/// A recovery rotates by at least this angle, because otherwise it would end where it began.
+constexpr double kMinRecoveryRotation_rad = deg_to_rad(40.0);
 
 int first_limit(const PaperParams& params) {
   return params.passes_limit > 0 ? params.passes_limit : passes_limit(params.area_m2, params.cell_m * params.cell_m);
@@ -58,7 +58,7 @@ StrategyStep PaperCoverage::step(const StrategyInput& input) {
   if (state_ == State::kDone) {
     out.done = true;
     out.trapped = trapped_;
-    out.activity = trapped_ ? "the local planner finds no way out" : "no unsearched position is left";
+    out.activity = trapped_ ? "the local planner finds no path out" : "no unsearched position is left";
     out.command = {};
   }
   return out;
@@ -187,7 +187,7 @@ void PaperCoverage::give_up_escape(const StrategyInput& input, const std::string
 void PaperCoverage::begin_recovery(const StrategyInput& input, const Sectors& sectors, StrategyStep& out) {
   if (++recoveries_ > params_.max_recoveries) {
     if (after_recovery_ == State::kEscape) {
-      give_up_escape(input, "the local planner finds no way", out);
+      give_up_escape(input, "the local planner finds no path", out);
     } else {
       begin_escape(input, out);
       trapped_ = state_ == State::kDone && lists().searched.size() <= 1;
@@ -196,18 +196,18 @@ void PaperCoverage::begin_recovery(const StrategyInput& input, const Sectors& se
   }
   const double left = sectors[Sector::kLeft] + sectors[Sector::kLeftFront];
   const double right = sectors[Sector::kRight] + sectors[Sector::kRightFront];
-  recovery_turn_ = left >= right ? 1.0 : -1.0;
+  recovery_sign_ = left >= right ? 1.0 : -1.0;
   recovery_from_ = input.map_T_base;
   recovery_since_ = input.now;
   backing_ = true;
   state_ = State::kRecover;
-  out.events.push_back({"recovery", "no way ahead at " + text(input.map_T_base.translation()) + ", turning"});
+  out.events.push_back({"recovery", "the path is blocked at " + text(input.map_T_base.translation()) + ", rotating"});
 }
 
 void PaperCoverage::recover(const StrategyInput& input, const Sectors& sectors, StrategyStep& out) {
   out.phase = "recover";
   if (backing_) {
-    // A corner beside the robot forbids any way forwards; the way back is the way it came.
+    // A corner beside the robot forbids any motion forwards; the free direction is the one it came from.
     const bool far_enough = distance_m(input.map_T_base, recovery_from_) >= params_.recovery_back_m;
     if (!far_enough &&
         to_seconds(input.now - recovery_since_) < params_.recovery_back_m / kBackSpeed_m_s + kBackLag_s) {
@@ -218,16 +218,16 @@ void PaperCoverage::recover(const StrategyInput& input, const Sectors& sectors, 
     backing_ = false;
     recovery_since_ = input.now;
   }
-  out.activity = "turning to the side with more room";
+  out.activity = "rotating to the side with more room";
   const double turned = std::abs(wrap_angle(input.map_T_base.theta_rad - recovery_from_.theta_rad));
-  const bool clear = sectors[Sector::kFront] >= params_.recovery_clear_m && turned >= kMinRecoveryTurn_rad;
-  if (clear || to_seconds(input.now - recovery_since_) > params_.recovery_turn_s) {
+  const bool clear = sectors[Sector::kFront] >= params_.recovery_clear_m && turned >= kMinRecoveryRotation_rad;
+  if (clear || to_seconds(input.now - recovery_since_) > params_.recovery_rotation_s) {
     state_ = after_recovery_;
     progress_.go_on(input.now);
     motion_.start(input.map_T_base.translation(), input.now);
     return;
   }
-  out.command.omega_rad_s = recovery_turn_ * params_.recovery_omega_rad_s;
+  out.command.omega_rad_s = recovery_sign_ * params_.recovery_omega_rad_s;
 }
 
 void PaperCoverage::image_taken(const StrategyInput& input) {

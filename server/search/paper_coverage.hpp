@@ -10,12 +10,13 @@
 
 namespace seeker::search {
 
-/// Steps 1-4 as a state machine. What the paper leaves open:
-/// - Recognition also runs where an escape (step 3) arrives: that place is new, too.
+/// Steps 1-4 as a state machine. Decisions that the paper leaves open:
+/// - Recognition also runs where an escape (step 3) arrives, because that place is new too.
 /// - Forbidden areas are walls for the sonars' sectors; potential cells in them are not appended.
-/// - When the fuzzy planner gets nowhere (less than stuck_move_m in stuck_time_s: it can swing between two equal ways)
-///   the robot turns on the spot to the side with more room until the front is clear, at most max_recoveries times in
-///   a row; then an escape's goal is dropped as unreachable, and a step 4 becomes an escape (step 3).
+/// - When the fuzzy planner makes no progress (less than stuck_move_m in stuck_time_s, for example because it
+///   oscillates between two equal directions), the robot rotates on the spot to the side with more room until the front
+///   is clear, at most max_recoveries times in a row. Then the goal of an escape is dropped as unreachable, and a step
+///   4 becomes an escape (step 3).
 class PaperCoverage final : public CoverageStrategy {
  public:
   PaperCoverage(const PaperParams& params, LocalPlanner planner, nav::ForbiddenAreas areas);
@@ -47,16 +48,16 @@ class PaperCoverage final : public CoverageStrategy {
   CoverageLists lists_;
   State state_ = State::kArrive;
   State after_recovery_ = State::kMove;
-  Point2 cell_ = Point2::Zero();  ///< P_i
-  Point2 goal_ = Point2::Zero();  ///< of an escape
+  Point2 cell_ = Point2::Zero();  ///< P_i, frame `map`
+  Point2 goal_ = Point2::Zero();  ///< goal of an escape, frame `map`
   nav::ProgressWatch progress_;
   nav::MotionWatch motion_;
   RobotTime recovery_since_;
-  double recovery_turn_ = 1.0;
+  double recovery_sign_ = 1.0;
   Pose2 recovery_from_;
   bool backing_ = false;
   int recoveries_ = 0;
-  bool restart_ = true;  ///< watches start anew with the next step
+  bool restart_ = true;  ///< the progress watches start again with the next step
   bool blind_ = false;
   bool trapped_ = false;
 };

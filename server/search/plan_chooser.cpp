@@ -87,7 +87,9 @@ void PlanChooser::add_frontiers(const ChooseInput& input, std::vector<Candidate>
       continue;
     }
     const double score = params_.frontier_bonus_cells / (frontier.cost + params_.travel_offset_m);
-    candidates.push_back({{frontier.p_map, "frontier", true, params_.frontier_bonus_cells, {}}, frontier.cost, score});
+    candidates.push_back({{frontier.p_map, "frontier", true, params_.frontier_bonus_cells, {}, frontier.length_m},
+                          frontier.cost,
+                          score});
   }
 }
 

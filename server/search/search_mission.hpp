@@ -1,5 +1,6 @@
 /// \file
-/// The whole search: coverage, looking, confirming, approaching, ending. Stepped by the robot loop; pure.
+/// The whole search: coverage, taking pictures, confirming, approaching, ending. It is stepped by the robot loop and
+/// depends on its inputs alone.
 #pragma once
 
 #include <cstdint>
@@ -26,31 +27,32 @@ class OccupancyMap;
 
 namespace seeker::search {
 
-/// What the robot knows at one control step.
+/// The inputs of one control step.
 struct SearchInput {
   RobotTime now;
   Pose2 map_T_base;
-  Matrix3 covariance = Matrix3::Zero();  ///< of (x, y, theta)
+  Matrix3 covariance = Matrix3::Zero();  ///< covariance of (x, y, theta)
   const SonarScan* sonar = nullptr;      ///< null: no ring fitted
   const LaserScan* laser = nullptr;      ///< null: none fitted
   const nav::OccupancyMap& map;
   std::uint32_t map_epoch = 0;
-  MapViews map_views = {};  ///< strategy kPlan only: the search goes on until none of them is worth a drive
+  /// Strategy kPlan only: the search continues until none of these viewpoints is worth a drive.
+  MapViews map_views = {};
 };
 
-/// The answer to one control step.
+/// The result of one control step.
 struct SearchStep {
   Twist2 command;
-  bool wants_image = false;   ///< take a picture, recognise, answer with on_sightings()
+  bool wants_image = false;   ///< take a picture, recognise, and call on_sightings() with the result
   bool while_moving = false;  ///< the picture may be taken in motion; otherwise the robot stands and waits for it
   std::string phase;          ///< "cover", "escape", "look", "confirm", "approach", "stopped", "done"
-  std::string activity;       ///< what the robot does and why, one sentence
+  std::string activity;       ///< what the robot does and why, in one sentence
   std::vector<SearchEvent> events;
   std::vector<Point2> planned_path;  ///< frame `map`
   std::optional<SearchEnd> end;      ///< present from the last step on
 };
 
-/// A search mission. Not thread-safe; everything it does follows from its inputs.
+/// A search mission. It is not thread-safe, and its outputs depend on its inputs alone.
 class SearchMission {
  public:
   /// `table` is shared: it is costly to fill and immutable. kInvalidArgument: request or parameters out of bounds.
@@ -63,36 +65,37 @@ class SearchMission {
   SearchMission& operator=(const SearchMission&) = delete;
   ~SearchMission();
 
-  /// One control step, 10 Hz. After the end it repeats the end with a zero command.
+  /// Computes one control step; it is called at 10 Hz. After the end it repeats the end with a zero command.
   [[nodiscard]] SearchStep step(const SearchInput& input);
 
-  /// The answer to wants_image: everything recognised in one picture (also nothing), with the pose and the readings at
-  /// its exposure. Answers nobody asked for are welcome too (they add evidence).
+  /// Response to wants_image: everything recognised in one picture (possibly nothing), with the pose and the readings
+  /// at its exposure. Pictures that were not requested may be given too; they add evidence.
   void on_sightings(RobotTime stamp, const Pose2& map_T_base_at_exposure,
                     const std::vector<vision::Sighting>& sightings, const LaserScan* laser, const SonarScan* sonar);
 
-  /// The same by several pictures that together show all around one place: evidence counts them as one look. Their
-  /// covariances are filled in here.
+  /// The same for several pictures that together show all directions from one place: evidence counts them as one
+  /// observation. Their covariances are filled in here.
   void on_looks(std::vector<Look> looks);
 
-  /// Between pause and resume nothing times out; step() must not be called. The robot may have been moved meanwhile.
+  /// Stops all time limits until resume(); step() must not be called in between. The robot may be moved meanwhile.
   void pause();
   void resume(RobotTime now);
 
-  /// The map moved (new epoch): `move` takes old map coordinates to new ones. Moves lists, evidence, detections.
+  /// The map was corrected (new epoch): `move` takes old map coordinates to new ones. It moves lists, evidence and
+  /// detections.
   void transform(const MapMove& move);
 
-  /// Evidence of an earlier search, for SearchRequest::gaps_only. Before the first step.
+  /// Sets the evidence of an earlier search, for SearchRequest::gaps_only. Call it before the first step.
   void keep_evidence(EvidenceGrid evidence);
   [[nodiscard]] const EvidenceGrid& evidence() const;
-  /// What other robots have searched, frame `map`; replaces what was said before. Only searches for all targets of this
+  /// Sets what other robots have searched, frame `map`; it replaces earlier data. Only searches for all targets of this
   /// one count.
   void set_others(const std::vector<SearchedFloor>& others);
 
   [[nodiscard]] const GridLists& lists() const;
-  /// Every track that has not been refuted, in the order of ids.
+  /// All tracks that have not been refuted, in the order of ids.
   [[nodiscard]] std::vector<Detection> detections() const;
-  /// Certificate over the floor reachable now; from the map of the last step.
+  /// Certificate over the floor that is reachable now, from the map of the last step.
   [[nodiscard]] EvidenceReport evidence_report() const;
   [[nodiscard]] CoverageSummary summary() const;
   /// 0..1: share of the known reachable floor that is covered.

@@ -15,9 +15,9 @@ namespace {
 /// Slower than this a robot stands.
 constexpr double kStandingStep_m = 0.004;
 constexpr double kStandingStep_rad = 0.01;
-/// The driven way is measured in steps of this length, so that noise of a standing robot adds nothing.
+/// The driven distance is measured in steps of this length, so that noise of a standing robot adds nothing.
 constexpr double kPathStep_m = 0.05;
-/// What can be reached is noted so often, whether or not a way is planned.
+/// Period at which reachable floor is recorded, whether or not a path is planned.
 constexpr double kNoteFloor_s = 3.0;
 
 LocalPlanner make_planner(const SearchRequest& request, const SearchParams& params,

@@ -1,5 +1,5 @@
 /// \file
-/// Inside of SearchMission; nobody else includes it.
+/// Implementation of SearchMission; no other file includes it.
 #pragma once
 
 #include <deque>
@@ -39,7 +39,7 @@ class SearchMission::Impl {
   TargetVisit visit_;
   CoverageSummary summary_;
   double path_length_m_ = 0.0;
-  Matrix3 pose_covariance_ = Matrix3::Zero();  ///< of the last step, for pictures taken since
+  Matrix3 pose_covariance_ = Matrix3::Zero();  ///< pose covariance of the last step, for pictures taken since
 
  private:
   /// Pictures from one place whose sightings are in the tracker and whose evidence waits for the next step's map.
@@ -60,6 +60,7 @@ class SearchMission::Impl {
   void hand_over(StrategyStep&& from, const StrategyInput& input, SearchStep& out);
   void settle_image(const StrategyInput& input, SearchStep& out);
   void image_taken(const StrategyInput& input);
+  [[nodiscard]] std::vector<UnreachablePlace> unreachable_places() const;
   void finish(EndKind kind, std::string cause, std::string remedy, SearchStep& out);
   void finish_found(std::uint64_t id, SearchStep& out);
   [[nodiscard]] std::string not_found() const;
@@ -67,16 +68,16 @@ class SearchMission::Impl {
   [[nodiscard]] std::string name_of(int target) const;
   [[nodiscard]] double smallest_target_m() const;
 
-  std::shared_ptr<const nav::FloorView> noted_floor_;  ///< the last view that known_floor_ was told
+  std::shared_ptr<const nav::FloorView> noted_floor_;  ///< the last view that was added to known_floor_
   std::optional<RobotTime> floor_noted_at_;
   std::deque<PendingLook> looks_;
   std::deque<std::uint64_t> to_confirm_;
-  std::set<std::uint64_t> sighted_;    ///< reported as sighting
-  std::set<std::uint64_t> confirmed_;  ///< reported as confirmed
-  std::vector<Point2> refused_;        ///< places where confirming failed
+  std::set<std::uint64_t> sighted_;    ///< detections reported as sighting
+  std::set<std::uint64_t> confirmed_;  ///< detections reported as confirmed
+  std::vector<Point2> refused_;        ///< places where confirming failed, frame `map`
   std::optional<SearchEnd> end_;
-  std::optional<RobotTime> waiting_since_;   ///< for a picture
-  std::optional<RobotTime> standing_since_;  ///< no motion since
+  std::optional<RobotTime> waiting_since_;   ///< since when the mission waits for a picture
+  std::optional<RobotTime> standing_since_;  ///< since when the robot stands
   Pose2 last_pose_;
   Point2 path_anchor_ = Point2::Zero();
   bool started_ = false;

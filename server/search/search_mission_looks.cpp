@@ -159,8 +159,30 @@ void SearchMission::Impl::run_visit(const StrategyInput& input, SearchStep& out)
   }
 }
 
+/// As wide as a square of the floor about the place that was not searched, or as the frontier that it is.
+std::vector<UnreachablePlace> SearchMission::Impl::unreachable_places() const {
+  std::vector<UnreachablePlace> places = strategy_->unreachable();
+  const auto& floor = floors_.last();
+  if (!floor) {
+    return places;
+  }
+  const Grid<std::uint8_t> to_search = floor_to_search(*floor, known_floor_);
+  const double cell_m = to_search.frame().resolution_m;
+  for (UnreachablePlace& place : places) {
+    int unsearched = 0;
+    for (std::size_t k = 0; k < to_search.cells().size(); ++k) {
+      const Point2 p_map = to_search.frame().centre_of(to_search.cell(k));
+      const bool left = to_search.cells()[k] != 0 && (p_map - place.p_map).norm() < kUnreachableRadius_m &&
+                        evidence_.probability_at(p_map) < evidence_.params().threshold;
+      unsearched += left ? 1 : 0;
+    }
+    place.size_m = std::max(place.size_m, cell_m * std::sqrt(static_cast<double>(unsearched)));
+  }
+  return places;
+}
+
 void SearchMission::Impl::finish(EndKind kind, std::string cause, std::string remedy, SearchStep& out) {
-  end_ = SearchEnd{kind, std::move(cause), std::move(remedy)};
+  end_ = SearchEnd{kind, std::move(cause), std::move(remedy), unreachable_places()};
   out.events.push_back({"end", std::string(to_string(kind)) + ": " + end_->cause});
 }
 
@@ -214,9 +236,10 @@ void SearchMission::Impl::finish_covered(const StrategyStep& step, const Strateg
     finish(EndKind::kUnreachable, step.activity + "; " + cause, "free the robot or move it, then start again", out);
     return;
   }
-  const std::size_t unreachable = strategy_->lists().unreachable.size();
+  const std::vector<UnreachablePlace> unreachable = unreachable_places();
   finish(EndKind::kNotFoundAreaCovered,
-         step.activity + "; " + covered + "; " + std::to_string(unreachable) + " places unreachable",
+         step.activity + "; " + covered + "; " + std::to_string(unreachable.size()) + " places unreachable" +
+             (unreachable.empty() ? "" : ": " + describe(unreachable)),
          share < 1.0 ? (request_.gaps_only ? "look at the listed gaps by hand"
                                            : "search the gaps only, or look at the listed gaps by hand")
                      : "",

@@ -1,11 +1,11 @@
 /// \file
-/// Every number of a search that one may tune.
+/// All tunable parameters of a search.
 #pragma once
 
 #include "common/core/result.hpp"
 #include "server/nav/cost_map.hpp"
 #include "server/nav/planned_driver.hpp"
-#include "server/nav/wait_turns.hpp"
+#include "server/nav/wait_schedule.hpp"
 #include "server/search/detection_params.hpp"
 #include "server/search/drive_law.hpp"
 #include "server/search/evidence.hpp"
@@ -21,16 +21,16 @@ struct PaperParams {
   int passes_limit = 10;          ///< N; 0: from eq (1) with area_m2
   double area_m2 = 25.0;          ///< S of eq (1)
   double reach_time_s = 60.0;     ///< an unsearched cell not reached by then is unreachable
-  double progress_time_s = 10.0;  ///< nor one without progress for so long
-  double progress_m = 0.10;       ///< what counts as progress
-  double stuck_time_s = 8.0;      ///< local planner got nowhere (less than stuck_move_m): recovery
-  double stuck_move_m = 0.25;     ///< ...
-  double recovery_back_m = 0.15;  ///< a recovery backs out so far before it turns; 0: it only turns
-  double recovery_turn_s = 6.0;   ///< longest turn of one recovery
+  double progress_time_s = 10.0;  ///< longest time without progress towards it
+  double progress_m = 0.10;       ///< smallest decrease of the remaining distance that counts as progress
+  double stuck_time_s = 8.0;      ///< time with less than stuck_move_m of motion after which a recovery starts
+  double stuck_move_m = 0.25;     ///< see stuck_time_s
+  double recovery_back_m = 0.15;  ///< distance that a recovery drives backwards before it rotates; 0: it only rotates
+  double recovery_rotation_s = 6.0;  ///< longest rotation of one recovery
   double recovery_omega_rad_s = 0.5;
   double recovery_clear_m = 1.0;  ///< front distance that ends a recovery
-  int max_recoveries = 4;         ///< in a row, before the cell (or the mission) is given up
-  double sonar_silence_s = 0.5;   ///< older readings stop the robot
+  int max_recoveries = 4;         ///< recoveries in a row before the cell (or the mission) is given up
+  double sonar_silence_s = 0.5;   ///< readings older than this stop the robot
   DriveLawParams drive;
 };
 
@@ -39,20 +39,22 @@ struct PlanParams {
   double cell_m = 0.8;
   double replan_period_s = 2.0;           ///< cost map and goals are refreshed this often while driving
   double map_period_s = 1.0;              ///< shortest time between two cost maps
-  double look_spacing_m = 0.8;            ///< travelled distance after which a picture is taken on the way
-  bool look_while_moving = true;          ///< false: stop for the pictures on the way, too
+  double look_spacing_m = 0.8;            ///< driven distance after which a picture is taken while driving
+  bool look_while_moving = true;          ///< false: the robot also stops for the pictures between goals
   double cell_target_probability = 0.55;  ///< evidence a cell should reach, above the certificate's threshold
   double min_gain_cells = 6.0;            ///< expected new evidence (cells x probability) that is worth a drive
-  double frontier_bonus_cells = 12.0;     ///< worth of an unknown border in the same unit
-  double travel_offset_m = 1.0;           ///< gain / (cost + offset): keeps near crumbs from winning
-  double min_frontier_m = 0.4;            ///< shorter borders, obstacle to obstacle, are noise
-  double frontier_reach_m = 0.5;          ///< a goal so near to a frontier observes it
-  int max_failures = 2;                   ///< failed drives to a goal before it is unreachable
-  double goal_time_s = 120.0;             ///< nor may a drive go on for so long without getting nearer to it
-  double failed_radius_m = 0.4;           ///< goals so near to an unreachable place are not tried
-  double retry_s = 20.0;                  ///< so long others go before a goal that was not reached, or a wait lasts
-  double min_cut_off_m2 = 1.0;            ///< unsearched floor that a way led to before, if larger, is waited for
-  double min_look_spacing_m = 0.3;        ///< a look from nearer than this to an earlier one teaches nothing
+  double frontier_bonus_cells = 12.0;     ///< value of a frontier in the same unit
+  double travel_offset_m = 1.0;   ///< gain / (cost + offset): keeps very near goals with little gain from winning
+  double min_frontier_m = 0.4;    ///< shorter frontiers, from obstacle to obstacle, are noise
+  double frontier_reach_m = 0.5;  ///< a goal within this distance of a frontier observes it
+  int max_failures = 2;           ///< failed drives to a goal before it is unreachable
+  double goal_time_s = 120.0;     ///< longest time without progress towards the goal before a drive is given up
+  double failed_radius_m = 0.4;   ///< goals within this distance of an unreachable place are not tried
+  /// Time during which other goals are preferred to one that was not reached; duration of a wait.
+  double retry_s = 20.0;
+  /// Unsearched floor that a path led to before and that is larger than this justifies a wait.
+  double min_cut_off_m2 = 1.0;
+  double min_look_spacing_m = 0.3;  ///< a picture taken nearer than this to an earlier one adds no evidence
   nav::WaitParams waits;
   nav::CostMapParams cost;
   nav::FollowerParams follower;
@@ -60,18 +62,19 @@ struct PlanParams {
   [[nodiscard]] nav::DriverParams driver() const { return {.goal_time_s = goal_time_s, .follower = follower}; }
 };
 
-/// Looking, confirming, approaching.
+/// Parameters of taking pictures, confirming and approaching.
 struct MissionParams {
-  double image_timeout_s = 5.0;  ///< a picture that does not come: go on without it
-  double settle_s = 0.3;         ///< standing before a still picture
-  double standoff_m = 0.8;       ///< approach ends so far in front of the target
+  double image_timeout_s = 5.0;  ///< after this time the mission continues without the picture
+  double settle_s = 0.3;         ///< time at rest before a still picture
+  double standoff_m = 0.8;       ///< distance in front of the target at which the approach ends
   double standoff_tolerance_m = 0.25;
   double face_tolerance_rad = 0.1;
-  double approach_time_s = 90.0;      ///< then the position is what it is
-  double confirm_time_s = 45.0;       ///< then an unconfirmed track is refused and the search goes on
-  double confirm_step_m = 0.7;        ///< way to the second place
-  int confirm_looks = 3;              ///< without another sighting: refused
-  double max_position_sigma_m = 3.0;  ///< beyond it the search ends as uncertain
+  double approach_time_s = 90.0;  ///< time limit of the approach, after which the position estimate is final
+  /// Time limit of a confirmation, after which the track is refused and the search continues.
+  double confirm_time_s = 45.0;
+  double confirm_step_m = 0.7;        ///< distance to the second place
+  int confirm_looks = 3;              ///< number of pictures without another sighting after which the track is refused
+  double max_position_sigma_m = 3.0;  ///< standard deviation of the position beyond which the search ends as uncertain
 };
 
 struct SearchParams {
@@ -83,7 +86,7 @@ struct SearchParams {
   DetectionParams detection;
 };
 
-/// Refuses values that make no sense (non-positive sizes and times, probabilities outside 0..1).
+/// Refuses invalid values (non-positive sizes and times, probabilities outside 0..1).
 [[nodiscard]] Status validate(const SearchParams& params);
 
 }  // namespace seeker::search

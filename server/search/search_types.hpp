@@ -1,5 +1,5 @@
 /// \file
-/// What a search is asked for and what it tells, as values of this folder (the app translates them to api types).
+/// Requests and results of a search as values of this folder (the app translates them to api types).
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
 #include "common/core/time.hpp"
+#include "common/core/unreachable.hpp"
 #include "server/search/sectors.hpp"
 
 namespace seeker::search {
 
-/// How the robot is led over the floor.
+/// The coverage strategy of a search.
 enum class Strategy : std::uint8_t {
   kPaper,     ///< as printed: fuzzy planner, sonars, bearings (spec S3.3)
-  kPlan,      ///< paths through the occupancy to where evidence is missing
+  kPlan,      ///< planned paths through the occupancy to where evidence is missing
   kSpiral,    ///< baseline: backtracking spiral on 0.8 m cells (Gonzalez et al. 2005)
   kFrontier,  ///< baseline: nearest frontier of the occupancy (Yamauchi 1997)
 };
@@ -31,15 +32,15 @@ enum class Strategy : std::uint8_t {
 enum class OnFound : std::uint8_t {
   kStop,      ///< end where the robot stands
   kApproach,  ///< drive up to it, refine its position, end
-  kContinue,  ///< note it and go on until the area is covered
+  kContinue,  ///< record it and continue until the area is covered
 };
 
-/// A thing to look for; its index in SearchRequest::targets is the `target` of a vision::Sighting.
+/// An object to search for; its index in SearchRequest::targets is the `target` of a vision::Sighting.
 struct SearchTarget {
   std::string name;
   double width_m = 0.4;
   double height_m = 0.4;
-  double depth_m = 0.0;  ///< of a solid; its position is its centre, half a depth behind the surface that is seen
+  double depth_m = 0.0;  ///< depth of a solid: its position is its centre, half a depth behind the surface that is seen
 };
 
 struct SearchRequest {
@@ -50,7 +51,7 @@ struct SearchRequest {
   bool gaps_only = false;     ///< continue from earlier evidence (SearchMission::keep_evidence)
 };
 
-/// Refuses no targets or more than kMaxSearchTargets, sizes outside (0, 10] m, invalid polygons.
+/// Refuses requests with no targets or more than kMaxSearchTargets, sizes outside (0, 10] m, or invalid polygons.
 [[nodiscard]] Status validate(const SearchRequest& request);
 inline constexpr std::size_t kMaxSearchTargets = 16;
 inline constexpr double kMaxTargetSize_m = 10.0;
@@ -59,8 +60,8 @@ inline constexpr double kMaxTargetSize_m = 10.0;
 enum class EndKind : std::uint8_t {
   kTargetFound,
   kNotFoundAreaCovered,
-  kUnreachable,  ///< nothing could be searched, or the robot cannot get out of where it stands
-  kUncertain,    ///< the pose is too uncertain to place anything
+  kUnreachable,  ///< no floor could be searched, or the robot cannot leave the place where it stands
+  kUncertain,    ///< the pose is too uncertain to locate a target
 };
 [[nodiscard]] std::string_view to_string(EndKind kind);
 
@@ -69,15 +70,16 @@ struct SearchEnd {
   EndKind kind = EndKind::kNotFoundAreaCovered;
   std::string cause;
   std::string remedy;
+  std::vector<UnreachablePlace> unreachable = {};  ///< goals that were given up, and how wide what they left out is
 
   friend bool operator==(const SearchEnd&, const SearchEnd&) = default;
 };
 
-/// Tells places from which the map would grow (ends of walls that were not seen yet), facing what is to be seen. Asked
-/// when a goal is chosen. Empty: the map is not to be cared for.
+/// Returns viewpoints from which the map would grow (ends of walls that were not observed yet), facing what is to be
+/// observed. It is called when a goal is chosen. Empty: the search ignores the growth of the map.
 using MapViews = std::function<std::vector<Pose2>()>;
 
-/// Something worth a line in the mission's log. The text depends on the inputs only.
+/// An event for the mission's log. The text depends on the inputs only.
 struct SearchEvent {
   std::string kind;  ///< snake_case: "cell_searched", "escape", "unreachable", "sighting", "confirmed", ...
   std::string text;
@@ -101,7 +103,7 @@ struct GridLists {
 enum class RangeSource : std::uint8_t { kNone, kSonar, kLidar, kTriangulation, kFloor };
 [[nodiscard]] std::string_view to_string(RangeSource source);
 
-/// A target, as all its sightings together tell it. Field for field what api::Detection needs.
+/// The estimate of one target from all its sightings. The fields are those of api::Detection.
 struct Detection {
   std::uint64_t id = 0;  ///< unique within the mission, from 1, in the order of the first sightings
   int target = 0;        ///< index into SearchRequest::targets
@@ -109,14 +111,14 @@ struct Detection {
   double u_px = 0.0;
   double v_px = 0.0;
   double score = 0.0;
-  Pose2 map_T_base;               ///< at the newest sighting
+  Pose2 map_T_base;               ///< robot pose at the newest sighting
   double bearing_base_rad = 0.0;  ///< alpha', eq (4); of a solid's middle where the lidar shows its outline
   double bearing_map_rad = 0.0;   ///< theta_0 = alpha' + theta_r, eq (5)
   std::optional<Point2> position_map;
   Matrix2 position_covariance = Matrix2::Zero();
   RangeSource range_source = RangeSource::kNone;
   int sightings = 1;
-  int misses = 0;  ///< looks that should have seen it and did not
+  int misses = 0;  ///< observations that should have shown it and did not
   bool confirmed = false;
 
   friend bool operator==(const Detection&, const Detection&) = default;
@@ -133,9 +135,9 @@ struct Gap {
 
 /// The certificate of a search in numbers.
 struct CoverageSummary {
-  /// Free floor eroded by the robot's radius, allowed, connected to the robot now or at some time of the search.
+  /// Free floor eroded by the robot's radius, allowed, and connected to the robot now or at some time of the search.
   double reachable_area_m2 = 0.0;
-  double covered_area_m2 = 0.0;  ///< of it, with a probability of detection at or above the threshold
+  double covered_area_m2 = 0.0;  ///< part of it with a probability of detection at or above the threshold
   double threshold = 0.5;
   double mean_probability = 0.0;
   int gaps = 0;

@@ -1,5 +1,5 @@
 /// \file
-/// Sonar ring -> the five sectors of the local planner (spec S3.1), and walls that exist only in the mission.
+/// From a sonar ring to the five sectors of the local planner (spec S3.1), and virtual walls of the mission.
 #pragma once
 
 #include <array>
@@ -21,11 +21,11 @@ struct Sectors {
   friend bool operator==(const Sectors&, const Sectors&) = default;
 };
 
-/// Sector a direction of the base belongs to: |bearing| <= 20 deg front, <= 70 deg front flank, <= 110 deg side (the
-/// Pioneer's +-10, +-30 and +-50, +-90); behind: none.
+/// The sector that a direction of the base belongs to: |bearing| <= 20 deg front, <= 70 deg front flank, <= 110 deg
+/// side (the Pioneer's +-10, +-30 and +-50, +-90). Nothing: it points behind the robot.
 [[nodiscard]] std::optional<Sector> sector_of(double bearing_rad);
 
-/// Smallest reading of each sector, "no return" counting as 3 m. Refuses NaN and negative readings, and a ring that
+/// Smallest reading of each sector; "no return" counts as 3 m. It refuses NaN and negative readings, and a ring that
 /// leaves a sector without a transducer: the caller must stop.
 [[nodiscard]] Result<Sectors> fuse_sectors(const SonarScan& scan);
 

@@ -22,9 +22,9 @@ bool SpiralChooser::open(const ChooseInput& input, CellIndex cell) const {
 }
 
 std::optional<CellIndex> SpiralChooser::spiral_step(const ChooseInput& input, CellIndex here) {
-  // The reference side is the right: turn right where it is open, else straight on, else left (BSA rules 1-3).
-  for (const int turn : {-1, 0, 1}) {
-    const int direction = (direction_ + turn + kQuarter) % kQuarter;
+  // The reference side is the right: rotate right where it is open, else straight on, else left (BSA rules 1-3).
+  for (const int quarter : {-1, 0, 1}) {
+    const int direction = (direction_ + quarter + kQuarter) % kQuarter;
     if (open(input, neighbour(here, direction))) {
       direction_ = direction;
       return neighbour(here, direction);

@@ -1,5 +1,6 @@
 /// \file
-/// What leads the robot over the floor: one interface for the paper's algorithm, the planned one and the baselines.
+/// Strategies that lead the robot over the floor: one interface for the paper's algorithm, the planned one and the
+/// baselines.
 #pragma once
 
 #include <optional>
@@ -17,12 +18,13 @@
 
 namespace seeker::search {
 
-/// `now` is mission time: it stands still while the mission is paused or does something else.
+/// The inputs of one step of a strategy. `now` is mission time, which stands still while the mission is paused or
+/// another activity drives the robot.
 struct StrategyInput : nav::DriveInput {
   const EvidenceGrid& evidence;
-  double target_size_m = 0.4;  ///< the smallest target looked for
+  double target_size_m = 0.4;  ///< size of the smallest target of the search
   const MapViews& map_views;
-  const nav::KnownFloor& known;  ///< that could be reached at some time
+  const nav::KnownFloor& known;  ///< floor that could be reached at some time
 };
 
 struct StrategyStep {
@@ -33,7 +35,7 @@ struct StrategyStep {
   std::string activity;
   std::vector<SearchEvent> events;
   std::vector<Point2> planned_path;
-  bool done = false;     ///< nothing is left to do
+  bool done = false;     ///< no goal is left
   bool trapped = false;  ///< done because the robot cannot move on; `activity` says why
 };
 
@@ -45,12 +47,14 @@ class CoverageStrategy {
   virtual ~CoverageStrategy() = default;
 
   [[nodiscard]] virtual StrategyStep step(const StrategyInput& input) = 0;
-  /// The picture asked for was taken (or will not come).
+  /// The requested picture was taken (or will not come).
   virtual void image_taken(const StrategyInput& input) = 0;
-  /// Something else moved the robot meanwhile: present drives are void.
+  /// Another activity moved the robot meanwhile: present drives are dropped.
   virtual void interrupted(RobotTime now) = 0;
   virtual void transform(const MapMove& move) = 0;
   [[nodiscard]] virtual const GridLists& lists() const = 0;
+  /// Why the places of lists().unreachable were given up, as far as the strategy knows; in the same order.
+  [[nodiscard]] virtual std::vector<UnreachablePlace> unreachable() const;
 };
 
 }  // namespace seeker::search

@@ -11,9 +11,9 @@ namespace seeker::search {
 namespace {
 
 constexpr double kMaxSonarDisagreement_m = 0.5;
-/// Neighbouring returns farther apart belong to two things.
+/// Neighbouring returns farther apart than this belong to two objects.
 constexpr double kOutlineJump_m = 0.12;
-/// Width of an outline as a share of the thing's: its diagonal at most, with some room for noise.
+/// Width of an outline as a share of the object's: its diagonal at most, with some room for noise.
 constexpr double kLeastOutline = 0.7;
 constexpr double kMostOutline = 1.6;
 

@@ -1,5 +1,5 @@
 /// \file
-/// How far away is what the camera sees in a direction: lidar where fitted, else sonar (spec S3.5).
+/// Range of what the camera sees in a direction: from the lidar where fitted, otherwise from the sonars (spec S3.5).
 #pragma once
 
 #include <optional>
@@ -21,20 +21,21 @@ struct RangeReading {
 [[nodiscard]] std::optional<RangeReading> lidar_range(const LaserScan& scan, double bearing_base_rad,
                                                       const DetectionParams& params);
 
-/// Interpolated between the two transducers beside the bearing, or that of the one whose cone holds it. Nothing beyond
-/// the ring's ends (+-90 deg and half a cone), nor where the neighbours disagree by more than half a metre.
+/// Range interpolated between the two transducers beside the bearing, or the range of the one whose cone contains it.
+/// Nothing: the bearing lies beyond the ring's ends (+-90 deg and half a cone), or the neighbours disagree by more than
+/// half a metre.
 [[nodiscard]] std::optional<RangeReading> sonar_range(const SonarScan& scan, double bearing_base_rad,
                                                       const DetectionParams& params);
 
-/// The best there is; either scan may be null. `hint_m` (from the apparent size) vetoes ranges that are of other
-/// things.
+/// The most accurate range that is available in the direction: lidar, then sonar; either scan may be null. A range that
+/// does not agree with `hint_m` (from the apparent size) belongs to another object and is rejected.
 [[nodiscard]] std::optional<RangeReading> range_in_direction(double bearing_base_rad, const LaserScan* laser,
                                                              const SonarScan* sonar, std::optional<double> hint_m,
                                                              const DetectionParams& params);
 
-/// Direction of the middle of a solid thing's outline in the sweep: what a camera recognises is one of its faces, which
-/// from near lies well beside the middle. Beams are followed from the one at the bearing to both sides up to a jump;
-/// nothing where that outline does not fit a thing `width_m` across (a wall it touches, half of it hidden).
+/// Bearing of the middle of a solid object's outline in the sweep. A camera recognises one of its faces, which from
+/// nearby lies well beside the middle. Beams are followed from the one at the bearing to both sides up to a range jump.
+/// Nothing: the outline does not fit an object `width_m` across (a wall that it touches, or half of it hidden).
 [[nodiscard]] std::optional<double> outline_bearing(const LaserScan& scan, double bearing_base_rad, double range_m,
                                                     double width_m, const DetectionParams& params);
 

@@ -134,7 +134,7 @@ VisitResult TargetVisit::step(const StrategyInput& input, const DetectionTracker
   }
   if (state_ == State::kLook) {
     out.wants_image = true;
-    out.activity = approach_ ? "looking at the target from near" : "looking again from another place";
+    out.activity = approach_ ? "observing the target from near" : "observing it again from another place";
   }
   return VisitResult::kBusy;
 }
@@ -226,7 +226,7 @@ void TargetVisit::face(const StrategyInput& input, const Detection& detection, S
     state_ = State::kLook;
     return;
   }
-  out.activity = "turning to face the target";
+  out.activity = "rotating to face the target";
   out.command.omega_rad_s = std::clamp(kFaceGain_1_s * wanted, -kFaceMaxOmega_rad_s, kFaceMaxOmega_rad_s);
 }
 

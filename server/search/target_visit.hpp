@@ -1,5 +1,6 @@
 /// \file
-/// Going to see a target again: from a second place to confirm it, or up to it to refine its position.
+/// Visits of a detected target: observing it from a second place to confirm it, or approaching it to refine its
+/// position.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,9 @@ namespace seeker::search {
 
 enum class VisitResult : std::uint8_t { kBusy, kConfirmed, kRefused, kReached };
 
-/// One visit at a time. Confirming: look from up to confirm_looks other places until the track is confirmed; time or
-/// looks used up refuse it. Approaching: drive to standoff_m in front, turn to face it, look, done; what cannot be
-/// reached is looked at from where the robot got to.
+/// Makes one visit at a time. Confirming: observe from up to confirm_looks other places until the track is confirmed;
+/// when time or observations are used up, the track is refused. Approaching: drive to standoff_m in front, rotate to
+/// face it, and observe; a target that cannot be reached is observed from where the robot arrived.
 class TargetVisit {
  public:
   TargetVisit(const SearchParams& params, LocalPlanner planner, bool use_map);
@@ -57,17 +58,17 @@ class TargetVisit {
   bool approach_ = false;
   bool arrived_ = false;
   int looks_ = 0;
-  int sightings_before_ = 0;  ///< of the track, when the visit began
+  int sightings_before_ = 0;  ///< sightings of the track when the visit began
   int misses_before_ = 0;
-  Point2 here_ = Point2::Zero();     ///< where the robot stands while it looks
-  std::vector<Point2> viewed_from_;  ///< places of this visit's looks
+  Point2 here_ = Point2::Zero();     ///< where the robot stands while it observes
+  std::vector<Point2> viewed_from_;  ///< places of this visit's observations
   State state_ = State::kPlan;
   RobotTime started_;
   RobotTime face_since_;
 };
 
-/// The cheapest place on circles about `p_map` from which it can be seen, at least `away_m` from all `others`; radii
-/// are tried in order and the first that has a place wins.
+/// The place with the lowest path cost on circles about `p_map` from which it can be seen, at least `away_m` from all
+/// `others`. The radii are tried in order, and the first that has such a place is used.
 [[nodiscard]] std::optional<Point2> viewpoint_about(const nav::FloorView& floor, const Pose2& map_T_base,
                                                     const Point2& p_map, const std::vector<double>& radii_m,
                                                     const std::vector<Point2>& others, double away_m);

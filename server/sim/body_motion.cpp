@@ -59,15 +59,16 @@ void Encoders::step(const Twist2& twist, double dt_s, const RobotModel& model, R
     return;
   }
   const OdometryModel& m = model.odometry;
-  const double way_m = twist.v_m_s * dt_s;
-  const double turn_rad = twist.omega_rad_s * dt_s;
-  const double left_m = (way_m - turn_rad * model.wheel_base_m / 2.0) * m.left_wheel_scale;
-  const double right_m = (way_m + turn_rad * model.wheel_base_m / 2.0) * m.right_wheel_scale;
-  const double measured_way_m = 0.5 * (left_m + right_m) + rng.normal(m.sigma_distance) * std::sqrt(std::abs(way_m));
-  const double measured_turn_rad = (right_m - left_m) / (model.wheel_base_m * m.wheel_base_scale) +
-                                   rng.normal(m.sigma_turn) * std::sqrt(std::abs(turn_rad)) +
-                                   rng.normal(m.sigma_turn_per_distance) * std::sqrt(std::abs(way_m));
-  odom_T_base_ = odom_T_base_ * integrate({measured_way_m / dt_s, measured_turn_rad / dt_s}, dt_s);
+  const double distance_m = twist.v_m_s * dt_s;
+  const double rotation_rad = twist.omega_rad_s * dt_s;
+  const double left_m = (distance_m - rotation_rad * model.wheel_base_m / 2.0) * m.left_wheel_scale;
+  const double right_m = (distance_m + rotation_rad * model.wheel_base_m / 2.0) * m.right_wheel_scale;
+  const double measured_distance_m =
+      0.5 * (left_m + right_m) + rng.normal(m.sigma_distance) * std::sqrt(std::abs(distance_m));
+  const double measured_rotation_rad = (right_m - left_m) / (model.wheel_base_m * m.wheel_base_scale) +
+                                       rng.normal(m.sigma_rotation) * std::sqrt(std::abs(rotation_rad)) +
+                                       rng.normal(m.sigma_rotation_per_distance) * std::sqrt(std::abs(distance_m));
+  odom_T_base_ = odom_T_base_ * integrate({measured_distance_m / dt_s, measured_rotation_rad / dt_s}, dt_s);
   // The board reports the filtered speed of the wheels, without the random part of one step.
   velocity_ = {0.5 * (left_m + right_m) / dt_s, (right_m - left_m) / (model.wheel_base_m * m.wheel_base_scale) / dt_s};
 }
@@ -77,9 +78,9 @@ Walker::Walker(const PersonPath& path, std::uint64_t serial)
 
 void Walker::step(std::span<const Disc> robots, double dt_s) {
   const Point2 to_goal = path_.waypoints[next_] - position_;
-  const double way_m = path_.speed_m_s * dt_s;
+  const double distance_m = path_.speed_m_s * dt_s;
   const double left_m = to_goal.norm();
-  if (left_m <= way_m) {
+  if (left_m <= distance_m) {
     position_ = path_.waypoints[next_];
     if (next_ + 1 == path_.waypoints.size()) {
       forward_ = false;
@@ -89,7 +90,7 @@ void Walker::step(std::span<const Disc> robots, double dt_s) {
     next_ = forward_ ? next_ + 1 : next_ - 1;
     return;
   }
-  const Point2 next = position_ + to_goal * (way_m / left_m);
+  const Point2 next = position_ + to_goal * (distance_m / left_m);
   const auto waits_for = [&](const Disc& robot) {
     const double gap_m = (next - robot.centre).norm() - robot.radius_m - path_.radius_m;
     return gap_m < path_.wait_m && (next - robot.centre).norm() < (position_ - robot.centre).norm();

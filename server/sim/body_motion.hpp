@@ -1,5 +1,5 @@
 /// \file
-/// How the base moves: limits of acceleration and speed, and what it does when it meets something.
+/// Motion of the base: limits of acceleration and speed, and the response to a contact.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace seeker::sim {
 
-/// Heights at which the body can touch something: all but the dust on the floor.
+/// Heights at which the body can touch an obstacle: all but the lowest part above the floor.
 [[nodiscard]] HeightBand body_band(const RobotModel& model);
 
-/// Velocity after `dt_s` on the way from `present` to `wanted`, within the limits of the model.
+/// Velocity after `dt_s` on the transition from `present` to `wanted`, within the limits of the model.
 [[nodiscard]] Twist2 accelerate(const Twist2& present, const Twist2& wanted, const RobotModel& model, double dt_s);
 
-/// The disc-shaped body. A touch ends translation at once; turning on the spot stays possible.
+/// The disc-shaped body. A contact ends translation at once; rotation on the spot stays possible.
 class BodyMotion {
  public:
   explicit BodyMotion(const Pose2& world_T_base) : world_T_base_(world_T_base) {}
 
-  /// One step of at most 10 ms (spec S1.3, exact on the arc). Returns the motion that really happened.
+  /// Computes one step of at most 10 ms (spec S1.3, exact on the arc). Returns the motion that was carried out.
   Twist2 step(const Twist2& wanted, const RobotModel& model, const Scene& scene, double dt_s);
 
   [[nodiscard]] const Pose2& world_T_base() const { return world_T_base_; }
@@ -43,7 +43,7 @@ class BodyMotion {
   int contacts_ = 0;
   double path_length_m_ = 0.0;
   double min_clearance_m_ = kClearanceLimit_m;
-  static constexpr double kClearanceLimit_m = 1.0;  ///< farther things are not looked for
+  static constexpr double kClearanceLimit_m = 1.0;  ///< clearances are measured up to this distance
 };
 
 /// Wheel encoders: dead reckoning with the errors of OdometryModel.
@@ -59,7 +59,7 @@ class Encoders {
   Twist2 velocity_;
 };
 
-/// A person's way along a PersonPath.
+/// The motion of a person along a PersonPath.
 class Walker {
  public:
   Walker(const PersonPath& path, std::uint64_t serial);

@@ -6,7 +6,7 @@
 namespace seeker::sim {
 namespace {
 
-constexpr double kView_m = 40.0;  ///< farther things are too small to matter
+constexpr double kView_m = 40.0;  ///< farther objects are too small to matter
 constexpr double kNear_m = 0.05;
 constexpr double kShadow = 0.55;  ///< on undersides: light comes from above
 
@@ -172,15 +172,15 @@ void EyeView::add_people(const Scene& scene) {
   person_faces_.clear();
   for (const Disc& disc : scene.moving()) {
     const std::vector<Point2> corners = cylinder_corners(disc.centre, disc.radius_m);
-    double way_m = 0.0;
+    double distance_m = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       Face face;
       face.segment = Segment::between(corners[i], corners[(i + 1) % corners.size()]);
       face.normal = {face.segment.direction.y(), -face.segment.direction.x()};
       face.z_max_m = disc.height_m;
       face.paint = disc.paint;
-      face.paint.along0_m = way_m;
-      way_m += face.segment.length_m;
+      face.paint.along0_m = distance_m;
+      distance_m += face.segment.length_m;
       if (face.normal.dot(eye_.position - face.segment.a) > 0.0) {
         person_faces_.push_back(face);
       }

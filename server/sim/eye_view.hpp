@@ -1,6 +1,6 @@
 /// \file
-/// First half of the stereo renderer: the surfaces in view of one eye as convex patches of its picture, and which of
-/// them each sample of a picture row sees.
+/// First stage of the stereo renderer: the surfaces in view of one eye as convex patches of its picture, and the patch
+/// that each sample of a picture row shows.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ struct Patch {
   Linear inverse_depth;
   std::uint32_t first_border = 0;
   std::uint32_t borders = 0;
-  int row_begin = 0;  ///< sample rows it can reach
+  int row_begin = 0;  ///< first and last sample row that the patch can cover
   int row_end = 0;
   // How it is painted. Surface coordinates of p: along = axis . (p - corner), and height or across.
   bool upright = true;
   Point2 corner = Point2::Zero();
   Point2 axis = Point2::UnitX();
-  double plane_m = 1.0;  ///< distance of the eye from its plane
-  double light = 1.0;    ///< less on undersides
+  double plane_m = 1.0;  ///< distance of the eye from the patch's plane
+  double light = 1.0;    ///< brightness factor, less on undersides
   double length_m = 1.0;
   double z_min_m = 0.0;
   double z_max_m = 1.0;
@@ -53,14 +53,14 @@ struct SampleRow {
 
 class EyeView {
  public:
-  static constexpr int kPerPixel = 2;  ///< samples a pixel, along either axis
+  static constexpr int kPerPixel = 2;  ///< samples per pixel along either axis
 
-  /// From a valid geometry.
+  /// Makes a view for a valid geometry.
   EyeView(const StereoGeometry& geometry, const EyeErrors& errors);
 
-  /// Collects what can be seen from here. `scene` must outlive the next look().
+  /// Collects the surfaces in view of the eye. `scene` must outlive the next look().
   void build(const Scene& scene, const CameraPose& eye);
-  /// What the samples of a sample row see.
+  /// Finds the patches that the samples of a sample row show.
   void look(int sample_row, SampleRow& row) const;
 
   [[nodiscard]] const std::vector<Patch>& patches() const { return patches_; }
@@ -80,14 +80,14 @@ class EyeView {
 
   StereoGeometry geometry_;
   EyeErrors errors_;
-  double pad_px_ = 0.0;      ///< the errors move a border less than this
-  double distortion_ = 0.0;  ///< of the residual x (x^2 + y^2)
+  double pad_px_ = 0.0;      ///< upper limit of the displacement of a border by the errors of the eye
+  double distortion_ = 0.0;  ///< coefficient of the residual distortion x (x^2 + y^2)
   CameraPose eye_;
   Point2 ahead_ = Point2::UnitX();
   Point2 left_ = Point2::UnitY();
   std::vector<Patch> patches_;
   std::vector<Linear> borders_;
-  std::vector<char> seen_;  ///< of each solid
+  std::vector<char> seen_;  ///< for each solid: whether it is in view
   std::vector<Face> person_faces_;
 };
 

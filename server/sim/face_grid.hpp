@@ -1,5 +1,5 @@
 /// \file
-/// Uniform grid over segments: which of them a ray can meet, in the order of its way.
+/// Uniform grid over segments, which finds the segments that a ray can cross in the order of distance.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace seeker::sim {
 
-/// From a, with its direction and length kept for the inner loop.
+/// A segment from a, with direction and length precomputed for the inner loop.
 struct Segment {
   Point2 a = Point2::Zero();
   Point2 direction = Point2::UnitX();  ///< length 1
@@ -39,13 +39,13 @@ class FaceGrid {
   FaceGrid() = default;
   FaceGrid(const Point2& min_corner, const Point2& max_corner, std::vector<Segment> segments);
 
-  /// Calls `hit(const Crossing&)` for every crossing up to range_max_m, each once, cell by cell in the order of the way
-  /// (unordered within a cell), and `cell_done()` after each cell; the latter returns true to end.
+  /// Calls `hit(const Crossing&)` for every crossing up to range_max_m, each once, cell by cell in the order of
+  /// distance (unordered within a cell), and `cell_done()` after each cell; the latter returns true to end the walk.
   template <class Hit, class CellDone>
   void walk(const Point2& origin, const Point2& direction, double range_max_m, Hit&& hit, CellDone&& cell_done) const;
 
-  /// Calls `visit(face)` for the segments with a part in the square of half side `reach_m` around p; some more than
-  /// once.
+  /// Calls `visit(face)` for the segments with a part in the square of half side `reach_m` around p; a segment may be
+  /// visited more than once.
   template <class Visit>
   void around(const Point2& p, double reach_m, Visit&& visit) const;
 
@@ -78,7 +78,7 @@ class FaceGrid {
 struct GridAxis {
   int step = 0;
   double next_m = std::numeric_limits<double>::infinity();   ///< distance at which the next cell border is met
-  double pitch_m = std::numeric_limits<double>::infinity();  ///< between borders
+  double pitch_m = std::numeric_limits<double>::infinity();  ///< distance between borders
 
   static GridAxis make(double origin, double direction, double low, double cell_m, int index) {
     GridAxis axis;
@@ -106,7 +106,7 @@ void FaceGrid::walk(const Point2& origin, const Point2& direction, double range_
       const double determinant = direction.x() * s.direction.y() - direction.y() * s.direction.x();
       const Point2 offset = s.a - origin;
       const double distance = (offset.x() * s.direction.y() - offset.y() * s.direction.x()) / determinant;
-      // A crossing belongs to the cell it lies in, so that each is told once. Parallel lines give infinity or NaN.
+      // A crossing belongs to the cell it lies in, so that each is reported once. Parallel lines give infinity or NaN.
       if (!(distance >= from_m && distance < to_m && distance <= range_max_m)) {
         continue;
       }

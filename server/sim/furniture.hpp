@@ -27,15 +27,15 @@ struct BookcaseShape {
   double length_m = 1.6;
   double depth_m = 0.3;
   int shelves = 5;
-  double shelf_m = 0.36;     ///< from board to board
-  double empty_share = 0.2;  ///< of the places for books
+  double shelf_m = 0.36;     ///< distance from board to board
+  double empty_share = 0.2;  ///< share of the places for books that stay empty
 };
-/// Pose: centre of the footprint, length along its x axis, the books look along its y axis. The surface's pattern
-/// number picks the books.
+/// Pose: centre of the footprint, length along its x axis; the books face along its y axis. The surface's pattern
+/// number selects the books.
 [[nodiscard]] std::vector<Box> make_bookcase(const Pose2& world_T_case, const BookcaseShape& shape,
                                              const Surface& surface, const std::string& object = {});
 
-/// A chair with seat, back and legs; its sitter looks along the x axis.
+/// A chair with seat, back and legs; its seat faces along the x axis.
 [[nodiscard]] std::vector<Box> make_chair(const Pose2& world_T_chair, const Surface& surface,
                                           const std::string& object = {});
 

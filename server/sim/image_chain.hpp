@@ -1,5 +1,5 @@
 /// \file
-/// From light to grey values: blur of the lens, noise of the sensor, 8 bits.
+/// From light to grey values: blur of the lens, noise of the sensor, rounding to 8 bits.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct SensorModel {
   int height_px = 0;
   double noise_sigma = 2.0;    ///< grey values
   double shot_noise = 0.0;     ///< grey values per sqrt(grey value)
-  double blur_sigma_px = 0.5;  ///< of lens and pixel
+  double blur_sigma_px = 0.5;  ///< standard deviation of the blur of lens and pixel
   double gamma = 1.0;          ///< grey = 255 (light / 255)^gamma
 };
 
@@ -33,10 +33,11 @@ class ImageChain {
 
   int width_px_;
   int height_px_;
-  float side_weight_;                  ///< of each neighbour in the 3-tap blur
-  std::array<float, 256> sigma_of_{};  ///< noise of each grey value
-  std::vector<float> tone_;            ///< of each quarter of a light value; empty: gamma is 1
-  std::vector<float> unit_noise_;  ///< standard normal numbers: drawing each afresh would take longer than the picture
+  float side_weight_;                  ///< weight of each neighbour in the 3-tap blur
+  std::array<float, 256> sigma_of_{};  ///< standard deviation of the noise for each grey value
+  std::vector<float> tone_;            ///< grey value for each quarter of a light value; empty when gamma is 1
+  /// Standard normal numbers, reused because drawing new ones would take longer than the picture.
+  std::vector<float> unit_noise_;
   std::vector<float> rows_;
   std::vector<float> blurred_;
 };

@@ -6,7 +6,7 @@
 
 namespace seeker::sim {
 
-/// splitmix64.
+/// The function splitmix64.
 [[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;

@@ -8,7 +8,7 @@
 namespace seeker::sim {
 namespace {
 
-constexpr double kView_m = 40.0;       ///< farther things are too small to matter
+constexpr double kView_m = 40.0;       ///< farther objects are too small to matter
 constexpr double kPixel_rad = 0.0062;  ///< what a pixel sees at the horizon
 constexpr double kFullHeight_m = 2.0;  ///< nothing is seen over a wall from the floor to here or higher
 
@@ -63,7 +63,7 @@ void OmniColumns::add_items(const Scene& scene, const Lighting& lighting, const 
     const bool is_front = solid.face_count == 1 || face.normal.dot(direction) < 0.0;
     const auto same_solid = [&](const Meeting& other) { return scene.faces()[other.face].solid == face.solid; };
     if (!is_front && std::any_of(meetings_.begin(), meetings_.begin() + static_cast<std::ptrdiff_t>(i), same_solid)) {
-      continue;  // the back of a thing whose front is in the list
+      continue;  // the back of an object whose front is in the list
     }
     ColumnItem item{meeting.distance_m, meeting.distance_m, face.z_min_m, face.z_max_m, true,
                     &face.paint,        &solid.cover};

@@ -1,5 +1,6 @@
 /// \file
-/// First half of the omnidirectional renderer: for every azimuth, the things a vertical fan of rays meets, by distance.
+/// First stage of the omnidirectional renderer: for every azimuth, the objects that a vertical fan of rays meets, by
+/// distance.
 #pragma once
 
 #include <cstdint>
@@ -9,33 +10,33 @@
 
 namespace seeker::sim {
 
-/// A thing in the fan of one azimuth: its front at `near_m`, its back at `far_m` (equal for a single face).
+/// An object in the fan of one azimuth: its front at `near_m`, its back at `far_m` (equal for a single face).
 struct ColumnItem {
   double near_m = 0.0;
   double far_m = 0.0;
   double z_min_m = 0.0;
   double z_max_m = 0.0;
-  bool front = true;  ///< false: the camera stands over or under it and sees no front
+  bool front = true;  ///< false: the camera is above or below the object and sees no front
   const Paint* paint = nullptr;
-  const Paint* cover = nullptr;  ///< of its top and bottom
+  const Paint* cover = nullptr;  ///< paint of its top and bottom
   double u_texel = 0.0;          ///< texture column of the front
   int level = 0;                 ///< mip level of the front
-  double light = 1.0;            ///< brightness of the place
+  double light = 1.0;            ///< brightness factor of the place
   const PictureTexture* picture = nullptr;
   double picture_s = 0.0;  ///< 0 left .. 1 right
 };
 
-/// Where a camera is.
+/// Pose of a camera.
 struct CameraPose {
   Point2 position = Point2::Zero();
   double heading_rad = 0.0;
   double height_m = 0.0;
 };
 
-/// All azimuths of one picture; the storage is kept from picture to picture.
+/// All azimuths of one picture; the storage is reused from picture to picture.
 class OmniColumns {
  public:
-  /// 0.7 px at the rim of the mirror.
+  /// Number of azimuths: 0.7 px at the rim of the mirror.
   static constexpr int kAzimuths = 2048;
 
   /// Azimuth of column c in the camera's frame.

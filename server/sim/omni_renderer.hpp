@@ -1,6 +1,6 @@
 /// \file
-/// Picture of the omnidirectional camera (spec S3.1, S3.6): ray casting per azimuth, mirror profile, light and noise.
-/// Shares no code with the recogniser's geometry.
+/// Pictures of the omnidirectional camera (spec S3.1, S3.6): ray casting per azimuth, mirror profile, light and noise.
+/// The renderer shares no code with the recogniser's geometry.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@
 
 namespace seeker::sim {
 
-/// Elevation of the ray that the mirror throws to a radius: the inverse of OmniModel's profile.
+/// Elevation of the ray that the mirror reflects to a radius: the inverse of OmniModel's profile.
 [[nodiscard]] double mirror_elevation_rad(const OmniModel& model, double radius_px);
 
 class OmniRenderer {
  public:
-  /// From a valid model.
+  /// Makes a renderer for a valid model.
   explicit OmniRenderer(const RobotModel& model);
 
-  /// `exposure` scales all brightness.
+  /// Renders one picture; `exposure` scales all brightness.
   [[nodiscard]] Image render(const Scene& scene, const Lighting& lighting, const Pose2& world_T_base, double exposure,
                              Rng& rng);
 
  private:
-  /// What the table knows of one pixel inside the mirror.
+  /// Precomputed values of one pixel inside the mirror.
   struct Pixel {
     std::uint32_t index;
     std::uint16_t column;

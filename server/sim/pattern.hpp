@@ -1,6 +1,7 @@
 /// \file
-/// What the stereo camera sees painted on surfaces: multi-octave noise without end, so that no patch of a building
-/// looks like another (vision.md 4.5). Made in tiles, at the resolution at which they are looked at, and kept.
+/// Patterns that the stereo camera sees on surfaces: multi-octave noise without repetition, so that no part of a
+/// building looks like another (vision.md 4.5). The noise is made in tiles at the resolution at which it is seen, and
+/// cached.
 #pragma once
 
 #include <array>
@@ -10,19 +11,19 @@
 
 namespace seeker::sim {
 
-/// One surface's pattern: which noise, and how large its blotches are.
+/// Pattern of one surface: its noise and the size of its blotches.
 struct PatternScale {
   std::uint64_t seed = 0;
-  double texels_per_m = 0.0;  ///< of level 0
-  int octaves = 0;            ///< level 0 has as many; each further level has one less and texels twice as large
+  double texels_per_m = 0.0;  ///< texels per metre of level 0
+  int octaves = 0;            ///< octaves of level 0; each further level has one octave less and texels twice as large
 
-  /// Level 0 is fine enough for pictures from kNearest_m on.
+  /// A scale whose level 0 is fine enough for pictures taken from kNearest_m or farther.
   [[nodiscard]] static PatternScale make(std::uint64_t seed, double feature_m);
-  /// Level with texels of at most `footprint_m`, as far as there is one.
+  /// The coarsest level with texels of at most `footprint_m`, or level 0.
   [[nodiscard]] int level_of(double footprint_m) const;
 };
 
-/// Cache of tiles. Not for two threads at once.
+/// Cache of tiles. It must not be used by two threads at once.
 class Pattern {
  public:
   Pattern();
@@ -50,7 +51,7 @@ class Pattern {
 
   std::unordered_map<Key, std::size_t, KeyHash> index_;
   std::vector<Tile> tiles_;
-  Key last_;  ///< neighbouring pixels ask for the same tile
+  Key last_;  ///< key of the last tile, because neighbouring pixels use the same one
   std::size_t last_tile_ = 0;
   std::vector<float> sum_;
   std::vector<float> knots_;

@@ -15,17 +15,18 @@ namespace seeker::sim {
 struct PlacementParams {
   double robot_radius_m = 0.30;     ///< the robot must be able to come near with this much room
   double robot_height_m = 0.65;     ///< furniture above it is no obstacle
-  double target_clearance_m = 0.5;  ///< centre of the target to anything else
+  double target_clearance_m = 0.5;  ///< smallest distance from the target's centre to any other object
   double target_to_start_m = 2.0;   ///< at least this far from the start
-  double start_clearance_m = 0.45;  ///< centre of the robot to anything
-  double resolution_m = 0.1;        ///< of the raster that places are drawn from
+  double start_clearance_m = 0.45;  ///< smallest distance from the robot's centre to any object
+  double resolution_m = 0.1;        ///< resolution of the raster from which places are drawn
 };
 
-/// Moves target `index` to a random place that the robot can come near to from the first start, with a random
-/// heading, and returns the new pose. kUnreachable: no such place. A poster (depth 0) is refused: it needs a wall.
+/// Moves target `index` to a random place with a random heading that the robot can come near to from the first start,
+/// and returns the new pose. kUnreachable: there is no such place. A poster (depth 0) is refused, because it needs a
+/// wall.
 [[nodiscard]] Result<Pose2> place_target(World& world, std::size_t index, Rng& rng, const PlacementParams& params = {});
 
-/// Replaces the starts by one random pose in the floor that is connected to the first of them.
+/// Replaces the starts by one random pose on the floor that is connected to the first of them, and returns it.
 [[nodiscard]] Result<Pose2> place_start(World& world, Rng& rng, const PlacementParams& params = {});
 
 /// A raster over the world: clearance in metres (at most 1) of every cell that the centre of a robot of this radius can

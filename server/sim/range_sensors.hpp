@@ -1,5 +1,5 @@
 /// \file
-/// Laser scanner and sonar ring: what they read at one moment, with the errors of their models.
+/// Laser scanner and sonar ring: their readings at one moment, with the errors of their models.
 #pragma once
 
 #include "common/core/rng.hpp"
@@ -9,12 +9,12 @@
 
 namespace seeker::sim {
 
-/// One sweep from a robot at `world_T_base`.
+/// One sweep of a robot at `world_T_base`.
 [[nodiscard]] LaserScan sweep(const LidarModel& model, const Scene& scene, const Pose2& world_T_base, RobotTime stamp,
                               Rng& rng);
 
 /// One reading of every transducer. A wall beyond the specular angle sends no echo, edges and corners do; the nearest
-/// echo of the cone counts.
+/// echo in the cone counts.
 [[nodiscard]] SonarScan ping(const SonarModel& model, const Scene& scene, const Pose2& world_T_base, RobotTime stamp,
                              Rng& rng);
 

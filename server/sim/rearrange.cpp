@@ -15,11 +15,11 @@ namespace seeker::sim {
 namespace {
 
 constexpr int kAttempts = 60;
-constexpr double kSample_m = 0.1;     ///< between the places of a footprint that are looked at
+constexpr double kSample_m = 0.1;     ///< between the places of a footprint that are examined
 constexpr double kFree_m = 0.06;      ///< between a moved object and anything else
 constexpr double kStartFree_m = 0.6;  ///< between a moved object and a start
-constexpr double kLeast_m = 0.4;      ///< way of a moved object
-constexpr double kSlide_m = 2.5;      ///< longest way along a wall
+constexpr double kLeast_m = 0.4;      ///< distance of a moved object
+constexpr double kSlide_m = 2.5;      ///< longest distance along a wall
 constexpr double kOnWall_m = 0.05;    ///< the middle of a hanging board is this near to its wall
 constexpr double kFloorKept = 0.93;   ///< of the reachable floor
 constexpr double kFloorResolution_m = 0.1;
@@ -167,8 +167,8 @@ bool move_piece(World& world, const Piece& piece, std::size_t floor_before, Rng&
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     Pose2 pose;
     if (hangs) {
-      const double way_m = rng.uniform(kLeast_m, kSlide_m) * (rng.uniform() < 0.5 ? -1.0 : 1.0);
-      pose = old * Pose2{way_m, 0.0, 0.0};
+      const double distance_m = rng.uniform(kLeast_m, kSlide_m) * (rng.uniform() < 0.5 ? -1.0 : 1.0);
+      pose = old * Pose2{distance_m, 0.0, 0.0};
     } else {
       pose = {rng.uniform(rest.min_corner.x(), rest.max_corner.x()),
               rng.uniform(rest.min_corner.y(), rest.max_corner.y()), rng.uniform(-kPi, kPi)};

@@ -18,7 +18,7 @@ constexpr Surface kHousing{0.22, 0.15, 0.10, 9001};
 /// Farther away the water is all that a camera sees.
 constexpr double kTankSight_m = 10.0;
 
-/// What is as high as the eye stands in its way like a wall; solids are lower and drawn for themselves.
+/// A solid as high as the eye hides what is behind it like a wall; lower solids are drawn as solids.
 TankWalls walls_around(const Scene& scene, const Pose2& world_T_camera, double height_m) {
   constexpr int kDirections = 361;
   TankWalls walls{-kPi / 2.0, kPi / (kDirections - 1), {}};

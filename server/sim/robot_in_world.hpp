@@ -1,5 +1,5 @@
 /// \file
-/// One simulated robot: its body, and its sensors with their noise. What else moves it is told from outside.
+/// One simulated robot: its body, and its sensors with their noise. Other moving objects are given from outside.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@
 
 namespace seeker::sim {
 
-/// What the base reports about itself.
+/// The state that the base reports.
 struct BaseReading {
-  Pose2 odom_T_base;  ///< by the encoders, since the start
-  Twist2 velocity;    ///< by the encoders
+  Pose2 odom_T_base;  ///< pose by the encoders, since the start
+  Twist2 velocity;    ///< velocity by the encoders
   double battery_v = 0.0;
-  bool stalled = false;  ///< the wheels are commanded but something blocks them
-  bool bumped = false;   ///< the body touches something
+  bool stalled = false;  ///< the wheels are commanded but an obstacle blocks them
+  bool bumped = false;   ///< the body touches an obstacle
 };
 
 struct TargetTruth {
@@ -35,27 +35,28 @@ struct TargetTruth {
   Pose2 world_T_target;
 };
 
-/// What really happened. For scoring only: no driver, estimator or behaviour may look at it.
+/// The true state. It is for scoring only: no driver, estimator or behaviour may read it.
 struct GroundTruth {
   Pose2 world_T_base;
-  Pose2 world_T_start;  ///< the frame `map` of a robot that began at its own origin
+  Pose2 world_T_start;  ///< frame `map` of a robot that began at its own origin
   Twist2 velocity;
-  int contacts = 0;              ///< touches since the start, each counted once however long it lasts
-  double path_length_m = 0.0;    ///< way of the robot's centre
-  double min_clearance_m = 0.0;  ///< smallest distance so far between body and anything; 0 after a contact
+  int contacts = 0;              ///< contacts since the start, each counted once regardless of its duration
+  double path_length_m = 0.0;    ///< path length of the robot's centre
+  double min_clearance_m = 0.0;  ///< smallest distance so far between the body and any object; 0 after a contact
   std::vector<TargetTruth> targets;
 };
 
-/// Its noise comes from its own seed, so that no other robot shifts it.
+/// A robot in a world. Its noise is drawn from its own seed, so that other robots do not change it.
 class RobotInWorld {
  public:
-  /// Of a valid world, which must outlive this, and a valid model. `serial` tells its paint from other robots'.
+  /// Makes a robot in a valid world, which must outlive it, with a valid model. `serial` makes its paint differ from
+  /// other robots'.
   RobotInWorld(const World& world, RobotModel model, std::uint64_t seed, const Pose2& start, std::size_t serial);
 
   void command(const Twist2& velocity) { wanted_ = velocity; }
-  /// Everything but the building that it can see and touch.
+  /// Sets all objects besides the building that the robot can see and touch.
   void set_surroundings(std::vector<Disc> moving) { scene_.set_moving(std::move(moving)); }
-  /// One step of at most 10 ms.
+  /// Computes one step of at most 10 ms.
   void step(Duration period);
 
   [[nodiscard]] BaseReading odometry(RobotTime now) const;
@@ -68,7 +69,7 @@ class RobotInWorld {
   [[nodiscard]] GroundTruth truth() const;
   [[nodiscard]] const RobotModel& model() const { return model_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  /// How others see it.
+  /// The robot as seen by others.
   [[nodiscard]] Disc disc() const;
 
  private:
@@ -89,7 +90,7 @@ class RobotInWorld {
   Rng camera_rng_;
   Rng tank_rng_;
   Rng stereo_rng_;
-  std::unique_ptr<OmniRenderer> omni_;  ///< made with the first picture: its tables are large
+  std::unique_ptr<OmniRenderer> omni_;  ///< made with the first picture, because its tables are large
   std::unique_ptr<StereoRenderer> stereo_;
 };
 

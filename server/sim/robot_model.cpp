@@ -41,7 +41,7 @@ Status check_base(const RobotModel& m) {
     return refuse("base", "needs sizes and limits above 0");
   }
   const OdometryModel& o = m.odometry;
-  if (!not_negative({o.sigma_distance, o.sigma_turn, o.sigma_turn_per_distance}) ||
+  if (!not_negative({o.sigma_distance, o.sigma_rotation, o.sigma_rotation_per_distance}) ||
       !positive({o.left_wheel_scale, o.right_wheel_scale, o.wheel_base_scale})) {
     return refuse("odometry", "needs sigmas of 0 or more and scales above 0");
   }

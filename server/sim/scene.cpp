@@ -105,15 +105,15 @@ void Scene::add_prism(const std::vector<Point2>& corners, double z_min, double z
   const int solid = static_cast<int>(solids_.size());
   solids_.push_back(
       {z_min, z_max, faces_.size(), corners.size(), make_paint(surface, mix(faces_.size()), pattern_seed_)});
-  double way_m = 0.0;
+  double distance_m = 0.0;
   const Paint first = make_paint(surface, faces_.size(), pattern_seed_);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Segment segment = Segment::between(corners[i], corners[(i + 1) % corners.size()]);
     Face face{segment, Point2(segment.direction.y(), -segment.direction.x()), z_min, z_max, solid, kNoPicture, first};
     face.paint.albedo *= side_light(lighting_, face.normal);
-    face.paint.u0_texel += way_m * first.texels_per_m;  // the texture goes on around the corner
-    face.paint.along0_m = way_m;
-    way_m += segment.length_m;
+    face.paint.u0_texel += distance_m * first.texels_per_m;  // the texture goes on around the corner
+    face.paint.along0_m = distance_m;
+    distance_m += segment.length_m;
     faces_.push_back(face);
   }
 }

@@ -1,5 +1,5 @@
 /// \file
-/// The world as rays see it: vertical faces, the convex solids they bound, and a grid that finds them quickly.
+/// The world for ray casting: vertical faces, the convex solids that they bound, and a grid that finds them quickly.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace seeker::sim {
 
 inline constexpr int kNoPicture = -1;
 
-/// How a face or a solid's top is painted, ready for the renderer.
+/// Paint of a face or of a solid's top, ready for the renderer.
 struct Paint {
-  double albedo = 0.7;  ///< side light included
+  double albedo = 0.7;  ///< reflectance, side light included
   double contrast = 0.0;
   double texels_per_m = 100.0;
-  double u0_texel = 0.0;  ///< where its cut of the noise picture begins; large enough that no coordinate is negative
+  double u0_texel = 0.0;  ///< first column of its cut of the noise picture; large enough that no coordinate is negative
   double v0_texel = 0.0;
-  std::uint64_t pattern = 0;  ///< of the stereo camera's pattern (see Pattern): no two surfaces share one
+  std::uint64_t pattern = 0;  ///< number of the stereo camera's pattern (see Pattern), different for each surface
   double feature_m = 0.12;    ///< size of the pattern's coarsest blotch
-  double along0_m = 0.0;      ///< where along the pattern a face begins
+  double along0_m = 0.0;      ///< where along the pattern the face begins
 };
 
 /// A vertical rectangle over the segment `segment` between two heights.
@@ -38,16 +38,16 @@ struct Face {
   Paint paint;
 };
 
-/// A convex prism, or a single face without inside.
+/// A convex prism, or a single face without an inside.
 struct Solid {
   double z_min_m = 0.0;
   double z_max_m = 0.0;
   std::size_t first_face = 0;
   std::size_t face_count = 0;
-  Paint cover;  ///< of its top and bottom
+  Paint cover;  ///< paint of its top and bottom
 };
 
-/// Something upright and round that moves, at one moment: a walking person, another robot.
+/// An upright, round, moving object at one moment: a walking person or another robot.
 struct Disc {
   Point2 centre = Point2::Zero();
   double radius_m = 0.0;
@@ -55,11 +55,11 @@ struct Disc {
   Paint paint;
 };
 
-/// Nearest thing on a ray.
+/// The nearest object on a ray.
 struct RayHit {
   double distance_m = 0.0;
-  double cos_incidence = 1.0;  ///< between ray and normal, 0: grazing
-  double to_edge_m = 1e9;      ///< from the hit to the nearer vertical edge of its face
+  double cos_incidence = 1.0;  ///< cosine of the angle between ray and normal; 0: grazing
+  double to_edge_m = 1e9;      ///< distance from the hit to the nearer vertical edge of its face
 };
 
 /// Interval of heights.
@@ -71,7 +71,7 @@ struct HeightBand {
 
 class Scene {
  public:
-  /// From a valid world.
+  /// Makes the scene of a valid world.
   explicit Scene(const World& world);
 
   [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
@@ -79,15 +79,15 @@ class Scene {
   [[nodiscard]] const std::vector<PictureTexture>& pictures() const { return pictures_; }
   [[nodiscard]] const FaceGrid& grid() const { return grid_; }
   [[nodiscard]] const Paint& floor() const { return floor_; }
-  [[nodiscard]] double ceiling_m() const { return ceiling_m_; }  ///< nothing reaches higher
+  [[nodiscard]] double ceiling_m() const { return ceiling_m_; }  ///< height that no object exceeds
   [[nodiscard]] const std::vector<Disc>& moving() const { return moving_; }
   void set_moving(std::vector<Disc> moving) { moving_ = std::move(moving); }
 
-  /// Nearest face or moving thing that has something at height z, within range_max_m. `direction` has length 1.
+  /// The nearest face or moving object at height z on the ray, within range_max_m. `direction` has length 1.
   [[nodiscard]] std::optional<RayHit> nearest(const Point2& origin, const Point2& direction, double range_max_m,
                                               double z_m) const;
 
-  /// Distance from p to the nearest thing in the band of heights, at most `limit_m`; 0 inside a solid.
+  /// Distance from p to the nearest object in the band of heights, at most `limit_m`; 0 inside a solid.
   [[nodiscard]] double clearance_m(const Point2& p, double limit_m, const HeightBand& band) const;
 
  private:
@@ -108,13 +108,13 @@ class Scene {
   FaceGrid grid_;
 };
 
-/// Texture numbers of a surface; `serial` makes the cut of each face its own, `pattern_seed` is World::pattern_seed.
+/// Texture numbers of a surface; `serial` gives each face its own cut, `pattern_seed` is World::pattern_seed.
 [[nodiscard]] Paint make_paint(const Surface& surface, std::uint64_t serial, std::uint64_t pattern_seed = 0);
 
 /// Corners of a standing cylinder as a prism, counter-clockwise.
 [[nodiscard]] std::vector<Point2> cylinder_corners(const Point2& centre, double radius_m);
 
-/// Relative brightness of a place.
+/// Relative brightness at a place.
 [[nodiscard]] double light_at(const Lighting& lighting, const Point2& p_world);
 
 }  // namespace seeker::sim

@@ -1,5 +1,5 @@
 /// \file
-/// A world with several robots in it, which see and block each other.
+/// A world with several robots, which see and block each other.
 #pragma once
 
 #include <cstdint>
@@ -16,27 +16,27 @@ namespace seeker::sim {
 
 inline constexpr std::size_t kMaxRobotsInWorld = 16;
 
-/// Who is put into a shared world, and where.
+/// A robot of a shared world and its start.
 struct RobotPlace {
   RobotModel model;
   std::uint64_t seed = 1;
   std::size_t start = 0;  ///< index into World::starts
 };
 
-/// Deterministic: all robots make a step from where all were before it, and each draws its own noise, so that neither
+/// A deterministic world: all robots move from the state before the step, and each draws its own noise, so that neither
 /// the order of the calls nor the number of robots out of sight changes what one of them senses. Between two calls of
-/// advance() every robot may be used by a thread of its own.
+/// advance() every robot may be used by a separate thread.
 class SharedWorld {
  public:
-  /// Fails where world or a model are not valid, where there are no robots or too many, or where one has no room at its
-  /// start, other robots included.
+  /// Makes the world. It fails when the world or a model is invalid, when there are no robots or too many, or when a
+  /// robot has no room at its start, other robots included.
   [[nodiscard]] static Result<std::shared_ptr<SharedWorld>> create(World world, std::vector<RobotPlace> places);
 
   SharedWorld(const SharedWorld&) = delete;
   SharedWorld& operator=(const SharedWorld&) = delete;
   ~SharedWorld() = default;
 
-  /// Lets the world go on, in steps of at most 10 ms.
+  /// Advances the simulated time, in steps of at most 10 ms.
   void advance(Duration period);
   [[nodiscard]] RobotTime now() const { return now_; }
   [[nodiscard]] const World& world() const { return world_; }
@@ -48,7 +48,7 @@ class SharedWorld {
   explicit SharedWorld(World world);
   [[nodiscard]] Status add(RobotPlace place);
   void step(Duration period);
-  /// Tells every robot where all others and the people are now.
+  /// Gives every robot the present places of all others and of the people.
   void show_surroundings();
 
   World world_;

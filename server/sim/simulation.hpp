@@ -1,6 +1,6 @@
 /// \file
-/// A simulated robot in its world: stands in for the hardware (spec S0.6). Single-threaded and deterministic: the
-/// same world, model, seed and calls give the same readings. It has the world for itself, or shares it (SharedWorld).
+/// A simulated robot in its world, in place of the hardware (spec S0.6). It is single-threaded and deterministic: the
+/// same world, model, seed and calls give the same readings. It has a world of its own or shares one (SharedWorld).
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,17 @@ class SharedWorld;
 
 class Simulation {
  public:
-  /// Fails where world or model are not valid, or where the robot has no room at `start`.
+  /// Makes a robot in its own world. It fails when world or model are invalid, or when the robot has no room at
+  /// `start`.
   [[nodiscard]] static Result<Simulation> create(World world, RobotModel model, std::uint64_t seed,
                                                  std::size_t start = 0);
-  /// Robot `index` of a world that others are in too.
+  /// Robot `index` of a shared world.
   Simulation(std::shared_ptr<SharedWorld> shared, std::size_t index);
 
-  /// The velocity to accelerate to; clamped to the model's limits, held until the next call.
+  /// Sets the velocity to accelerate to; it is limited to the model's limits and held until the next call.
   void command(const Twist2& velocity);
-  /// Lets the world go on for all that are in it, in steps of at most 10 ms. A body that meets an obstacle stops there.
+  /// Advances the time for all robots of the world, in steps of at most 10 ms. A body that meets an obstacle stops
+  /// there.
   void advance(Duration period);
   [[nodiscard]] RobotTime now() const;
 
@@ -41,10 +43,10 @@ class Simulation {
   [[nodiscard]] Image omni_image();
   /// Grey picture of the camera that looks down at the floor of a tank.
   [[nodiscard]] Image tank_image();
-  /// That of the two which the model has.
+  /// The picture of the camera that the model has.
   [[nodiscard]] Image camera_image();
 
-  /// Both eyes of the stereo camera at this moment, grey, rectified up to the errors of the model.
+  /// The pictures of both eyes of the stereo camera at this moment, grey, rectified up to the errors of the model.
   [[nodiscard]] StereoFrame stereo_pair();
 
   [[nodiscard]] GroundTruth truth() const;

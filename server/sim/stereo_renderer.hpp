@@ -1,6 +1,6 @@
 /// \file
-/// Pictures of the stereo camera (spec S2.2): pinhole eyes over textured surfaces, as vision.md 4.5 demands. Shares no
-/// code with the estimator's geometry.
+/// Pictures of the stereo camera (spec S2.2): pinhole eyes and textured surfaces (vision.md 4.5). The renderer shares
+/// no code with the estimator's geometry.
 #pragma once
 
 #include <array>
@@ -16,15 +16,15 @@ namespace seeker::sim {
 
 class StereoRenderer {
  public:
-  /// From a valid model.
+  /// Makes a renderer for a valid model.
   explicit StereoRenderer(const StereoModel& model);
 
-  /// `exposure` scales all brightness. The stamp is left to the caller.
+  /// Renders both eyes; `exposure` scales all brightness. The caller sets the stamp.
   [[nodiscard]] StereoFrame render(const Scene& scene, const Lighting& lighting, const Pose2& world_T_base,
                                    double exposure, Rng& rng);
 
  private:
-  /// One eye and what it is made of.
+  /// One eye and the parts of its picture.
   struct Eye {
     Eye(const StereoModel& model, const EyeErrors& errors, const Pose2& base_T_eye);
     EyeErrors errors;
@@ -34,7 +34,7 @@ class StereoRenderer {
   };
   [[nodiscard]] Image picture(Eye& eye, const Scene& scene, const Lighting& lighting, const Pose2& world_T_base,
                               double exposure, Rng& rng);
-  /// Brightness of what a ray sees, 1: white.
+  /// Brightness of the surface that a ray meets, 1: white.
   [[nodiscard]] double shade(const EyeView& view, const Lighting& lighting, std::int32_t patch, double ray_x,
                              double ray_y);
   [[nodiscard]] double paint_at(const Patch& patch, const Point2& p, double z_m, double footprint_m);
@@ -44,7 +44,7 @@ class StereoRenderer {
   std::array<Eye, 2> eyes_;  ///< left, right
   Pattern pattern_;
   std::array<SampleRow, EyeView::kPerPixel> rows_;
-  std::vector<float> light_;  ///< before the sensor
+  std::vector<float> light_;  ///< light of the picture, before the sensor
 };
 
 }  // namespace seeker::sim

@@ -206,8 +206,8 @@ class Tank {
 
  private:
   [[nodiscard]] double beam_at(int u, int v) const {
-    const double x = 2.0 * u / kTankWidth_px - 1.0 - water_.lamp_turn_u;
-    const double y = 2.0 * v / kTankHeight_px - 1.0 - water_.lamp_turn_v;
+    const double x = 2.0 * u / kTankWidth_px - 1.0 - water_.lamp_offset_u;
+    const double y = 2.0 * v / kTankHeight_px - 1.0 - water_.lamp_offset_v;
     return std::exp(-0.25 * water_.beam * (x * x + y * y));
   }
 

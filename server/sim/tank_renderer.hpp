@@ -1,6 +1,6 @@
 /// \file
-/// Pictures of a camera over the floor of a tank of turbid water: solids, floor and walls, by casting a ray through
-/// every pixel and one more to the lamp.
+/// Pictures of a camera over the floor of a tank of turbid water: solids, floor and walls, with one ray through every
+/// pixel and one more to the lamp.
 #pragma once
 
 #include <vector>
@@ -13,17 +13,17 @@
 
 namespace seeker::sim {
 
-/// Where the picture is taken from; the floor is z = 0, the camera has no roll.
+/// Pose of the camera; the floor is z = 0, and the camera has no roll.
 struct TankEye {
   Eigen::Vector3d position = Eigen::Vector3d::UnitZ();
   double heading_rad = 0.0;
-  double tilt_rad = 0.0;  ///< of the optical axis, down from the horizon
-  double off_u_px = 0.0;  ///< of the optical axis from the picture's middle
+  double tilt_rad = 0.0;  ///< angle of the optical axis down from the horizon
+  double off_u_px = 0.0;  ///< offset of the optical axis from the picture's middle
   double off_v_px = 0.0;
 };
 
-/// How far the walls are from below the eye, in directions relative to its heading that ascend evenly. Painted like the
-/// floor. Empty: no walls.
+/// Distances of the walls from the point below the eye, in evenly spaced ascending directions relative to its heading.
+/// The walls are painted like the floor. Empty: there are no walls.
 struct TankWalls {
   double first_rad = 0.0;
   double step_rad = 0.0;
@@ -36,7 +36,7 @@ struct TankWalls {
 
 /// Height of a solid's middle over the floor.
 [[nodiscard]] double half_height_m(const TankSolid& solid);
-/// What it covers of the floor at most, counter-clockwise.
+/// Outline of the largest area of the floor that the solid covers, counter-clockwise.
 [[nodiscard]] std::vector<Point2> outline(const TankSolid& solid);
 
 }  // namespace seeker::sim

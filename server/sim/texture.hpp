@@ -1,6 +1,6 @@
 /// \file
-/// Pictures on surfaces: a noise picture that every wall cuts its own piece from, and the targets' pictures; both with
-/// mip levels, since a far wall must not be sampled texel by texel (vision.md 4.5).
+/// Pictures on surfaces: a noise picture of which every wall shows its own part, and the targets' pictures; both with
+/// mip levels, because a far wall must not be sampled texel by texel (vision.md 4.5).
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class NoiseTexture {
 /// A target's picture as grey levels 0..1 with mip levels.
 class PictureTexture {
  public:
-  /// A picture that is not empty.
+  /// Makes the levels of a picture that is not empty.
   explicit PictureTexture(const Image& picture);
 
   [[nodiscard]] int levels() const { return static_cast<int>(levels_.size()); }

@@ -45,8 +45,8 @@ TurbidWater draw_water(Rng& rng) {
   water.ambient = rng.uniform(0.2, 0.45);
   water.lamp_right_m = rng.uniform(-0.3, 0.3);
   water.lamp_up_m = rng.uniform(0.1, 0.4);
-  water.lamp_turn_u = rng.uniform(-0.5, 0.5);
-  water.lamp_turn_v = rng.uniform(-0.5, 0.5);
+  water.lamp_offset_u = rng.uniform(-0.5, 0.5);
+  water.lamp_offset_v = rng.uniform(-0.5, 0.5);
   water.beam = rng.uniform(0.5, 2.5);
   water.gain = rng.uniform(0.9, 1.4);
   return water;

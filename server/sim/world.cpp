@@ -131,8 +131,8 @@ void check_tank(const World& w, Checker& c) {
   c.require(from_0(water.attenuation_per_m, kMost) && from_0(water.veil, 1.0) && from_0(water.blur_px, kMost) &&
                 from_0(water.noise, kMost) && from_0(water.floor_albedo, 1.0) && from_0(water.ambient, 1.0) &&
                 from_0(water.beam, kMost) && from_0(water.gain, kMost) && std::abs(water.lamp_right_m) <= kMost &&
-                from_0(water.lamp_up_m, kMost) && std::abs(water.lamp_turn_u) <= kMost &&
-                std::abs(water.lamp_turn_v) <= kMost,
+                from_0(water.lamp_up_m, kMost) && std::abs(water.lamp_offset_u) <= kMost &&
+                std::abs(water.lamp_offset_v) <= kMost,
             "water", "has a value outside its range");
 }
 

@@ -13,27 +13,27 @@
 
 namespace seeker::slam {
 
-/// H dx = b with one 3-vector a variable. The pattern is ordered (approximate minimum degree over blocks, a ninth of
-/// the work of ordering scalars) and analysed once; blocks are added without searching.
+/// The linear system H dx = b with one 3-vector per variable. The pattern is ordered (approximate minimum degree over
+/// blocks, a ninth of the work of ordering scalars) and analysed once; blocks are added without searching.
 class BlockSystem {
  public:
   using Pair = std::pair<std::size_t, std::size_t>;
 
-  /// Pattern of `variables` blocks on the diagonal and a block for each pair of different variables.
+  /// The pattern has one block on the diagonal for each of `variables` and one for each pair of different variables.
   BlockSystem(std::size_t variables, const std::vector<Pair>& pairs);
 
   void set_zero();
   void add_diagonal(std::size_t variable, const Matrix3& block);
-  /// Adds `block` = H(a, b) of the pair with that number, as given to the constructor, and its transpose.
+  /// Adds `block` = H(a, b) of the pair with that index, as given to the constructor, and its transpose.
   void add_pair(std::size_t pair, const Matrix3& block);
   void add_right(std::size_t variable, const Eigen::Vector3d& value);
 
-  /// Factors H + damping * diag(H). False: not positive definite or not finite.
+  /// Factors H + damping * diag(H). False when the matrix is not positive definite or not finite.
   [[nodiscard]] bool factor(double damping);
-  /// Solution for the right side that was added; after factor().
+  /// Solves for the right side that was added; requires factor().
   void solve();
   [[nodiscard]] Eigen::Vector3d solution(std::size_t variable) const;
-  /// The block H^-1(row, column of `variable`) for each asked row; after factor().
+  /// The block H^-1(row, column of `variable`) for each requested row; requires factor().
   [[nodiscard]] std::vector<Matrix3> inverse_blocks(std::size_t variable, const std::vector<std::size_t>& rows) const;
 
  private:
@@ -42,17 +42,17 @@ class BlockSystem {
   struct Slot {
     std::size_t row = 0;      ///< block row, above the diagonal
     std::size_t column = 0;   ///< block column
-    int rank = 0;             ///< place among the blocks of the column
-    bool transposed = false;  ///< the pair was given the other way round
+    int rank = 0;             ///< rank among the blocks of the column
+    bool transposed = false;  ///< the pair was given in the opposite order
   };
 
   void order(std::size_t variables, const std::vector<Pair>& pairs);
   void lay_out(const std::vector<Pair>& pairs);
   [[nodiscard]] double* column_values(std::size_t column, int scalar, int rank);
 
-  std::vector<std::size_t> place_;  ///< of a variable in the ordering
-  std::vector<int> above_;          ///< blocks above the diagonal, by block column
-  std::vector<Slot> slots_;         ///< by pair
+  std::vector<std::size_t> place_;  ///< position of each variable in the ordering
+  std::vector<int> above_;          ///< number of blocks above the diagonal, by block column
+  std::vector<Slot> slots_;         ///< matrix block of each pair
   Sparse matrix_;                   ///< upper triangle
   Eigen::VectorXd right_;
   Eigen::VectorXd solution_;

@@ -14,8 +14,8 @@ namespace {
 constexpr double kFull = 255.0;
 constexpr std::size_t kMaxPoints = 250;  ///< their sum fits into 16 bits
 
-/// A point turned to one heading, in whole cells from the base.
-struct TurnedPoint {
+/// A point rotated to one heading, in whole cells from the base.
+struct RotatedPoint {
   int i;
   int j;
   int direction;
@@ -24,7 +24,7 @@ struct TurnedPoint {
 /// Poses with one heading: block (0, 0) of the top level begins at cell `first`.
 struct Heading {
   double theta_rad;
-  std::vector<TurnedPoint> points;
+  std::vector<RotatedPoint> points;
 };
 
 struct Block {
@@ -124,7 +124,7 @@ class Search {
     LikelihoodPyramid::BlockSums sums(range_.columns, range_.rows);
     for (int heading = 0; heading < range_.headings; ++heading) {
       std::fill(sums.sums.begin(), sums.sums.end(), std::uint16_t{0});
-      for (const TurnedPoint& point : headings_[static_cast<std::size_t>(heading)].points) {
+      for (const RotatedPoint& point : headings_[static_cast<std::size_t>(heading)].points) {
         map_.add_blocks(point.direction, {range_.first.i + point.i, range_.first.j + point.j}, sums);
       }
       for (int row = 0; row < range_.rows; ++row) {
@@ -144,7 +144,7 @@ class Search {
 
   /// Sum of the level's maxima; gives up, with a sum at or below the threshold, when it cannot get above it.
   [[nodiscard]] int bound_of(const Block& block, int level) const {
-    const std::vector<TurnedPoint>& points = headings_[static_cast<std::size_t>(block.heading)].points;
+    const std::vector<RotatedPoint>& points = headings_[static_cast<std::size_t>(block.heading)].points;
     constexpr std::size_t kStride = 16;
     int sum = 0;
     for (std::size_t begin = 0; begin < points.size(); begin += kStride) {

@@ -1,5 +1,5 @@
 /// \file
-/// A match far from where the odometry has the robot: believed when the scans after it say the same.
+/// Confirmation of matches far from the odometry: such a match is accepted when the following scans agree with it.
 #pragma once
 
 #include "common/core/pose2.hpp"
@@ -7,24 +7,24 @@
 namespace seeker::slam {
 
 struct JumpParams {
-  int scans = 3;         ///< in a row that must agree
-  double agree_m = 0.3;  ///< to within this
-  double agree_rad = 0.1;
+  int scans = 3;           ///< number of scans in a row that must agree
+  double agree_m = 0.3;    ///< largest difference in position between agreeing scans
+  double agree_rad = 0.1;  ///< largest difference in heading between agreeing scans
 };
 
 class JumpWitness {
  public:
   explicit JumpWitness(const JumpParams& params = {}) : params_(params) {}
 
-  /// One scan was matched at `found` where `predicted` was expected, both in one frame, while the robot goes on by its
-  /// odometry. True when enough scans in a row have found it as far off.
+  /// Records that one scan was matched at `found` where `predicted` was expected, both in one frame, while the robot
+  /// continues by its odometry. True when enough scans in a row have found the same offset.
   [[nodiscard]] bool confirms(const Pose2& found, const Pose2& predicted);
-  /// A scan that said nothing of a jump, or that another frame begins.
+  /// Forgets the jump, after a scan without a jump or a change of frame.
   void clear() { scans_ = 0; }
 
  private:
   JumpParams params_;
-  Pose2 found_T_predicted_;  ///< found * inverse(predicted): the same as long as the jump is
+  Pose2 found_T_predicted_;  ///< found * inverse(predicted): constant as long as the jump persists
   int scans_ = 0;
 };
 

@@ -50,12 +50,12 @@ struct LineSlam::Scan {
   std::vector<lines::SegmentObservation> observations;
   std::vector<OrientedPoint> all_points;  ///< in `base`
   std::vector<OrientedPoint> points;      ///< thinned
-  Pose2 before;                           ///< node_T_base at the scan before that was looked at,
-  Pose2 predicted;                        ///< and now, by odometry
-  double wheels_turned_rad = 0.0;         ///< since then
-  double dt_s = 0.0;                      ///< since then
-  bool gap = false;                       ///< after more way than a match bridges safely
-  bool silent = false;                    ///< the wheels told of no motion
+  Pose2 before;                           ///< node_T_base at the previous used scan
+  Pose2 predicted;                        ///< node_T_base now, by odometry
+  double wheels_rotation_rad = 0.0;       ///< rotation by the wheels since the previous used scan
+  double dt_s = 0.0;                      ///< time since the previous used scan
+  bool gap = false;                       ///< after a longer distance than a match bridges safely
+  bool silent = false;                    ///< the wheels reported no motion
 };
 
 LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
@@ -66,7 +66,7 @@ LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
       odometry_scale_(params.odometry_scale),
       odometry_bias_(params.odometry_bias),
       unseen_(params.unseen),
-      turn_sense_(params.turn_sense),
+      rotation_sense_(params.rotation_sense),
       jump_(params.points.jump),
       travelled_(params.odometry),
       cloud_(params.points.cloud),
@@ -88,7 +88,7 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   cloud_.clear();
   odometry_bias_.forget_match();
   unseen_ = UnseenMotion(params_.unseen);
-  turn_sense_.clear();
+  rotation_sense_.clear();
   jump_.clear();
   travelled_.correct({}, Matrix3::Zero());
   next_id_ = 1;
@@ -100,16 +100,16 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   failures_ = 0;
   repeats_ = 0;
   stood_ = 0;
-  way_since_loops_m_ = 0.0;
-  way_since_leftover_m_ = 0.0;
-  turn_since_leftover_rad_ = 0.0;
+  distance_since_loops_m_ = 0.0;
+  distance_since_leftover_m_ = 0.0;
+  rotation_since_leftover_rad_ = 0.0;
   ++revision_;
   counts_ = {};
 }
 
 void LineSlam::start_local_map() {
   lines_ = std::make_unique<SpMap>(Pose2{}, Matrix3::Zero(), params_.lines);
-  way_m_ = 0.0;
+  distance_m_ = 0.0;
 }
 
 Status LineSlam::predict(const Pose2& odom_T_base, RobotTime stamp) {
@@ -147,7 +147,7 @@ PoseEstimate LineSlam::estimate() const {
   estimate.map_T_base = map_T_node * node_T_now;
   estimate.covariance =
       node_a * backend_.newest_covariance() * node_a.transpose() + node_b * in_node * node_b.transpose();
-  // Whatever is said of the local map while the robot is looked for: its place in the whole one is not known.
+  // During relocalisation the pose in the whole map is unknown, whatever the quality in the local map is.
   const bool looked_for = backend_.apart() && quality_ != LocalisationQuality::kLost;
   estimate.quality = looked_for ? LocalisationQuality::kUnknown : quality_;
   estimate.cause = cause_;
@@ -183,13 +183,13 @@ Status LineSlam::update(const LaserScan& scan) {
             .points = {},
             .before = lines_->robot(),
             .predicted = {},
-            .wheels_turned_rad = travelled.map_T_base.theta_rad,
+            .wheels_rotation_rad = travelled.map_T_base.theta_rad,
             .dt_s = to_seconds(scan.stamp - std::exchange(used_stamp_, scan.stamp))};
   step.silent = !jumped && unseen_.is_silent(travelled.map_T_base);
   const UncertainPose motion = expected_motion(travelled, step.silent, step.dt_s);
   lines_->predict(motion.a_T_b, motion.covariance);
   step.predicted = lines_->robot();
-  note_way(motion.a_T_b);
+  note_distance(motion.a_T_b);
   const double sigma_m = std::sqrt(motion.covariance.topLeftCorner<2, 2>().maxCoeff());
   step.gap = jumped || moved({}, motion.a_T_b, params_.points.gap_m, params_.points.gap_rad) ||
              (step.silent && sigma_m > params_.points.gap_m);
@@ -233,15 +233,15 @@ void LineSlam::follow(Scan& scan) {
     return;
   }
   if (!scan.silent && !scan.gap) {
-    turn_sense_.note(scan.wheels_turned_rad, wrap_angle(match.map_T_base.theta_rad - scan.before.theta_rad));
+    rotation_sense_.note(scan.wheels_rotation_rad, wrap_angle(match.map_T_base.theta_rad - scan.before.theta_rad));
   }
   correct(scan, match);
   matched_ = true;
   failures_ = 0;
   note_quality(match);
   keep(scan, match.inlier_ratio);
-  if (way_since_loops_m_ >= params_.loops.every_m) {
-    way_since_loops_m_ = 0.0;
+  if (distance_since_loops_m_ >= params_.loops.every_m) {
+    distance_since_loops_m_ = 0.0;
     backend_.plan_loops(lines_->robot());
   }
   if (backend_.step_loops()) {
@@ -280,8 +280,8 @@ bool LineSlam::believable(const Scan& scan, const MatchResult& match) {
                        : careful ? params_.points.good_ratio
                                  : params_.points.accept_ratio;
   const bool fits = match.pairs >= params_.points.match.min_pairs && match.inlier_ratio >= ratio;
-  // After a gap wheels may have slipped by any way; within a few centimetres they have not. Those that say nothing
-  // contradict nothing that is possible.
+  // After a gap wheels may have slipped by any distance; within a few centimetres they have not. Silent wheels do not
+  // contradict any possible motion.
   const bool impossible = unseen_.is_too_fast(inverse(scan.before) * match.map_T_base, scan.dt_s);
   const bool jumps = !scan.gap && (scan.silent ? impossible : far || surprise > kJump);
   if (!fits || !jumps) {
@@ -294,7 +294,7 @@ bool LineSlam::believable(const Scan& scan, const MatchResult& match) {
 void LineSlam::use_points(const Scan& scan, const MatchResult& match) {
   const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
   if (lines_->pose_d2(match.map_T_base, covariance, match.degenerate_direction) > kContradiction) {
-    // The wheels slipped more than their noise admits: the prediction is widened by what the match says it was off.
+    // The wheels slipped more than their noise model admits: the prediction is widened by its offset from the match.
     const Pose2 off = inverse(scan.predicted) * match.map_T_base;
     lines_->predict({}, Eigen::Vector3d(off.x_m * off.x_m + off.y_m * off.y_m, off.x_m * off.x_m + off.y_m * off.y_m,
                                         off.theta_rad * off.theta_rad)
@@ -325,7 +325,7 @@ void LineSlam::correct(Scan& scan, const MatchResult& match) {
     learn_odometry(match, covariance);
   }
   const bool far = moved(scan.predicted, match.map_T_base, params_.points.first_m, params_.points.first_rad);
-  // Lines that begin the next local map say nothing of what the wheels were off by on the way to this scan.
+  // Lines that begin the next local map hold no information about the odometry's error up to this scan.
   const bool full = map_is_full();
   const bool joins = full && params_.points.use == PointUse::kLeftover;
   const bool points_first = params_.points.use == PointUse::kAll || scan.gap || contradicted || unseen || far || joins;
@@ -339,11 +339,11 @@ void LineSlam::correct(Scan& scan, const MatchResult& match) {
   const Association association = lines_->associate(scan.observations);
   const SpUpdateReport report = update_lines(scan.observations, association);
   counts_.paired += static_cast<std::uint64_t>(report.paired);
-  const bool farther =
-      way_since_leftover_m_ >= params_.points.leftover_m || turn_since_leftover_rad_ >= params_.points.leftover_rad;
+  const bool farther = distance_since_leftover_m_ >= params_.points.leftover_m ||
+                       rotation_since_leftover_rad_ >= params_.points.leftover_rad;
   if (!points_first && farther && params_.points.use == PointUse::kLeftover) {
-    way_since_leftover_m_ = 0.0;
-    turn_since_leftover_rad_ = 0.0;
+    distance_since_leftover_m_ = 0.0;
+    rotation_since_leftover_rad_ = 0.0;
     use_leftover(scan, association);
   }
   if (unseen) {
@@ -385,7 +385,7 @@ void LineSlam::keep(const Scan& scan, double known) {
   }
   std::vector<MapKeyframe>& kept = backend_.newest().keyframes;
   const bool fresh = std::none_of(kept.begin(), kept.end(), [&](const MapKeyframe& keyframe) {
-    return !moved(keyframe.node_T_base, pose, params_.local.keyframe_distance_m, params_.local.keyframe_turn_rad);
+    return !moved(keyframe.node_T_base, pose, params_.local.keyframe_distance_m, params_.local.keyframe_rotation_rad);
   });
   if (fresh) {
     kept.push_back(pack_keyframe(scan.scan, backend_.newest().id, pose));

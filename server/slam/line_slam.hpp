@@ -1,5 +1,5 @@
 /// \file
-/// Line SLAM: the SPmap of the place around the robot, points as its safety net, and a graph of such places.
+/// Line SLAM: an SPmap of the surroundings of the robot, point matching as a safety net, and a graph of local maps.
 #pragma once
 
 #include <memory>
@@ -14,16 +14,16 @@
 
 namespace seeker::slam {
 
-/// Sums over all scans, for reports.
+/// Totals over all scans, for reports.
 struct LineSlamCounts {
   std::uint64_t scans = 0;
-  std::uint64_t still = 0;     ///< the robot had not moved: not used,
-  std::uint64_t stood = 0;     ///< but for the lines of these
-  std::uint64_t lines = 0;     ///< observations
-  std::uint64_t paired = 0;    ///< with a segment
-  std::uint64_t searched = 0;  ///< scans after a gap or a poor match
-  std::uint64_t unbelieved = 0;
-  std::uint64_t corridor = 0;  ///< scans that said nothing along one direction
+  std::uint64_t still = 0;       ///< scans that were not used because the robot had not moved
+  std::uint64_t stood = 0;       ///< scans of a standing robot whose lines were used
+  std::uint64_t lines = 0;       ///< line observations
+  std::uint64_t paired = 0;      ///< observations that were associated with a segment
+  std::uint64_t searched = 0;    ///< scans after a gap or a poor match, for which a wider search was made
+  std::uint64_t unbelieved = 0;  ///< scans whose match was rejected
+  std::uint64_t corridor = 0;    ///< scans that do not constrain the pose along one direction
 };
 
 /// Predicts by odometry, corrects by lines (SPmap EKF, spec S1.1-S1.10) and by points, closes loops between local maps.
@@ -53,25 +53,26 @@ class LineSlam final : public MapTracker {
   [[nodiscard]] const LineSlamCounts& counts() const { return counts_; }
   [[nodiscard]] const LoopCounts& loops() const { return backend_.loops(); }
   [[nodiscard]] const SpMap& local_map() const { return *lines_; }
-  /// All that are kept: those of the map, and the robot's own that are not part of it.
+  /// Number of all stored local maps: those of the map and the robot's own that are not part of it.
   [[nodiscard]] std::size_t local_maps() const { return backend_.maps().size(); }
 
  private:
-  struct Scan;  ///< one scan as the steps below see it
+  struct Scan;  ///< one scan as the steps below process it
 
   void begin(const Pose2& map_T_base, RobotTime stamp);
   [[nodiscard]] Status check_repeats(const LaserScan& scan);
-  /// A mirrored scanner would build a map of a mirrored building.
+  /// Detects a mirrored scanner, which would build a map of a mirrored building.
   [[nodiscard]] Status check_direction();
-  /// Since the last scan that was looked at.
+  /// Whether the odometry has jumped since the last scan that was used.
   [[nodiscard]] bool odometry_jumped() const;
   [[nodiscard]] bool stands_still(const LaserScan& scan) const;
-  /// Since the scan before that was looked at, in the frame of `base` there; covariance in that of `base` now.
+  /// The motion since the last scan that was used, in the frame of `base` at that scan; its covariance is in the frame
+  /// of `base` now.
   [[nodiscard]] UncertainPose expected_motion(const PoseEstimate& travelled, bool silent, double dt_s);
-  void note_way(const Pose2& motion);
-  /// One more scan of a stand.
+  void note_distance(const Pose2& motion);
+  /// Uses the lines of one more scan of a standing robot.
   void look_again(const LaserScan& scan);
-  /// Every update of the lines is a new revision of the map.
+  /// Updates the lines; every update is a new revision of the map.
   SpUpdateReport update_lines(const std::vector<lines::SegmentObservation>& observations,
                               const Association& association);
   void learn_odometry(const MatchResult& match, const Matrix3& covariance);
@@ -84,16 +85,16 @@ class LineSlam final : public MapTracker {
   void note_failure(const Scan& scan);
   void note_quality(const MatchResult& match);
   void keep(const Scan& scan, double known);
-  /// With `carried` keyframes of the present one, by which the next scans are matched.
+  /// Begins the next local map with `carried` keyframes of the present one, against which the next scans are matched.
   void begin_next_map(RobotTime stamp, std::size_t carried);
   void store_local_map();
   [[nodiscard]] bool map_is_full() const;
   void start_local_map();
   void look_for_robot();
   [[nodiscard]] std::vector<SeenPoints> seen_lately() const;
-  /// Of the whole map; one that cannot be searched is not made ready again at every try.
+  /// The whole map, ready for a search; a map that cannot be searched is not prepared again at every attempt.
   [[nodiscard]] const Result<PlaceMap>& whole_place();
-  /// Of what shows the surroundings of a place.
+  /// The part of the map that shows the surroundings of a pose, ready for a search.
   [[nodiscard]] const Result<PlaceMap>& place_about(const Pose2& map_T_base);
   [[nodiscard]] Result<PlaceAnswer> find_place(const std::vector<SeenPoints>& seen);
   void forget_places();
@@ -107,39 +108,40 @@ class LineSlam final : public MapTracker {
   OdometryScale odometry_scale_;
   OdometryBias odometry_bias_;
   UnseenMotion unseen_;
-  TurnSense turn_sense_;
+  RotationSense rotation_sense_;
   JumpWitness jump_;
-  OdometryTracker travelled_;     ///< since the last scan: its pose is the increment
-  std::unique_ptr<SpMap> lines_;  ///< of the newest local map, in its frame
-  LocalCloud cloud_;              ///< in the same frame
+  OdometryTracker travelled_;     ///< dead reckoning since the last scan: its pose is the increment
+  std::unique_ptr<SpMap> lines_;  ///< filter of the newest local map, in its frame
+  LocalCloud cloud_;              ///< points of the keyframes, in the same frame
   MapBackend backend_;
   LocalisationQuality quality_ = LocalisationQuality::kUnknown;
   std::string cause_;
   std::optional<RobotTime> last_scan_;
-  RobotTime used_stamp_;              ///< of the last scan: since then the motion is to be found
-  std::vector<float> newest_ranges_;  ///< of the last scan,
-  std::vector<float> used_ranges_;    ///< and of the last that was not taken for one more of the same
-  int stood_ = 0;                     ///< scans of this stand that were used
-  bool repeated_ = false;             ///< the last scan was that before it once more, noise and all
-  int repeats_ = 0;                   ///< so often while the robot drove
+  RobotTime used_stamp_;              ///< time of the last scan that was used, from which on the motion is estimated
+  std::vector<float> newest_ranges_;  ///< ranges of the last scan
+  std::vector<float> used_ranges_;    ///< ranges of the last scan that was not a repetition
+  int stood_ = 0;                     ///< number of scans used since the robot stands still
+  bool repeated_ = false;             ///< the last scan equalled the one before it, noise included
+  int repeats_ = 0;                   ///< number of such repetitions while the robot drove
   int failures_ = 0;
-  bool matched_ = false;  ///< the last scan that was looked at fitted the map
-  double way_m_ = 0.0;    ///< driven in the newest local map
-  double way_since_loops_m_ = 0.0;
-  double way_since_kept_m_ = 0.0;         ///< since kept_map_T_node_ was told
-  double way_since_leftover_m_ = 0.0;     ///< driven since points on no line were used,
-  double turn_since_leftover_rad_ = 0.0;  ///< and turned
+  bool matched_ = false;     ///< the last scan that was used matched the map
+  double distance_m_ = 0.0;  ///< path length driven in the newest local map
+  double distance_since_loops_m_ = 0.0;
+  double distance_since_kept_m_ = 0.0;        ///< path length since kept_map_T_node_ was given
+  double distance_since_leftover_m_ = 0.0;    ///< path length since points on no line were used
+  double rotation_since_leftover_rad_ = 0.0;  ///< rotation since points on no line were used
   std::uint64_t revision_ = 0;
   std::uint64_t next_id_ = 1;
-  // Looking for the robot in a map; the places are there only meanwhile.
+  // State of relocalisation; the searchable maps exist only meanwhile.
   PlaceRecogniser recogniser_;
   std::unique_ptr<Result<PlaceMap>> whole_place_;
   std::unique_ptr<Result<PlaceMap>> near_place_;
-  Pose2 near_place_at_;  ///< what near_place_ is about
+  Pose2 near_place_at_;  ///< centre of near_place_
   std::string search_cause_;
-  std::optional<Pose2> hint_map_T_node_;  ///< where the newest local map lies by what somebody has named
-  std::optional<Pose2> kept_map_T_node_;  ///< where the newest local map lies if the robot began it where it stood
-  Pose2 last_try_;                        ///< node_T_base
+  /// Pose of the newest local map according to a pose that was named by the user.
+  std::optional<Pose2> hint_map_T_node_;
+  std::optional<Pose2> kept_map_T_node_;  ///< pose of the newest local map if the robot began it at its stored pose
+  Pose2 last_try_;                        ///< pose of the robot at the last attempt, node_T_base
   int scans_since_try_ = 0;
   int tries_ = 0;
   PlaceClaim claim_;

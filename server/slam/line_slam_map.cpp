@@ -42,11 +42,11 @@ void LineSlam::store_local_map() {
 }
 
 bool LineSlam::map_is_full() const {
-  return way_m_ >= params_.local.max_way_m || lines_->segments().size() >= params_.local.max_segments;
+  return distance_m_ >= params_.local.max_distance_m || lines_->segments().size() >= params_.local.max_segments;
 }
 
 // Its frame is the robot where its first scan is taken, not where the last one of the present map was: what the robot
-// may be off by on the way between the two belongs to the joint. A local map that begins with an uncertain heading
+// may be off by along the path between the two belongs to the joint. A local map that begins with an uncertain heading
 // learns of it what no wall says, because the Jacobians of one wall are taken at ever other estimates: after 10 m a
 // tenth to a seventh of its variance (Julier & Uhlmann 2001; Huang, Mourikis & Roumeliotis 2010).
 void LineSlam::begin_next_map(RobotTime stamp, std::size_t carried) {
@@ -149,9 +149,9 @@ Status LineSlam::look_where_it_stood(const Pose2& map_T_base) {
   if (Status looking = relocalise(std::nullopt); !looking) {
     return looking;
   }
-  // What is driven from now on is known: the robot may roll out, or turn to look round.
+  // Motion from now on is measured: the robot may roll out, or rotate on the spot.
   kept_map_T_node_ = map_T_base * inverse(lines_->robot());
-  way_since_kept_m_ = 0.0;
+  distance_since_kept_m_ = 0.0;
   return {};
 }
 
@@ -224,7 +224,7 @@ std::vector<SeenPoints> LineSlam::seen_lately() const {
 
 Result<PlaceAnswer> LineSlam::find_place(const std::vector<SeenPoints>& seen) {
   const RelocaliseParams& params = params_.relocalise;
-  if (kept_map_T_node_ && way_since_kept_m_ <= params.place.kept.about_m) {
+  if (kept_map_T_node_ && distance_since_kept_m_ <= params.place.kept.about_m) {
     const Pose2 stood = *kept_map_T_node_ * lines_->robot();
     if (const Result<PlaceMap>& about = place_about(stood)) {
       PlaceAnswer there = recogniser_.confirm(*about, seen, stood);

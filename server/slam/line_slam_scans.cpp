@@ -8,7 +8,7 @@
 namespace seeker::slam {
 namespace {
 
-/// Two ranges of one thing differ by no more than so many deviations of their difference.
+/// Two ranges of one surface differ by no more than so many standard deviations of their difference.
 constexpr double kNoiseSigmas = 3.0;
 
 }  // namespace
@@ -19,7 +19,7 @@ Status LineSlam::check_repeats(const LaserScan& scan) {
   }
   last_scan_ = scan.stamp;
   const Pose2& increment = travelled_.estimate().map_T_base;
-  const bool driving = moved({}, increment, params_.min_move_m, params_.min_turn_rad);
+  const bool driving = moved({}, increment, params_.min_move_m, params_.min_rotation_rad);
   repeated_ = scan.ranges_m == newest_ranges_;
   repeats_ = repeated_ && driving ? repeats_ + 1 : 0;
   newest_ranges_ = scan.ranges_m;
@@ -33,13 +33,13 @@ Status LineSlam::check_repeats(const LaserScan& scan) {
 }
 
 Status LineSlam::check_direction() {
-  if (!turn_sense_.reversed()) {
+  if (!rotation_sense_.reversed()) {
     return {};
   }
   quality_ = LocalisationQuality::kLost;
-  cause_ = "the scans turn the other way than the wheels";
+  cause_ = "the scans rotate against the wheels";
   return fail(Errc::kInvalidArgument,
-              "the scans turn the other way than the wheels: the beams run in the other direction, the scanner hangs "
+              "the scans rotate against the wheels: the beams run in the other direction, the scanner hangs "
               "upside down or the wheels are swapped; set the angle of the first beam and that between two beams, with "
               "their signs, and begin a new map");
 }
@@ -59,15 +59,15 @@ UncertainPose LineSlam::expected_motion(const PoseEstimate& travelled, bool sile
   return {increment, random + to_base_frame(odometry_bias_.covariance_of(travelled.map_T_base), increment)};
 }
 
-void LineSlam::note_way(const Pose2& motion) {
+void LineSlam::note_distance(const Pose2& motion) {
   travelled_.correct({}, Matrix3::Zero());
-  travelled_.set_quality(LocalisationQuality::kLocalised, "");  // a jump is over once a scan has been looked at
-  const double way_m = std::hypot(motion.x_m, motion.y_m);
-  way_m_ += way_m;
-  way_since_loops_m_ += way_m;
-  way_since_kept_m_ += way_m;
-  way_since_leftover_m_ += way_m;
-  turn_since_leftover_rad_ += std::abs(motion.theta_rad);
+  travelled_.set_quality(LocalisationQuality::kLocalised, "");  // a jump is over once a scan has been used
+  const double distance_m = std::hypot(motion.x_m, motion.y_m);
+  distance_m_ += distance_m;
+  distance_since_loops_m_ += distance_m;
+  distance_since_kept_m_ += distance_m;
+  distance_since_leftover_m_ += distance_m;
+  rotation_since_leftover_rad_ += std::abs(motion.theta_rad);
 }
 
 void LineSlam::learn_odometry(const MatchResult& match, const Matrix3& covariance) {
@@ -93,15 +93,15 @@ void LineSlam::note_quality(const MatchResult& match) {
 
 bool LineSlam::stands_still(const LaserScan& scan) const {
   const bool healthy = failures_ == 0 && matched_ && !odometry_jumped() && !cloud_.empty() && !backend_.apart();
-  if (!healthy || moved({}, travelled_.estimate().map_T_base, params_.min_move_m, params_.min_turn_rad)) {
+  if (!healthy || moved({}, travelled_.estimate().map_T_base, params_.min_move_m, params_.min_rotation_rad)) {
     return false;
   }
-  // Wheels may say nothing while the robot is pushed or slips: the view must be the same too.
+  // Wheels may be silent while the robot is pushed or slips: the view must be the same, too.
   if (scan.ranges_m.size() != used_ranges_.size()) {
     return false;
   }
   // A beam that came back in one of the two only says little: glass and the edge of the range flicker.
-  // Wheels that have not shown yet that they tell of motions leave all to the view: along a corridor little changes.
+  // Until wheels have reported a motion only the view decides: along a corridor little changes.
   const double least_m = unseen_.trusted() ? params_.still_range_m : 0.0;
   const double share = unseen_.trusted() ? params_.still_share : params_.silent_share;
   std::size_t compared = 0;

@@ -11,14 +11,14 @@ namespace seeker::slam {
 namespace {
 
 /// How far two views differ: metres, with a radian of heading counting as much as this.
-constexpr double kTurnAsMetres = 0.7;
+constexpr double kRotationAsMetres = 0.7;
 
-double turn_between(const Pose2& a, const Pose2& b) { return std::abs(wrap_angle(a.theta_rad - b.theta_rad)); }
+double rotation_between(const Pose2& a, const Pose2& b) { return std::abs(wrap_angle(a.theta_rad - b.theta_rad)); }
 
 }  // namespace
 
-bool moved(const Pose2& from, const Pose2& to, double distance_limit_m, double turn_limit_rad) {
-  return distance_m(from, to) > distance_limit_m || turn_between(from, to) > turn_limit_rad;
+bool moved(const Pose2& from, const Pose2& to, double distance_limit_m, double rotation_limit_rad) {
+  return distance_m(from, to) > distance_limit_m || rotation_between(from, to) > rotation_limit_rad;
 }
 
 void LocalCloud::clear() {
@@ -29,9 +29,9 @@ void LocalCloud::clear() {
 bool LocalCloud::needs_keyframe(const Pose2& map_T_base, double known) const {
   const bool shows_new = known < params_.known_share;
   const double distance_m = shows_new ? params_.new_view_distance_m : params_.keyframe_distance_m;
-  const double turn_rad = shows_new ? params_.new_view_turn_rad : params_.keyframe_turn_rad;
+  const double rotation_rad = shows_new ? params_.new_view_rotation_rad : params_.keyframe_rotation_rad;
   return std::none_of(keyframes_.begin(), keyframes_.end(), [&](const Keyframe& keyframe) {
-    return !moved(keyframe.map_T_base, map_T_base, distance_m, turn_rad);
+    return !moved(keyframe.map_T_base, map_T_base, distance_m, rotation_rad);
   });
 }
 
@@ -60,7 +60,7 @@ std::vector<std::pair<double, const LocalCloud::Keyframe*>> LocalCloud::nearest_
   for (const Keyframe& keyframe : keyframes_) {
     const double d = distance_m(keyframe.map_T_base, map_T_base);
     if (d <= params_.local_range_m) {
-      near.emplace_back(d + kTurnAsMetres * turn_between(keyframe.map_T_base, map_T_base), &keyframe);
+      near.emplace_back(d + kRotationAsMetres * rotation_between(keyframe.map_T_base, map_T_base), &keyframe);
     }
   }
   std::sort(near.begin(), near.end());

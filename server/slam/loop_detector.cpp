@@ -11,7 +11,7 @@
 namespace seeker::slam {
 namespace {
 
-/// Two places along the direction that the scans do not see are one place as far as they can tell.
+/// Two poses that differ only along a direction that the scans do not constrain count as one.
 bool same_but_along(const VerifiedLoop& a, const VerifiedLoop& b, const GlobalSearchParams& params) {
   const Pose2& p = a.target_T_query.a_T_b;
   const Pose2& q = b.target_T_query.a_T_b;

@@ -1,5 +1,6 @@
 /// \file
-/// Loops between sub-maps: searched where the robot may be, refined, and refused when the scans contradict them.
+/// Loop closure between local maps: candidates are searched where the robot may be, refined, and rejected when the
+/// scans contradict them.
 #pragma once
 
 #include <memory>
@@ -11,10 +12,10 @@
 
 namespace seeker::slam {
 
-/// A finished sub-map of the database, made ready with PlaceMap::build() from its scans in its own frame, and what the
+/// A finished local map of the database, prepared with PlaceMap::build() from its scans in its own frame, and what the
 /// graph believes of the query in that frame (PoseGraph::relative_covariance).
 struct LoopTarget {
-  std::size_t id = 0;  ///< the caller's, handed back
+  std::size_t id = 0;  ///< identifier chosen by the caller and returned with the loop
   std::shared_ptr<const PlaceMap> place;
   UncertainPose target_T_query;
 };
@@ -23,38 +24,40 @@ struct LoopParams {
   GlobalSearchParams search{.max_points = 160, .min_score = 0.2, .rival_ratio = 0.75, .max_candidates = 4};
   MatchParams match;
   AgreementParams agreement;
-  double window_sigmas = 3.0;  ///< half width of the search window
-  double min_window_m = 1.0;   ///< but at least this
-  double max_window_m = 6.0;   ///< and at most this
-  /// Half width in which no other place may fit as well, however sure the graph is: it may be wrong about that, and
+  double window_sigmas = 3.0;  ///< half width of the search window, in standard deviations
+  double min_window_m = 1.0;   ///< lower limit of the half width
+  double max_window_m = 6.0;   ///< upper limit of the half width
+  /// Half width in which no other place may fit as well, however certain the graph is: it may be wrong about that, and
   /// rooms repeat themselves every few metres.
   double rival_window_m = 4.0;
   double min_window_rad = 0.15;
   double max_window_rad = 0.8;
   std::size_t match_points = 400;
-  std::size_t min_inliers = 60;    ///< points of the final match
-  double min_overlap = 0.25;       ///< share of the query's points that lie where the target has seen something
-  double min_consistency = 0.75;   ///< of those, the share on the target's surfaces
-  double rival_consistency = 0.9;  ///< another place as consistent as this share of the best's: refused as ambiguous
-  /// A match is never believed to be better than this: sub-maps bend.
+  std::size_t min_inliers = 60;  ///< number of inliers of the final match
+  /// Share of the query's points that lie where the target has observed surfaces or free space.
+  double min_overlap = 0.25;
+  double min_consistency = 0.75;  ///< share of these points that lie on the target's surfaces
+  /// A loop is rejected as ambiguous when another place has this share of its consistency.
+  double rival_consistency = 0.9;
+  /// Lower limit of the standard deviation of a match: local maps are distorted.
   double sigma_floor_m = 0.02;
   double sigma_floor_rad = 0.004;
 };
 
-/// A loop that the points confirm. Several of them should still be checked against each other
-/// (largest_consistent_set) and be switchable edges of the graph.
+/// A loop that the points confirm. Several of them should still be checked against each other (largest_consistent_set)
+/// and be switchable edges of the graph.
 struct VerifiedLoop {
-  std::size_t id = 0;                     ///< of the target
-  UncertainPose target_T_query;           ///< covariance very large along a direction that the scans do not see
-  Matrix3 information = Matrix3::Zero();  ///< its inverse: next to nothing along that direction
-  double score = 0.0;                     ///< of the search, 0 to 1
+  std::size_t id = 0;            ///< identifier of the target
+  UncertainPose target_T_query;  ///< the covariance is very large along a direction that the scans do not constrain
+  Matrix3 information = Matrix3::Zero();  ///< inverse of the covariance: almost zero along that direction
+  double score = 0.0;                     ///< score of the search, 0 to 1
   double overlap = 0.0;
   double consistency = 0.0;
   Agreement agreement;
   std::optional<Point2> degenerate_direction;  ///< unit vector in the frame of the target
 };
 
-/// Deterministic; no state but its parameters.
+/// Finds and verifies loops. Deterministic, without state but the parameters.
 class LoopDetector {
  public:
   explicit LoopDetector(const LoopParams& params = {});
@@ -62,7 +65,7 @@ class LoopDetector {
   /// The loops of the query (its scans in its own frame) with any of the targets, most consistent first.
   [[nodiscard]] std::vector<VerifiedLoop> detect(const std::vector<SeenPoints>& seen_query,
                                                  const std::vector<LoopTarget>& targets) const;
-  /// With one target; nothing when there is none or more than one fits.
+  /// The loop with one target; no value when no pose or more than one fits.
   [[nodiscard]] std::optional<VerifiedLoop> verify(const std::vector<SeenPoints>& seen_query,
                                                    const LoopTarget& target) const;
   [[nodiscard]] const LoopParams& params() const { return params_; }

@@ -130,7 +130,7 @@ Agreement agreement_of(const LikelihoodPyramid& map, const FreeSpace& free_space
       const Point2 end = map_T_base * point.p;
       const double range_m = (end - origin).norm();
       const Point2 direction = (end - origin) / std::max(range_m, 1e-6);
-      // A surface that stops the beam looks towards it.
+      // A surface that stops the beam faces it.
       const int facing = map.direction_of(std::atan2(-direction.y(), -direction.x()));
       const bool crossed = along(
           origin, direction, params.near_m, std::min(range_m - params.end_margin_m, params.max_range_m), params.step_m,

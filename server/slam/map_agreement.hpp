@@ -1,5 +1,5 @@
 /// \file
-/// Does a scan at a pose contradict a map? Beams through surfaces, and points where the map saw nothing.
+/// Checks whether a scan at a pose contradicts a map: beams through surfaces, and points in free space.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace seeker::slam {
 
-/// The points of one scan and the place of the laser that saw them, in one frame.
+/// The points of one scan and the position of the laser that observed them, in one frame.
 struct SeenPoints {
   Point2 origin = Point2::Zero();
   std::vector<OrientedPoint> points;
@@ -21,16 +21,18 @@ struct SeenPoints {
 
 struct FreeSpaceParams {
   double resolution_m = 0.1;
-  double end_margin_m = 0.3;  ///< the last part of a beam says nothing
-  double max_range_m = 15.0;  ///< nor does what is farther away
-  int min_beams = 3;          ///< through a cell that counts as free
-  int min_points = 2;         ///< seen in a cell that counts as solid
-  double solid_ratio = 0.5;   ///< and of points and beams in it, this share must be points: doors move, people walk
+  double end_margin_m = 0.3;  ///< length of the end of a beam that is not evaluated
+  double max_range_m = 15.0;  ///< range beyond which a beam is not evaluated
+  int min_beams = 3;          ///< number of beams through a free cell
+  int min_points = 2;         ///< number of points in a solid cell
+  /// Share of points among the points and beams of a solid cell: doors move and people walk.
+  double solid_ratio = 0.5;
   std::size_t max_cells = 100'000'000;
 };
 
-/// What the beams of the map say about its cells: free where beams went through and no point was ever seen, neither in
-/// the cell nor beside it; solid where they were stopped; passed where they went through, whatever was seen there once.
+/// Occupancy of the map's cells by beams: free where beams passed and no point was ever observed in the cell or beside
+/// it; solid where beams were stopped; passed where beams went through, whether or not a point was observed there at
+/// another time.
 class FreeSpace {
  public:
   enum class State : std::uint8_t { kUnknown, kFree, kPassed, kSolid };
@@ -38,7 +40,7 @@ class FreeSpace {
   explicit FreeSpace(const std::vector<SeenPoints>& seen_map, const FreeSpaceParams& params = {});
   [[nodiscard]] bool is_free(const Point2& p_map) const { return state(p_map) == State::kFree; }
   [[nodiscard]] bool is_solid(const Point2& p_map) const { return state(p_map) == State::kSolid; }
-  /// What somebody saw here has gone, or came later: free space too.
+  /// Free space, or a cell from which an observed obstacle has gone or in which it appeared later.
   [[nodiscard]] bool is_passed(const Point2& p_map) const {
     return state(p_map) == State::kFree || state(p_map) == State::kPassed;
   }
@@ -52,22 +54,23 @@ class FreeSpace {
 };
 
 struct AgreementParams {
-  int solid = 140;             ///< likelihood of a cell that a beam does not get through (the field's sigma away)
-  double step_m = 0.07;        ///< along the beam
-  double near_m = 0.3;         ///< the robot's own surroundings are not looked at
-  double end_margin_m = 0.35;  ///< nor is the end of the beam: rough poses and walls seen at an angle
+  int solid = 140;       ///< likelihood of a cell that stops a beam (one sigma of the field away)
+  double step_m = 0.07;  ///< step along the beam
+  double near_m = 0.3;   ///< range below which a beam is not evaluated: the robot's own surroundings
+  /// Length of the end of a beam that is not evaluated, because of inexact poses and walls seen at an angle.
+  double end_margin_m = 0.35;
   double max_range_m = 15.0;
-  std::size_t max_beams = 180;  ///< of each scan
+  std::size_t max_beams = 180;  ///< number of beams of each scan
 };
 
 /// Shares of the beams, 0 to 1.
 struct Agreement {
-  double through = 0.0;  ///< pass through a solid surface of the map that faces them
-  double in_free = 0.0;  ///< end in space that the map knows to be free: people, moved furniture, or a wrong place
+  double through = 0.0;  ///< beams that pass through a solid surface of the map that faces them
+  double in_free = 0.0;  ///< beams that end in space known to be free: people, moved furniture or a wrong pose
   [[nodiscard]] double disagreement() const { return through + in_free; }
 };
 
-/// Of scans in the frame `base` with the base at map_T_base. Zero for no points.
+/// The agreement of scans in the frame `base` with the base at map_T_base. Zero without points.
 [[nodiscard]] Agreement agreement_of(const LikelihoodPyramid& map, const FreeSpace& free_space,
                                      const std::vector<SeenPoints>& seen_base, const Pose2& map_T_base,
                                      const AgreementParams& params = {});
@@ -75,10 +78,10 @@ struct Agreement {
 /// Mean likelihood of points at a pose, 0 to 1.
 struct Fit {
   double all = 0.0;
-  double standing = 0.0;  ///< without the points in free space: what does not move
+  double standing = 0.0;  ///< without the points in free space: static surfaces only
 };
 
-/// Give it points thinned by cells, so that near walls do not outvote far ones. Zero for no points.
+/// The fit of points that were thinned by cells, so that near walls do not outweigh far ones. Zero without points.
 [[nodiscard]] Fit fit_of(const LikelihoodPyramid& map, const FreeSpace& free_space,
                          const std::vector<OrientedPoint>& points_base, const Pose2& map_T_base);
 

@@ -11,7 +11,8 @@
 namespace seeker::slam {
 namespace {
 
-/// A place may be any local map that loops are looked for in: as far as that must it be the only one that fits.
+/// A rival may be in any local map that is searched for loops: a loop must be the only pose that fits within that
+/// range.
 LoopParams with_rivals_of(const LoopPolicy& policy) {
   LoopParams params = policy.detector;
   params.rival_window_m = std::max(params.rival_window_m, policy.max_distance_m);

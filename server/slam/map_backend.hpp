@@ -1,5 +1,5 @@
 /// \file
-/// The sparse graph over local maps: their places, the loops between them, and the whole map they make.
+/// The sparse graph of local maps: their poses, the loops between them, and the global map they form.
 #pragma once
 
 #include <cstdint>
@@ -17,82 +17,85 @@
 
 namespace seeker::slam {
 
-/// What one local map leaves behind.
+/// The stored data of one local map.
 struct LocalMap {
   std::uint32_t id = 0;
   RobotTime created;
-  std::vector<MapSegment> segments_node;  ///< poses in the frame of the local map, whatever their field says
+  /// Poses in the frame of the local map, although the field is named map_T_segment.
+  std::vector<MapSegment> segments_node;
   std::vector<MapKeyframe> keyframes;
 };
 
-/// What a kept scan saw within a range, in the frame `base`.
+/// The observation of a kept scan within a range, in the frame `base`.
 [[nodiscard]] SeenPoints view_of(const MapKeyframe& keyframe, double range_m);
 
 struct LoopCounts {
   int tried = 0;
-  int closed = 0;     ///< believed and part of the graph
-  int surprises = 0;  ///< that had to wait for witnesses
-  /// Comparisons since the last loop, each by scans of its own, by which a map that is only read looks otherwise where
-  /// the robot is thought to be.
+  int closed = 0;     ///< accepted and part of the graph
+  int surprises = 0;  ///< loops that had to wait for confirmation by others
+  /// Comparisons since the last loop, each with its own scans, in which a map that is only read differs from the scans
+  /// at the estimated pose.
   int contradictions = 0;
 };
 
-/// Local maps are numbered from 0. Poses rise in epochs: each optimisation that moves the map.
+/// Local maps are numbered from 0. The epoch rises with each optimisation that moves the map.
 ///
-/// In a map that is only read (MapUse::kLocalise) the loaded local maps stand still, and of the robot's own only the
-/// newest two are kept, whose numbers change with that: what the older ones said of the robot's place becomes one
-/// relation. Memory and cost do not grow however long the robot drives.
+/// In a map that is only read (MapUse::kLocalise) the loaded local maps are fixed, and of the robot's own only the
+/// newest two are kept, whose numbers change with that: the information of the older ones about the robot's pose
+/// becomes one relation. Memory and cost do not grow however long the robot drives.
 class MapBackend {
  public:
   explicit MapBackend(const LoopPolicy& params = {});
 
-  /// Begins a local map; with a predecessor, by the measured pose of its frame there and the covariance of that.
+  /// Begins the first local map at a pose in the frame `map`.
   std::uint32_t begin_first(const Pose2& map_T_node, RobotTime stamp);
+  /// Begins a local map at the measured pose of its frame in that of its predecessor, with the covariance of that pose.
   std::uint32_t begin_next(const Pose2& last_T_new, const Matrix3& covariance, RobotTime stamp);
   /// Replaces everything by a map that has passed validate(). The next local map must be begun with begin_apart().
   void load(const LineMap& map, MapUse use);
-  /// Begins a local map whose place in the whole is not known: nothing joins it to the others until anchor().
+  /// Begins a local map whose pose in the global map is unknown: no relation joins it to the others until anchor().
   std::uint32_t begin_apart(RobotTime stamp);
   [[nodiscard]] bool apart() const { return apart_from_.has_value(); }
   [[nodiscard]] bool is_apart(std::uint32_t id) const { return apart_from_ && id >= *apart_from_; }
-  /// Puts what was begun apart where it belongs: the newest local map is at map_T_newest, as found by comparing it with
-  /// the others; `covariance` as in newest_covariance().
+  /// Joins the local maps begun apart to the others: the newest of them is at map_T_newest, as found by comparison with
+  /// the others; `covariance` is defined as in newest_covariance().
   void anchor(const Pose2& map_T_newest, const Matrix3& covariance);
-  /// Scans of all local maps but those begun apart, in the frame `map`: what a place is searched in.
+  /// Scans of all joined local maps, in the frame `map`, for relocalisation.
   [[nodiscard]] std::vector<SeenPoints> seen() const;
-  /// ... that were made within a range of a place.
+  /// The same scans, limited to those made within a range of a position.
   [[nodiscard]] std::vector<SeenPoints> seen_about(const Point2& p_map, double range_m) const;
-  /// Local maps below it are the map: those that are joined, and where it is only read, those that were loaded.
+  /// The local maps with smaller numbers form the map: those that are joined, or in a map that is only read, those that
+  /// were loaded.
   [[nodiscard]] std::uint32_t map_end() const;
   [[nodiscard]] LocalMap& newest() { return maps_.back(); }
   [[nodiscard]] const std::vector<LocalMap>& maps() const { return maps_; }
   [[nodiscard]] const Pose2& pose(std::uint32_t id) const { return graph_.pose(id); }
-  /// Of (x, y, theta) of the newest local map's frame in the frame `map`.
+  /// Covariance of (x, y, theta) of the newest local map's frame in the frame `map`.
   [[nodiscard]] const Matrix3& newest_covariance() const { return newest_covariance_; }
   [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
   [[nodiscard]] const LoopCounts& loops() const { return counts_; }
 
-  /// Notes which older local maps may show what the newest shows around the robot.
+  /// Selects the older local maps that may show the surroundings of the robot that the newest shows.
   void plan_loops(const Pose2& node_T_base);
-  /// Compares with one of them, so that no scan has to wait for all, and optimises after the last when a loop was
-  /// found. True when the map has moved.
+  /// Compares the newest local map with one of the selected ones, so that no scan has to wait for all, and optimises
+  /// after the last when a loop was found. True when the map has moved.
   bool step_loops();
 
-  /// Places and relations of the local maps below `end`, their segments and scans; the frame is `map`.
+  /// Poses and relations of the local maps below `end`, their segments and scans, in the frame `map`.
   [[nodiscard]] LineMap assemble(std::uint32_t end) const;
-  /// Local maps that are part of the map.
+  /// The local maps that are part of the map, with their poses.
   [[nodiscard]] std::vector<MapPiece> pieces() const;
-  /// Their segments alone, in the frame `map`.
+  /// The segments of the local maps below `end`, in the frame `map`.
   [[nodiscard]] std::vector<MapSegment> segments(std::uint32_t end) const;
 
  private:
-  /// The scans that the newest local map is compared with others by.
+  /// The scans by which the newest local map is compared with others.
   struct View {
     std::vector<SeenPoints> seen_node;  ///< in the frame of the newest local map
-    RobotTime first;                    ///< stamps of the oldest and
-    RobotTime last;                     ///< the newest of them
+    RobotTime first;                    ///< time of the oldest scan
+    RobotTime last;                     ///< time of the newest scan
   };
-  /// A loop that surprises, with the stamps of the scans that it was seen by.
+  /// A surprising loop with the times of the scans that observed it.
   struct Surprise {
     LoopEdge loop;
     RobotTime first;
@@ -103,25 +106,25 @@ class MapBackend {
     double distance_m = 0.0;
   };
 
-  /// Local maps below it are compared with the newest.
+  /// The newest local map is compared with the local maps of smaller numbers.
   [[nodiscard]] std::uint32_t loop_end() const;
   [[nodiscard]] std::vector<Candidate> candidates(const Pose2& map_T_base) const;
   [[nodiscard]] View newest_view() const;
   [[nodiscard]] std::shared_ptr<const PlaceMap> place_of(std::uint32_t id);
-  /// Nothing where a loaded map has parts that no relation joins: all or none of its local maps have one.
+  /// No value where a loaded map has parts that no relation joins.
   [[nodiscard]] std::optional<UncertainPose> relative(std::size_t from, std::size_t to);
   [[nodiscard]] std::vector<LoopEdge> believed(const LoopEdge& loop, const View& view, const UncertainPose& expected);
-  /// What it means that no loop was found.
+  /// Records that no loop was found, and whether this contradicts the map.
   void note_refusal(const View& view, const PlaceMap& place, const UncertainPose& expected);
-  /// Of the surprises those that enough others, seen independently, agree with, the last one among them.
+  /// The surprising loops that enough others, observed independently, agree with, the last one among them.
   [[nodiscard]] std::vector<LoopEdge> witnessed();
   void add_loop(const LoopEdge& loop);
-  /// An edge of the graph that loses its say where all others disagree with it.
+  /// Adds an edge to the graph that loses its weight where all others disagree with it.
   std::size_t relate(std::size_t i, std::size_t j, const UncertainPose& i_T_j);
-  /// Puts all that earlier local maps and its own loops say of the place of a joined local map into one relation to the
-  /// first; what begins at it stays. False where the graph cannot say.
+  /// Combines the information of earlier local maps and of loops about the pose of a joined local map into one relation
+  /// to the first; relations that begin at it stay. False where the graph cannot be evaluated.
   [[nodiscard]] bool stand_alone(std::uint32_t id);
-  /// Of the robot's own local maps in a map that is only read.
+  /// Drops the robot's own local maps before `first` in a map that is only read.
   void drop_own_before(std::uint32_t first);
   bool optimise();
 
@@ -132,10 +135,12 @@ class MapBackend {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> loop_of_pair_;  ///< edge of the graph
   std::deque<std::uint32_t> planned_;                                        ///< local maps to compare with
   bool unsettled_ = false;                                                   ///< loops were added since optimise()
-  std::optional<RobotTime> contradicted_by_;  ///< the newest scan that was counted among the contradictions
-  std::vector<Surprise> pending_;             ///< surprises without witnesses
-  std::deque<std::pair<std::uint32_t, std::shared_ptr<const PlaceMap>>> places_;  ///< used last first
-  std::uint32_t unbroken_from_ = 0;  ///< the way from this local map to the newest is known by having been driven
+  std::optional<RobotTime> contradicted_by_;  ///< the newest scan that was counted as a contradiction
+  std::vector<Surprise> pending_;             ///< surprising loops without confirmation
+  /// Prepared local maps, most recently used first.
+  std::deque<std::pair<std::uint32_t, std::shared_ptr<const PlaceMap>>> places_;
+  /// The path from this local map to the newest has been driven without interruption.
+  std::uint32_t unbroken_from_ = 0;
   std::optional<std::uint32_t> apart_from_;  ///< this local map and those after it are not joined to the others
   std::optional<std::uint32_t> own_from_;    ///< the map is only read: local maps from this one on are not part of it
   Matrix3 newest_covariance_ = Matrix3::Zero();

@@ -1,4 +1,4 @@
-// Loops between local maps: looked for, believed, and made use of.
+// Loops between local maps: search, acceptance and use.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +12,7 @@
 namespace seeker::slam {
 
 std::uint32_t MapBackend::loop_end() const {
-  // Not the newest and not the one before it: the way between those two is an edge already.
+  // Not the newest and not the one before it: the path between those two is an edge already.
   const auto size = static_cast<std::uint32_t>(maps_.size());
   return own_from_.value_or(size < 2 ? 0 : size - 2);
 }

@@ -1,5 +1,5 @@
 /// \file
-/// A pose tracker that keeps a map which can be looked at, saved, loaded and found again.
+/// A pose tracker with a map that can be displayed, saved, loaded and localised in.
 #pragma once
 
 #include <functional>
@@ -13,23 +13,23 @@ namespace seeker::slam {
 
 /// What a loaded map is used for.
 enum class MapUse : std::uint8_t {
-  kContinue,  ///< the map grows on
-  kLocalise,  ///< the map is only read: whatever is seen beside it is forgotten
+  kContinue,  ///< the map continues to grow
+  kLocalise,  ///< the map is only read: observations outside it are discarded
 };
 
 class SpMap;
 
-/// The filter of robot and newest walls, for predictions of what the robot will know.
+/// The filter of robot and newest walls, for predictions of the robot's future uncertainty.
 struct LocalBelief {
   const SpMap* lines = nullptr;  ///< never null; valid until the tracker's next call
   Pose2 map_T_lines;             ///< the filter's own frame in the frame `map`
 };
 
-/// A part of the map that moves as a whole when the map is corrected.
+/// A part of the map that moves as a rigid body when the map is corrected.
 struct MapPiece {
-  std::uint32_t id = 0;                  ///< the same from one correction to the next
-  Pose2 map_T_piece;                     ///< of its frame
-  Point2 middle_piece = Point2::Zero();  ///< about where it lies, in its own frame
+  std::uint32_t id = 0;                  ///< identifier that is stable across corrections
+  Pose2 map_T_piece;                     ///< pose of the piece's frame
+  Point2 middle_piece = Point2::Zero();  ///< approximate centre in the piece's own frame
 };
 
 class MapTracker : public PoseTracker {
@@ -38,23 +38,24 @@ class MapTracker : public PoseTracker {
   [[nodiscard]] virtual std::vector<MapSegment> segments() const = 0;
   /// Rises with every change of segments().
   [[nodiscard]] virtual std::uint64_t revision() const = 0;
-  /// Robot and segments of the place around it with their joint covariance; nothing before the first scan.
+  /// Robot and segments of its surroundings with their joint covariance; no value before the first scan.
   [[nodiscard]] virtual std::optional<LocalBelief> local_belief() const { return std::nullopt; }
-  /// Where the parts of the map lie now; none: it moves as a whole.
+  /// The present poses of the parts of the map; empty when the map moves as one rigid body.
   [[nodiscard]] virtual std::vector<MapPiece> pieces() const { return {}; }
   /// The whole map, for a file.
   [[nodiscard]] virtual LineMap map() const = 0;
   /// Replaces the map. The pose is unknown (kUnknown) until relocalise() or the scans have found it.
   /// kInvalidArgument: see validate(LineMap).
   [[nodiscard]] virtual Status load(const LineMap& map, MapUse use) = 0;
-  /// Looks for the robot in the map: near `map_T_base` where given, else everywhere, from the next scans on. The
-  /// estimate is kUnknown meanwhile, and kLost with a cause when it cannot be found. kNotReady: there is no map.
+  /// Searches for the robot in the map, near `map_T_base` where given, else everywhere, from the next scans on. The
+  /// estimate is kUnknown meanwhile, and kLost with a cause when the robot cannot be found. Fails with kNotReady when
+  /// there is no map.
   [[nodiscard]] virtual Status relocalise(const std::optional<Pose2>& map_T_base) = 0;
-  /// As relocalise(), but the robot probably still stands at `map_T_base`, where it was seen last: taken at its word
-  /// where scans agree with the map there, although they fit elsewhere, too. Else it is looked for a little farther
-  /// about, for it went on, and everywhere.
+  /// As relocalise(), but the robot probably still stands at `map_T_base`, its last known pose, which is accepted where
+  /// scans agree with the map there although they fit elsewhere, too. Otherwise the search is extended to the
+  /// surroundings, since the robot may have driven on, and then to the whole map.
   [[nodiscard]] virtual Status look_where_it_stood(const Pose2& map_T_base) = 0;
-  /// The kept scans at their present poses: what occupancy is rendered from after the map has moved.
+  /// Visits the kept scans at their present poses, from which occupancy is rendered after the map has moved.
   virtual void for_each_scan(
       const std::function<void(const LaserScan& scan, const Pose2& map_T_base)>& visit) const = 0;
 };

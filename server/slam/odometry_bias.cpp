@@ -7,7 +7,7 @@
 namespace seeker::slam {
 namespace {
 
-/// Cosine between a direction that is not seen and an axis beyond which nothing is learnt along the axis.
+/// Cosine between an unconstrained direction and an axis above which the factors along the axis are not estimated.
 constexpr double kSeenCosine = 0.5;
 
 double square(double x) { return x * x; }
@@ -15,29 +15,31 @@ double square(double x) { return x * x; }
 }  // namespace
 
 OdometryBias::OdometryBias(const OdometryBiasParams& params) : params_(params) {
-  sigmas_ << params.way_sigma, params.bend_sigma_rad_per_m, params.turn_sigma, params.skew_sigma, params.lever_sigma_m;
+  sigmas_ << params.scale_sigma, params.drift_sigma_rad_per_m, params.rotation_scale_sigma, params.skew_sigma,
+      params.lever_sigma_m;
   covariance_ = sigmas_.cwiseAbs2().asDiagonal();
 }
 
 Pose2 OdometryBias::corrected(const Pose2& increment) const {
-  const double more_rad = bend_rad_per_m() * increment.x_m + turn() * increment.theta_rad;
-  const double turn_rad = increment.theta_rad + more_rad;
-  // The way was driven along the arc: half of the turn that was missed bends it.
-  const Pose2 half_turn{0.0, 0.0, 0.5 * more_rad};
-  const Point2 along = half_turn * Point2((1.0 + way()) * increment.translation());
-  const Point2 aside(lever_m() * (std::cos(turn_rad) - 1.0), skew() * increment.x_m + lever_m() * std::sin(turn_rad));
-  return {along.x() + aside.x(), along.y() + aside.y(), wrap_angle(turn_rad)};
+  const double more_rad = drift_rad_per_m() * increment.x_m + rotation_scale_error() * increment.theta_rad;
+  const double rotation_rad = increment.theta_rad + more_rad;
+  // The displacement follows the arc: it is rotated by half of the correction of the heading.
+  const Pose2 half_rotation{0.0, 0.0, 0.5 * more_rad};
+  const Point2 along = half_rotation * Point2((1.0 + scale_error()) * increment.translation());
+  const Point2 aside(lever_m() * (std::cos(rotation_rad) - 1.0),
+                     skew() * increment.x_m + lever_m() * std::sin(rotation_rad));
+  return {along.x() + aside.x(), along.y() + aside.y(), wrap_angle(rotation_rad)};
 }
 
 Matrix3 OdometryBias::covariance_of(const Pose2& increment) const {
-  const double turn_rad = increment.theta_rad;
-  const double half_way_m = 0.5 * increment.x_m;
+  const double rotation_rad = increment.theta_rad;
+  const double half_distance_m = 0.5 * increment.x_m;
   Eigen::Matrix<double, 3, kFactors> by_factor;  // of corrected(), where the factors are small
-  by_factor.col(kWay) << increment.x_m, increment.y_m, 0.0;
-  by_factor.col(kBend) << -half_way_m * increment.y_m, half_way_m * increment.x_m, increment.x_m;
-  by_factor.col(kTurn) << -0.5 * turn_rad * increment.y_m, half_way_m * turn_rad, turn_rad;
+  by_factor.col(kScale) << increment.x_m, increment.y_m, 0.0;
+  by_factor.col(kDrift) << -half_distance_m * increment.y_m, half_distance_m * increment.x_m, increment.x_m;
+  by_factor.col(kRotation) << -0.5 * rotation_rad * increment.y_m, half_distance_m * rotation_rad, rotation_rad;
   by_factor.col(kSkew) << 0.0, increment.x_m, 0.0;
-  by_factor.col(kLever) << std::cos(turn_rad) - 1.0, std::sin(turn_rad), 0.0;
+  by_factor.col(kLever) << std::cos(rotation_rad) - 1.0, std::sin(rotation_rad), 0.0;
   return by_factor * covariance_ * by_factor.transpose();
 }
 
@@ -70,12 +72,12 @@ void OdometryBias::learn(const Pose2& matched, const Point2& unseen) {
   const Eigen::Vector3d off = offset_of(matched, corrected(odometry));
   const double match_m2 = square(params_.match_sigma_m);
   Vector row = Vector::Zero();
-  row[kBend] = odometry.x_m;
-  row[kTurn] = odometry.theta_rad;
+  row[kDrift] = odometry.x_m;
+  row[kRotation] = odometry.theta_rad;
   correct(row, off[2], covariance(2, 2) + square(params_.match_sigma_rad));
   if (std::abs(unseen.x()) < kSeenCosine) {
     row.setZero();
-    row[kWay] = odometry.x_m;
+    row[kScale] = odometry.x_m;
     correct(row, off[0], covariance(0, 0) + match_m2);
   }
   if (std::abs(unseen.y()) < kSeenCosine) {

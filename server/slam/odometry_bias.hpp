@@ -1,6 +1,6 @@
 /// \file
-/// What a robot's odometry is off by all the time, learnt while it drives: wheels that are not the size they are said
-/// to be, nor equal, a track that is not as wide, a scanner that is not mounted quite where and as it is said to be.
+/// Systematic errors of the odometry, estimated while driving: wheels with a wrong or unequal diameter, a wrong track
+/// width, and a scanner that is not mounted exactly at its configured pose.
 #pragma once
 
 #include <optional>
@@ -11,58 +11,65 @@
 
 namespace seeker::slam {
 
-/// Deviations of the factors before anything was driven. They drift, since floors and tyres change.
+/// Prior standard deviations of the error factors. The factors change slowly, since floors and tyres change.
 struct OdometryBiasParams {
-  double way_sigma = 0.05;             ///< metres too few for each metre told
-  double bend_sigma_rad_per_m = 0.05;  ///< turned for each metre forwards without being told
-  double turn_sigma = 0.05;            ///< radians too few for each radian told
-  double skew_sigma = 0.02;            ///< metres to the left for each metre forwards
-  double lever_sigma_m = 0.05;         ///< metres to the left for each radian turned
-  double drift_share = 0.02;           ///< of these deviations, for the root of each metre driven
-  double match_sigma_m = 0.02;         ///< of the motion between two matches
-  double match_sigma_rad = 0.006;
-  double gate = 6.635;  ///< chi-square of 1 dof, 99 %: wheels that slipped teach nothing
+  double scale_sigma = 0.05;            ///< standard deviation of the scale error of the odometry, per metre driven
+  double drift_sigma_rad_per_m = 0.05;  ///< standard deviation of the heading drift, per metre driven forwards
+  double rotation_scale_sigma = 0.05;   ///< standard deviation of the scale error of rotations, per radian rotated
+  /// Standard deviation of the lateral displacement (to the left), per metre driven forwards.
+  double skew_sigma = 0.02;
+  /// Standard deviation of the lateral displacement (to the left), per radian rotated.
+  double lever_sigma_m = 0.05;
+  double drift_share = 0.02;       ///< random walk of the factors: share of these deviations per root of a metre driven
+  double match_sigma_m = 0.02;     ///< standard deviation of the displacement between two matches
+  double match_sigma_rad = 0.006;  ///< standard deviation of the rotation between two matches
+  double gate = 6.635;             ///< chi-square of 1 dof, 99 %: motions with wheel slip beyond it are not used
 };
 
-/// Of wheels and a mount that are what they are said to be: there is nothing to learn.
-inline constexpr OdometryBiasParams kCalibratedOdometry{
-    .way_sigma = 0.0, .bend_sigma_rad_per_m = 0.0, .turn_sigma = 0.0, .skew_sigma = 0.0, .lever_sigma_m = 0.0};
+/// Parameters of a calibrated robot, whose odometry has no systematic error to estimate.
+inline constexpr OdometryBiasParams kCalibratedOdometry{.scale_sigma = 0.0,
+                                                        .drift_sigma_rad_per_m = 0.0,
+                                                        .rotation_scale_sigma = 0.0,
+                                                        .skew_sigma = 0.0,
+                                                        .lever_sigma_m = 0.0};
 
-/// Five factors in a Kalman filter whose measurements are motions between two scan matches. A filter of the map that
-/// is told of random errors only follows a robot that always bends one way from behind, and bends its map with it.
+/// Estimates five error factors in a Kalman filter whose measurements are motions between two scan matches. A map
+/// filter that assumes random errors only lags behind a robot with a constant heading drift, and distorts its map
+/// accordingly.
 class OdometryBias {
  public:
   explicit OdometryBias(const OdometryBiasParams& params = {});
 
-  /// The motion (pose of its end in the frame of its beginning) without what it is known to be off by.
+  /// The motion (final pose in the frame of the initial one) corrected for the estimated errors.
   [[nodiscard]] Pose2 corrected(const Pose2& increment) const;
-  /// Covariance of the corrected motion (x, y, theta, in the frame of its beginning) from what the factors are
-  /// uncertain by alone. They err alike from one motion to the next; that matches beside each other do so too, and
-  /// leave the factors better known than a filter of independent ones says, makes up for it (experiment R2, uneven
-  /// wheels).
+  /// Covariance of the corrected motion (x, y, theta, in the frame of its initial pose) from the uncertainty of the
+  /// factors alone. Their errors are correlated from one motion to the next. The errors of consecutive matches are
+  /// correlated, too, and leave the factors more certain than a filter with independent errors says, which compensates
+  /// for this (experiment R2, uneven wheels).
   [[nodiscard]] Matrix3 covariance_of(const Pose2& increment) const;
-  /// A motion by odometry, as told, with its stated covariance.
+  /// Adds a motion as reported by the odometry, with its stated covariance.
   void note_motion(const Pose2& increment, const Matrix3& covariance);
-  /// Where a scan match found the robot after the motions so far, in a frame that is the same from match to match.
-  /// `unseen`: unit vector in that frame along which the match says nothing, as in a corridor.
+  /// Adds the pose at which a scan match found the robot after the motions so far, in a frame that is the same from
+  /// match to match. `unseen` is the unit vector in that frame along which the match does not constrain the pose, as in
+  /// a corridor.
   void note_match(const Pose2& frame_T_base, const std::optional<Point2>& unseen);
-  /// The next match is not compared with the last one.
+  /// Excludes the motion to the next match, which is not compared with the last one.
   void forget_match() { last_match_.reset(); }
-  /// The frame of the matches is another one from now on.
+  /// Changes the frame of the matches.
   void change_frame(const Pose2& new_T_old);
 
-  [[nodiscard]] double way() const { return factors_[kWay]; }
-  [[nodiscard]] double bend_rad_per_m() const { return factors_[kBend]; }
-  [[nodiscard]] double turn() const { return factors_[kTurn]; }
+  [[nodiscard]] double scale_error() const { return factors_[kScale]; }
+  [[nodiscard]] double drift_rad_per_m() const { return factors_[kDrift]; }
+  [[nodiscard]] double rotation_scale_error() const { return factors_[kRotation]; }
   [[nodiscard]] double skew() const { return factors_[kSkew]; }
   [[nodiscard]] double lever_m() const { return factors_[kLever]; }
 
  private:
-  enum Factor : Eigen::Index { kWay, kBend, kTurn, kSkew, kLever, kFactors };
+  enum Factor : Eigen::Index { kScale, kDrift, kRotation, kSkew, kLever, kFactors };
   using Vector = Eigen::Matrix<double, kFactors, 1>;
 
   void learn(const Pose2& matched, const Point2& unseen);
-  /// One scalar measurement: `innovation` beyond what row * factors says already.
+  /// Applies one scalar measurement: `innovation` is the residual after the prediction row * factors.
   void correct(const Vector& row, double innovation, double variance);
 
   OdometryBiasParams params_;
@@ -70,7 +77,7 @@ class OdometryBias {
   Vector factors_ = Vector::Zero();
   Eigen::Matrix<double, kFactors, kFactors> covariance_;
   std::optional<Pose2> last_match_;
-  UncertainPose since_match_;  ///< by odometry
+  UncertainPose since_match_;  ///< motion since the last match by odometry
 };
 
 }  // namespace seeker::slam

@@ -1,5 +1,5 @@
 /// \file
-/// How much worse a robot's odometry is than it is said to be, learnt while it drives.
+/// Scales the covariance of the odometry by its observed errors, estimated while driving.
 #pragma once
 
 #include "common/core/pose2.hpp"
@@ -7,31 +7,33 @@
 namespace seeker::slam {
 
 struct OdometryScaleParams {
-  double max = 100.0;  ///< of the variances
-  double up = 0.3;     ///< how fast a scale follows what was seen, per scan
-  double down = 0.02;
+  double max = 100.0;  ///< upper limit of the factors of the variances
+  double up = 0.3;     ///< gain per scan of a growing factor
+  double down = 0.02;  ///< gain per scan of a shrinking factor
 };
 
-/// Factors of the variances of odometry, one of the way and one of the turn: wheels that turn badly often measure ways
-/// well, and a robot that expects its ways to be as bad takes matches far along a corridor. Never below 1.
+/// Factors of the variances of the odometry, one for the displacement and one for the rotation: wheels with large
+/// rotation errors often measure distances well, and a common factor would let a robot accept matches far along a
+/// corridor. Never below 1.
 class OdometryScale {
  public:
   explicit OdometryScale(const OdometryScaleParams& params = {}) : params_(params) {}
 
-  /// The stated `covariance` of a motion (x, y, theta), any frame, as it has turned out to be.
+  /// The stated `covariance` of a motion (x, y, theta), in any frame, scaled by the estimated factors.
   [[nodiscard]] Matrix3 applied_to(const Matrix3& covariance) const;
-  /// A match lay `off` (x, y, theta) the prediction; `expected` covariance of that, positive definite.
+  /// Updates the factors by the offset `off` (x, y, theta) of a match from the prediction, whose covariance is
+  /// `expected` (positive definite).
   void learn(const Eigen::Vector3d& off, const Matrix3& expected);
 
-  [[nodiscard]] double way() const { return way_; }
-  [[nodiscard]] double turn() const { return turn_; }
+  [[nodiscard]] double displacement() const { return displacement_; }
+  [[nodiscard]] double rotation() const { return rotation_; }
 
  private:
   [[nodiscard]] double followed(double scale, double ratio) const;
 
   OdometryScaleParams params_;
-  double way_ = 1.0;
-  double turn_ = 1.0;
+  double displacement_ = 1.0;
+  double rotation_ = 1.0;
 };
 
 }  // namespace seeker::slam

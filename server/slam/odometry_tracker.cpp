@@ -6,12 +6,13 @@
 namespace seeker::slam {
 
 Matrix3 increment_covariance(const Pose2& increment, const OdometryParams& params) {
-  const double way_m = std::hypot(increment.x_m, increment.y_m);
-  const double turn_rad = std::abs(increment.theta_rad);
+  const double distance_m = std::hypot(increment.x_m, increment.y_m);
+  const double rotation_rad = std::abs(increment.theta_rad);
   const auto square = [](double x) { return x * x; };
-  return Eigen::Vector3d(
-             square(params.along_sigma_m_per_sqrt_m) * way_m, square(params.across_sigma_m_per_sqrt_m) * way_m,
-             square(params.theta_sigma_rad_per_sqrt_m) * way_m + square(params.theta_sigma_rad_per_sqrt_rad) * turn_rad)
+  return Eigen::Vector3d(square(params.along_sigma_m_per_sqrt_m) * distance_m,
+                         square(params.across_sigma_m_per_sqrt_m) * distance_m,
+                         square(params.theta_sigma_rad_per_sqrt_m) * distance_m +
+                             square(params.theta_sigma_rad_per_sqrt_rad) * rotation_rad)
       .asDiagonal();
 }
 

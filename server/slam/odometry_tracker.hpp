@@ -1,5 +1,5 @@
 /// \file
-/// Dead reckoning with its growing covariance: the paper's estimator, and the prediction of every other one.
+/// Dead reckoning with its growing covariance: the paper's estimator, and the prediction step of every other one.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace seeker::slam {
 
-/// Odometry noise (spec S1.3, eq (11) and C_u): variances grow with the way travelled and the angle turned.
+/// Odometry noise (spec S1.3, eq (11) and C_u): variances grow with the path length and the rotation.
 struct OdometryParams {
   double along_sigma_m_per_sqrt_m = 0.03;
   double across_sigma_m_per_sqrt_m = 0.015;
@@ -16,13 +16,13 @@ struct OdometryParams {
   double theta_sigma_rad_per_sqrt_rad = 0.03;
   double jump_m = 0.5;  ///< an increment is a jump beyond jump_m + jump_speed_m_s * dt
   double jump_speed_m_s = 2.0;
-  double jump_rad = 0.8;  ///< the same for the angle
+  double jump_rad = 0.8;  ///< the same for the rotation
   double jump_speed_rad_s = 4.0;
-  double jump_sigma_m = 0.5;  ///< what is believed of the pose after a jump was dropped
-  double jump_sigma_rad = 0.3;
+  double jump_sigma_m = 0.5;    ///< standard deviation of the position after an increment was dropped as a jump
+  double jump_sigma_rad = 0.3;  ///< standard deviation of the heading after a jump
 };
 
-/// Noise of one increment: covariance of d in increment (+) d, that is in the frame of the new pose.
+/// Covariance of one increment: of d in increment (+) d, that is in the frame of the new pose.
 [[nodiscard]] Matrix3 increment_covariance(const Pose2& increment, const OdometryParams& params);
 
 class OdometryTracker final : public PoseTracker {
@@ -30,13 +30,13 @@ class OdometryTracker final : public PoseTracker {
   explicit OdometryTracker(const OdometryParams& params = {}, const Pose2& map_T_base = {});
 
   [[nodiscard]] Status predict(const Pose2& odom_T_base, RobotTime stamp) override;
-  /// Checks the scan and uses nothing of it.
+  /// Validates the scan and does not use it.
   [[nodiscard]] Status update(const LaserScan& scan) override;
-  /// kLocalised as soon as there was odometry; kDegraded after a jump.
+  /// The quality is kLocalised as soon as there was odometry, and kDegraded after a jump.
   [[nodiscard]] PoseEstimate estimate() const override { return estimate_; }
   void reset(const Pose2& map_T_base) override;
 
-  /// Replaces pose and covariance by a better belief (a measurement update), keeping the odometry's origin.
+  /// Replaces pose and covariance by an improved estimate (a measurement update), keeping the odometry's origin.
   void correct(const Pose2& map_T_base, const Matrix3& covariance);
   void set_quality(LocalisationQuality quality, std::string cause);
 

@@ -71,7 +71,7 @@ Run nearby(const Returns& returns, std::size_t centre, int neighbours, double ra
   return run;
 }
 
-/// Of the line through the run of points, turned towards the sensor; nothing when they form none.
+/// The normal of the line through the run of points, oriented towards the sensor; no value when they form no line.
 std::optional<Point2> normal_of(const std::vector<lines::Moments>& sums, const Run& run, const Point2& centre,
                                 int min_points, double max_thickness_ratio) {
   const lines::Moments moments = sums[run.last + 1] - sums[run.first];

@@ -124,7 +124,7 @@ PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells, con
     answer.reason = "another place fits nearly as well";
     answer.weight = weight_of(fit, answer.lead, cells, params);
   } else if (answer.lead * static_cast<double>(cells) < params.min_lead_cells) {
-    answer.reason = "too little was seen to tell this place from others";
+    answer.reason = "too little was observed to distinguish this place from others";
     answer.says_nothing = true;
     answer.weight = weight_of(fit, answer.lead, cells, params);
   } else {
@@ -274,7 +274,7 @@ PlaceAnswer PlaceRecogniser::confirm(const PlaceMap& map, const std::vector<Seen
   }
   PlaceAnswer near = ranked(map, query, {map_T_base, params_.kept.max_m, params_.kept.max_rad});
   if (agrees_near(near, map_T_base) && !outdone(near.candidates.front())) {
-    // In one view a corner looks like the next one, a step and a quarter turn on: others have to say the same.
+    // In one view a corner is similar to the next one, a step and a rotation by 90 degrees on: others must agree.
     near.reason = "the robot stands near to where it was";
     accept(PlaceCandidate(near.candidates.front()), near);
     return near;

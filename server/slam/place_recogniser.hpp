@@ -1,5 +1,5 @@
 /// \file
-/// Relocalisation: the place of some scans in a whole map, or the reason why they do not tell.
+/// Relocalisation: the pose of some scans in a whole map, or the reason why they do not determine it.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,25 @@ namespace seeker::slam {
 struct PlaceMapParams {
   PyramidParams pyramid;
   FreeSpaceParams free_space;
-  double cloud_cell_m = 0.05;  ///< of points with like normals one is kept a cell for the final match
-  /// The pyramid of a map too large for its cells gets larger ones, up to this.
+  /// Grid of the cloud for the final match, in which one point per cell and normal is kept.
+  double cloud_cell_m = 0.05;
+  /// Upper limit of the cell size, which is increased for maps too large for the cells of the pyramid.
   double max_cell_m = 0.4;
 };
 
-/// A map made ready for being searched: built once, used for many queries.
+/// A map prepared for searches: built once, used for many queries.
 class PlaceMap {
  public:
-  /// From scans at their poses in the frame `map`. Errors as LikelihoodPyramid::build(); kTooLarge is left for maps
-  /// that do not fit with the largest cells either.
+  /// Builds the map from scans at their poses in the frame `map`. Errors are those of LikelihoodPyramid::build();
+  /// kTooLarge remains for maps that do not fit with the largest cells either.
   [[nodiscard]] static Result<PlaceMap> build(const std::vector<SeenPoints>& seen_map,
                                               const PlaceMapParams& params = {});
-  /// The pyramid's cells are larger than asked for: it says where to look, and detail_about() how well points fit
-  /// there.
+  /// Whether the pyramid's cells are larger than requested: it then gives candidates, and detail_about() evaluates how
+  /// well points fit there.
   [[nodiscard]] bool coarse() const { return !points_.empty(); }
   [[nodiscard]] const LikelihoodPyramid& pyramid() const { return pyramid_; }
-  /// With the cells that were asked for, of what lies within a range; nothing where pyramid() has those itself, or
-  /// where nothing lies there.
+  /// A pyramid of the requested cell size of the surroundings within a range; no value where pyramid() has that cell
+  /// size itself, or where the map is empty there.
   [[nodiscard]] std::optional<LikelihoodPyramid> detail_about(const Point2& p_map, double range_m) const;
   [[nodiscard]] const ReferenceCloud& cloud() const { return *cloud_; }
   [[nodiscard]] const FreeSpace& free_space() const { return free_space_; }
@@ -42,80 +43,85 @@ class PlaceMap {
  private:
   PlaceMap(LikelihoodPyramid pyramid, std::unique_ptr<ReferenceCloud> cloud, FreeSpace free_space);
 
-  PyramidParams detail_;               ///< what was asked for
-  std::vector<OrientedPoint> points_;  ///< of the map; none where the pyramid is what was asked for
+  PyramidParams detail_;               ///< requested parameters
+  std::vector<OrientedPoint> points_;  ///< points of the map; empty where the pyramid has the requested cell size
   LikelihoodPyramid pyramid_;
   std::unique_ptr<ReferenceCloud> cloud_;
   FreeSpace free_space_;
 };
 
-/// A candidate after its refinement: what the points say about it.
+/// A candidate after its refinement, with the evidence of the points.
 struct PlaceCandidate {
   MatchResult match;   ///< pose, covariance, degenerate direction
-  double score = 0.0;  ///< of the search
+  double score = 0.0;  ///< score of the search
   Fit fit;
   Agreement agreement;
-  /// What candidates are ranked by: mean likelihood of the points, less the share of beams through walls.
+  /// The criterion by which candidates are ranked: mean likelihood of the points minus the share of beams through
+  /// walls.
   [[nodiscard]] double support() const { return fit.all - agreement.through; }
 };
 
 /// Chosen on three buildings and three scanners (180 degrees with 180 and 360 beams, 240 degrees), so that scans of
-/// another building, or of a part that was never mapped, are not taken for a place of the map.
+/// another building, or of a part that was never mapped, are not matched to a place of the map.
 struct JudgeParams {
-  double min_fit = 0.5;          ///< of all points: people may hide half of the walls
-  double min_standing = 0.75;    ///< of the points that do not lie in space known to be free
-  double max_through = 0.12;     ///< beams through the map's walls
-  double through_weight = 0.5;   ///< of a rival's further beams through walls, added to the lead over it
-  double min_lead = 0.12;        ///< of the best candidate's fit over that of the next one
-  double min_lead_cells = 15.0;  ///< lead times cells seen (GlobalSearchParams::thin_cell_m): small views prove little
+  double min_fit = 0.5;         ///< fit of all points: people may hide half of the walls
+  double min_standing = 0.75;   ///< fit of the points that do not lie in known free space
+  double max_through = 0.12;    ///< share of beams through the map's walls
+  double through_weight = 0.5;  ///< weight of a rival's additional beams through walls, added to the lead over it
+  double min_lead = 0.12;       ///< lead of the best candidate's fit over that of the next one
+  /// Lead times observed cells (GlobalSearchParams::thin_cell_m): small views hold little evidence.
+  double min_lead_cells = 15.0;
   /// Sum of the lead and the mean of both fits: a poor fit, or one that people must explain, needs a large lead.
   double min_certainty = 1.05;
-  /// A place that explains nearly all (mean of both fits of min_certainty - min_lead) and leads by at least this counts
-  /// as a part of a witness, so that views which one after the other slightly prefer the same place prove it together.
+  /// A place that explains nearly all points (mean of both fits of min_certainty - min_lead) and leads by at least this
+  /// counts in part, so that views which consecutively prefer the same place slightly confirm it together.
   double weak_lead = 0.08;
 };
 
-/// What is asked of a place that the robot was at when it was seen last: others need not be excluded. Half of the view
-/// may show what the map does not, for the robot may have gone on after the map was kept.
+/// Criteria for the place where the robot was observed last: other places need not be excluded. Half of the view may
+/// differ from the map, since the robot may have driven on after the map was stored.
 struct KeptPlaceParams {
   double min_fit = 0.35;
-  double max_disagreement = 0.15;  ///< beams through walls, and points in free space
-  double max_m = 0.7;              ///< it rolled on, or was pushed
-  double max_rad = 1.2;            ///< it turned on
-  double min_lead = 0.05;          ///< of the best place within that over the next one; no place about leads it by that
-  /// Farther about it, at any heading, for the robot may have gone on after its place was kept: no other place there
-  /// may do as well, and hardly anything may speak against it, although most of the view may be new.
+  double max_disagreement = 0.15;  ///< share of beams through walls and of points in free space
+  double max_m = 0.7;              ///< largest displacement: the robot rolled on or was pushed
+  double max_rad = 1.2;            ///< largest rotation of the robot meanwhile
+  /// Lead of the best place within these limits over the next one; no place nearby leads it by that.
+  double min_lead = 0.05;
+  /// Farther from the stored pose, at any heading, since the robot may have driven on: no other place there may fit as
+  /// well, and almost no evidence may contradict it, although most of the view may be new.
   double about_m = 2.5;
   double about_min_fit = 0.45;
   double about_max_disagreement = 0.05;
   double about_min_lead = 0.2;
-  double sigma_m = 0.5;  ///< of the place in the direction that scans say nothing about: it was kept a second ago
+  /// Standard deviation along a direction that scans do not constrain: the pose was stored a second ago.
+  double sigma_m = 0.5;
   double sigma_rad = 0.1;
 };
 
 enum class PlaceVerdict : std::uint8_t {
-  kNone,       ///< nothing in the map looks like this
-  kAmbiguous,  ///< more than one place does, or the points do not say enough: drive on and ask again with more scans
+  kNone,  ///< no place of the map fits
+  /// More than one place fits, or the points hold too little information: drive on and try again with more scans.
+  kAmbiguous,
   kUnique,
 };
 
 [[nodiscard]] std::string_view to_string(PlaceVerdict verdict);
 
-/// The verdict with its figures.
+/// The verdict with its evidence.
 struct PlaceAnswer {
   PlaceVerdict verdict = PlaceVerdict::kNone;
   std::string_view reason;                 ///< one sentence
   std::vector<PlaceCandidate> candidates;  ///< best first
-  double lead = 0.0;                       ///< of the first over the next one
-  std::size_t cells = 0;                   ///< with points: how much was seen
-  /// kAmbiguous since the points tell too little: nothing speaks for another place, nor against any.
+  double lead = 0.0;                       ///< lead of the first candidate over the next one
+  std::size_t cells = 0;                   ///< number of cells with points: the extent of the view
+  /// The verdict is kAmbiguous because the points hold too little information: no evidence for or against any place.
   bool says_nothing = false;
-  bool expected = false;  ///< where the robot was known to be: no second view is needed
-  /// 0 to 1: how much this view says for the first candidate, 1 where that is unique.
+  bool expected = false;  ///< the pose is where the robot was known to be: no second view is needed
+  /// Weight of this view for the first candidate, 0 to 1; 1 where that is unique.
   double weight = 0.0;
 };
 
-/// Verdict and reason from the candidates, whatever order they come in, and the number of cells with points.
+/// Verdict and reason from the candidates, in any order, and the number of cells with points.
 [[nodiscard]] PlaceAnswer judge(std::vector<PlaceCandidate> candidates, std::size_t cells,
                                 const JudgeParams& params = {});
 
@@ -125,19 +131,19 @@ struct PlaceParams {
   AgreementParams agreement;
   JudgeParams judge;
   KeptPlaceParams kept;
-  std::size_t match_points = 360;  ///< of the final match
+  std::size_t match_points = 360;  ///< number of points of the final match
 };
 
-/// Search, refinement by ICP, contradiction, verdict.
+/// Relocalisation by search, refinement by ICP, check for contradictions and verdict.
 class PlaceRecogniser {
  public:
   explicit PlaceRecogniser(const PlaceParams& params = {});
 
-  /// Scans in the frame `base` of one pose, one scan or several put together by odometry.
+  /// Locates scans in the frame `base` of one pose, of one scan or of several combined by odometry.
   [[nodiscard]] PlaceAnswer locate(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
                                    const std::optional<SearchWindow>& window = std::nullopt) const;
-  /// Whether the robot still stands at `map_T_base` (PlaceAnswer::expected), or farther about it. The covariance of the
-  /// match says how well that is known in every direction.
+  /// Checks whether the robot still stands at `map_T_base` (PlaceAnswer::expected) or in its surroundings. The
+  /// covariance of the match states how well the pose is known in every direction.
   [[nodiscard]] PlaceAnswer confirm(const PlaceMap& map, const std::vector<SeenPoints>& seen_base,
                                     const Pose2& map_T_base) const;
 

@@ -334,7 +334,7 @@ Result<OptimiseReport> PoseGraph::optimise(int max_iterations) {
   const std::vector<Pose2> saved = nodes_;
   double damping = params_.first_damping;
   double widening = first_widening();
-  // Half of the iterations at most are spent on the way to the true width.
+  // At most half of the iterations are spent until the true width is reached.
   const double rate = std::max(params_.graduation, std::pow(widening, 2.0 / std::max(1, max_iterations)));
   while (variable_count_ > 0 && report.iterations < max_iterations && !report.converged) {
     const Step done = step(damping, widening);

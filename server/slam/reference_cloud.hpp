@@ -1,5 +1,5 @@
 /// \file
-/// The points a scan is matched against, with fast look-ups.
+/// The points against which a scan is matched, with fast look-ups.
 #pragma once
 
 #include <memory>

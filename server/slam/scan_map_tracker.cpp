@@ -113,7 +113,7 @@ Status ScanMapTracker::update(const LaserScan& scan) {
     return {};
   }
   const bool healthy = failures_ == 0 && odometry_.estimate().quality == LocalisationQuality::kLocalised;
-  if (healthy && last_match_ && !moved(matched_pose_, predicted, params_.min_move_m, params_.min_turn_rad)) {
+  if (healthy && last_match_ && !moved(matched_pose_, predicted, params_.min_move_m, params_.min_rotation_rad)) {
     return {};
   }
   const std::vector<OrientedPoint> points = thin_out(all_points, params_.match_points);

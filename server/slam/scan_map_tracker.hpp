@@ -18,27 +18,28 @@ struct ScanMapParams {
   NormalParams normals;
   MatchParams match;
   LocalCloudParams cloud;
-  std::size_t match_points = 180;  ///< points of a scan that are matched
+  std::size_t match_points = 180;  ///< number of points of a scan that are matched
   double min_move_m = 0.02;        ///< a scan after less motion than this is not matched
-  double min_turn_rad = 0.01;
-  double good_ratio = 0.5;     ///< inlier ratio that needs no second look
-  double accept_ratio = 0.25;  ///< below it the match is not believed
-  double gap_m = 0.3;          ///< prediction since the last match beyond which a poor match is searched for
-  double gap_rad = 0.2;
-  double new_space_ratio = 0.25;  ///< fewer points than this near known ones: unseen space, not a contradiction
-  int lost_after = 10;            ///< consecutive scans without a believed match
-  double max_correction_m = 1.2;  ///< a match farther from the prediction is not believed
+  double min_rotation_rad = 0.01;  ///< or after less rotation than this
+  double good_ratio = 0.5;         ///< inlier ratio above which no wider search is made
+  double accept_ratio = 0.25;      ///< inlier ratio below which the match is rejected
+  double gap_m = 0.3;              ///< displacement since the last match beyond which a poor match is searched for
+  double gap_rad = 0.2;            ///< rotation since the last match beyond which a poor match is searched for
+  /// Share of points near known ones below which the scan shows unknown space rather than a contradiction.
+  double new_space_ratio = 0.25;
+  int lost_after = 10;            ///< consecutive scans without an accepted match
+  double max_correction_m = 1.2;  ///< a match farther from the prediction is rejected
   double max_correction_rad = 0.6;
   double map_sigma_m = 0.005;  ///< error of the map itself, added to every match
   double map_sigma_rad = 0.002;
 };
 
-/// Predicts by odometry, corrects by matching each scan against the nearest keyframes (a Kalman update with the
-/// match's covariance), and adds keyframes as it goes. O(1) per scan. Without loop closing: drift is small, not
+/// Predicts by odometry, corrects by matching each scan against the nearest keyframes (a Kalman update with the match's
+/// covariance), and adds keyframes on the path. O(1) per scan. Without loop closure the drift is small, but not
 /// bounded.
 ///
-/// Quality: kLocalised; kDegraded with cause (corridor: odometry only along it; unseen space; odometry jump; a scan
-/// that was not believed); kLost after `lost_after` scans that contradict the map, searching on until one fits again.
+/// Quality: kLocalised; kDegraded with cause (corridor: odometry only along it; unknown space; odometry jump; a
+/// rejected match); kLost after `lost_after` scans that contradict the map, with a search until one fits again.
 class ScanMapTracker final : public PoseTracker {
  public:
   explicit ScanMapTracker(const ScanMapParams& params = {}, const Pose2& map_T_base = {});
@@ -49,7 +50,7 @@ class ScanMapTracker final : public PoseTracker {
   void reset(const Pose2& map_T_base) override;
 
   [[nodiscard]] std::size_t keyframe_count() const { return cloud_.size(); }
-  /// The last match, for display and tests; nothing before the first.
+  /// The last match, for display and tests; no value before the first.
   [[nodiscard]] const std::optional<MatchResult>& last_match() const { return last_match_; }
 
  private:

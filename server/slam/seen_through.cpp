@@ -12,8 +12,8 @@ namespace {
 std::optional<double> range_towards(const LaserScan& scan, double bearing_rad) {
   const double from_first_rad =
       scan.angle_step_rad > 0.0 ? bearing_rad - scan.angle_min_rad : scan.angle_min_rad - bearing_rad;
-  const double turned_rad = std::fmod(std::fmod(from_first_rad, kTwoPi) + kTwoPi, kTwoPi);
-  const auto beam = static_cast<std::size_t>(std::lround(turned_rad / std::abs(scan.angle_step_rad)));
+  const double rotated_rad = std::fmod(std::fmod(from_first_rad, kTwoPi) + kTwoPi, kTwoPi);
+  const auto beam = static_cast<std::size_t>(std::lround(rotated_rad / std::abs(scan.angle_step_rad)));
   if (beam >= scan.ranges_m.size() || !std::isfinite(scan.ranges_m[beam])) {
     return std::nullopt;
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Whether a scan denies what is known where it was taken.
+/// Checks whether a scan contradicts known surfaces, since its beams pass through them.
 #pragma once
 
 #include "common/core/pose2.hpp"
@@ -9,13 +9,14 @@
 namespace seeker::slam {
 
 struct SeenThroughParams {
-  double margin_m = 0.25;      ///< a beam that ends so far behind a surface has gone through it
-  double grazing_rad = 0.175;  ///< surfaces that a beam meets at a smaller angle say nothing (10 degrees)
+  double margin_m = 0.25;      ///< a beam that ends this far behind a surface has passed through it
+  double grazing_rad = 0.175;  ///< surfaces at a smaller angle to the beam are not evaluated (10 degrees)
 };
 
-/// Share of the known points which the scan should show from there - in its range and field of view, facing it - that
-/// its beams have gone through. Those that something nearer hides, or whose beam has not come back, are neither. 0
-/// where nothing known should be seen: the other face of a pillar denies none of those that were seen before.
+/// Share of the known points visible from the pose (in the scan's range and field of view, and facing it) that the
+/// scan's beams have passed through. Points that are occluded by something nearer, or whose beam has no return, do not
+/// count. 0 where no known point should be visible: the other face of a pillar does not contradict any point that was
+/// observed before.
 [[nodiscard]] double seen_through(const ReferenceCloud& reference, const LaserScan& scan, const Pose2& map_T_base,
                                   const SeenThroughParams& params = {});
 

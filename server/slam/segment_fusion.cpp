@@ -168,9 +168,9 @@ class Walls {
         continue;
       }
       look.asked = asked_;
-      const double turn_rad = std::abs(segment.map_T_segment.theta_rad - look.theta_rad);
-      const bool parallel =
-          turn_rad <= params_.max_angle_rad + kSlack || std::abs(turn_rad - kTwoPi) <= params_.max_angle_rad + kSlack;
+      const double rotation_rad = std::abs(segment.map_T_segment.theta_rad - look.theta_rad);
+      const bool parallel = rotation_rad <= params_.max_angle_rad + kSlack ||
+                            std::abs(rotation_rad - kTwoPi) <= params_.max_angle_rad + kSlack;
       const double off_m = look.across.dot(segment.map_T_segment.translation() - look.middle);
       if (parallel && std::abs(off_m) <= aside_m) {
         near_.push_back(index);

@@ -14,7 +14,7 @@ namespace seeker::slam {
 
 using Index = Eigen::Index;
 
-/// Rows of a segment: y, theta, then the real ends.
+/// Number of rows of the robot, and of a segment: y, theta and its real ends.
 inline constexpr Index kRobotRows = 3;
 inline constexpr Index kMaxSegmentRows = 4;
 
@@ -31,30 +31,30 @@ class SpCovariance {
  public:
   using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
 
-  /// Of the robot alone.
+  /// The covariance of the robot alone.
   explicit SpCovariance(const Matrix3& robot);
 
   [[nodiscard]] Index rows() const { return rows_; }
   [[nodiscard]] double operator()(Index i, Index j) const { return i >= j ? values_(i, j) : values_(j, i); }
   [[nodiscard]] SmallMatrix block(Index at, Index rows) const;
-  /// Rows [at, at + rows) against all: n x rows, into `out`.
+  /// Copies the rows [at, at + rows) against all columns into `out`: n x rows.
   void gather(Index at, Index rows, Eigen::Ref<Eigen::MatrixXd> out) const;
   [[nodiscard]] Eigen::MatrixXd full() const;
 
-  /// Rows x <- A x, x = rows [at, at + rows) (rows = A's).
+  /// Replaces the rows x = [at, at + rows) by A x; A has that number of rows.
   void transform(Index at, const SmallMatrix& a);
   /// Adds independent noise to a diagonal block.
   void add(Index at, const SmallMatrix& noise);
-  /// New last rows that are `of_robot` times the robot's plus independent noise; their first index.
+  /// Appends rows that are `of_robot` times the robot's plus independent noise, and returns their first index.
   Index append(const Eigen::Ref<const Eigen::MatrixXd>& of_robot, const SmallMatrix& noise);
-  /// A row before `at` with these covariances to the present rows, and this variance.
+  /// Inserts a row before `at` with these covariances to the present rows, and this variance.
   void insert(Index at, const Eigen::Ref<const Eigen::VectorXd>& covariances, double variance);
   void erase(Index at, Index count);
   /// Makes the rows independent of all others, with this covariance.
   void decouple(Index at, const SmallMatrix& covariance);
   /// P <- P - W W^T on the lower triangle; W has rows() rows.
   void downdate(const Eigen::Ref<const Eigen::MatrixXd>& w);
-  /// Centring in one pass; `steps` in the order of their rows. What has no step stays as it is.
+  /// Applies the centring in one pass; `steps` are in the order of their rows. Rows without a step are left unchanged.
   void centre(const std::vector<CentringStep>& steps);
 
  private:
@@ -65,8 +65,8 @@ class SpCovariance {
   Index rows_ = 0;
 };
 
-/// P(i, j) -= sum_k W(i, k) W(j, k) for i >= j: the cost of an update. Uses the processor's vector unit where it can;
-/// may write above the diagonal.
+/// P(i, j) -= sum_k W(i, k) W(j, k) for i >= j, which dominates the cost of an update. Uses the processor's vector unit
+/// where available; may write above the diagonal.
 void downdate_lower(Eigen::Ref<Eigen::MatrixXd> p, const Eigen::Ref<const Eigen::MatrixXd>& w);
 
 }  // namespace seeker::slam

@@ -32,7 +32,7 @@ struct Wide<8> {
 };
 
 /// W in panels of rows, each with its columns one after the other, filled up with zeros: the kernel reads straight on,
-/// whatever the number of rows.
+/// for any number of rows.
 template <Index kPanel>
 std::vector<double> panels_of(const Eigen::Ref<const Eigen::MatrixXd>& w) {
   const Index rows = w.rows();

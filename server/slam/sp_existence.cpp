@@ -14,7 +14,7 @@ struct BeamRange {
   long count = 0;
 };
 
-/// The beams between two bearings less than half a turn apart. A scan of a full circle is cut somewhere.
+/// The beams between two bearings less than half a circle apart. A scan of a full circle has a cut at some bearing.
 BeamRange beams_between(const LaserScan& scan, double from_rad, double to_rad) {
   const double step = scan.angle_step_rad;
   const double begin_rad = step > 0.0 ? from_rad : to_rad;

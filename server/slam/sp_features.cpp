@@ -52,7 +52,7 @@ void follow_end(SpState& state, std::size_t segment, std::size_t side, const Seg
   const double past_m = end_sign(side) * x_m - 0.5 * f.length_m;
   const double slack_m = params.end_slack_m + kSigmas * along_sigma_m(state, pair);
   if (past_m < -slack_m) {
-    return;  // this part of the wall ends before: it tells nothing of the wall's end
+    return;  // this part of the wall ends before: it holds no information about the wall's end
   }
   if (f.real[side]) {
     record.overrun_votes[side] = past_m > slack_m ? record.overrun_votes[side] + 1 : 0;
@@ -71,7 +71,7 @@ void follow_end(SpState& state, std::size_t segment, std::size_t side, const Seg
   }
 }
 
-/// Same wall as in the last scan, as far as a glance can tell.
+/// Whether it is the same wall as in the last scan, by a coarse comparison.
 bool is_same(const Tentative& old, const Pose2& map_T_segment, double length_m, const SpFeatureParams& params) {
   const Pose2 d = inverse(old.map_T_segment) * map_T_segment;
   return std::abs(d.theta_rad) < params.tentative_rad && std::abs(d.y_m) < params.tentative_m &&

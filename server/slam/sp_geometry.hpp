@@ -1,6 +1,6 @@
 /// \file
 /// Geometry of the SPmap: frames, perturbations and their Jacobians (spec S0.3, S1.1-S1.10). Rows and columns of a
-/// segment are in the order (y, theta, left, right) throughout; who has a virtual end drops its row.
+/// segment are in the order (y, theta, left, right) throughout; a virtual end has no row.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,14 +19,14 @@ using Matrix43 = Eigen::Matrix<double, 4, 3>;
 /// J{a} of S0.3: a (+) d (+) ((-)a) = J{a} d to first order.
 [[nodiscard]] Matrix3 transport(const Pose2& a);
 
-/// Where an observation O is on the x axis of a segment F, and how that follows the robot (S1.5).
+/// The pose of an observation O on the x axis of a segment F, and its derivatives by the robot's pose (S1.5).
 struct PairGeometry {
   double x_m = 0.0;  ///< x_FO = (-)X_F (+) X_R (+) x_RO
   double y_m = 0.0;
   double phi_rad = 0.0;
   double cos_phi = 1.0;
   double sin_phi = 0.0;
-  Eigen::RowVector3d robot_x;  ///< R_x and R_y; R_theta is [0 0 1]
+  Eigen::RowVector3d robot_x;  ///< derivatives R_x and R_y; R_theta is [0 0 1]
   Eigen::RowVector3d robot_y;
 
   /// x in F of the end of O: t_e = x + q_e cos(phi), with q_e = beta_e L_O / 2.
@@ -57,7 +57,7 @@ struct EndRow {
 /// M of S1.8: p_F = M d_R + p_O of a new segment.
 [[nodiscard]] Matrix43 new_segment_rows(const Pose2& base_T_observation);
 
-/// Two segments that are one (S1.9): x_ij, f = (y, phi) and its derivatives with respect to (p_y, p_theta).
+/// Merging of two segments of one wall (S1.9): x_ij, f = (y, phi) and its derivatives with respect to (p_y, p_theta).
 struct MergeRows {
   Pose2 i_T_j;
   Eigen::Vector2d f = Eigen::Vector2d::Zero();

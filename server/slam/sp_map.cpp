@@ -72,9 +72,9 @@ double present_d2(const SpState& state, const SpPair& pair, const SegmentObserva
   return group_d2(state.p, rows_of_pair(state, candidate, observation, {}));
 }
 
-/// S1.7 as printed: pair by pair, the nearest first, everything computed anew after each.
-void update_in_turn(SpState& state, const std::vector<SegmentObservation>& observations, std::vector<SpPair> pairs,
-                    SpUpdateReport& report) {
+/// S1.7 as printed: pair by pair, the nearest first, everything recomputed after each.
+void update_sequentially(SpState& state, const std::vector<SegmentObservation>& observations, std::vector<SpPair> pairs,
+                         SpUpdateReport& report) {
   Matrix3 information = Matrix3::Zero();
   while (!pairs.empty()) {
     std::size_t nearest = 0;
@@ -136,10 +136,10 @@ PoseRows pose_rows(const SpState& state, const Pose2& map_T_base, const Matrix3&
     rows.h << -along.y(), along.x(), 0.0, 0.0, 0.0, 1.0;
   }
   rows.f = -rows.h * Eigen::Vector3d(d.x_m, d.y_m, d.theta_rad);
-  // The measurement's own noise turned from `map` to the frame of the measured pose; d carries it on to first order.
+  // The measurement's own noise rotated from `map` to the frame of the measured pose; d carries it on to first order.
   const Matrix3 noise = to_base_frame(covariance_map, map_T_base);
-  const Matrix3 turned = compose_jacobian_b(d, {}) * noise * compose_jacobian_b(d, {}).transpose();
-  rows.r = rows.h * usable(turned) * rows.h.transpose();
+  const Matrix3 rotated = compose_jacobian_b(d, {}) * noise * compose_jacobian_b(d, {}).transpose();
+  rows.r = rows.h * usable(rotated) * rows.h.transpose();
   return rows;
 }
 
@@ -255,7 +255,7 @@ SpUpdateReport SpMap::update(const std::vector<SegmentObservation>& observations
   if (state.params.mode == SpMode::kJoint) {
     update_at_once(state, observations, pairs, report);
   } else {
-    update_in_turn(state, observations, pairs, report);
+    update_sequentially(state, observations, pairs, report);
   }
   report.lost = forget_short_segments(state);
   add_new_segments(state, observations, association, report);

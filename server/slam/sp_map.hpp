@@ -1,5 +1,5 @@
 /// \file
-/// The SPmap: robot and line segments of one place in one extended Kalman filter (spec S1.1-S1.10; Castellanos &
+/// The SPmap: robot and line segments of its surroundings in one extended Kalman filter (spec S1.1-S1.10; Castellanos &
 /// Tardos). Values in, values out; every call is deterministic.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace seeker::slam {
 
-/// Never used twice in one map.
+/// Unique identifier of a segment, never reused in one map.
 using SegmentId = std::uint64_t;
 
 /// 2 to 4 rows in the order (p_y, p_theta, p_left, p_right) of spec eq (7); a virtual end has no row.
@@ -30,43 +30,44 @@ struct SpSegment {
   SegmentId id = 0;
   Pose2 map_T_segment;
   double length_m = 0.0;
-  std::array<bool, 2> real{};   ///< by lines::Side
-  int hits = 0;                 ///< scans in which it was paired
-  int misses = 0;               ///< scans in a row that looked through it
-  std::uint64_t created = 0;    ///< number of the scan (SpMap::scans) that made it
-  std::uint64_t last_seen = 0;  ///< number of the scan that saw it last
+  std::array<bool, 2> real{};   ///< whether the end is a real one, by lines::Side
+  int hits = 0;                 ///< number of scans in which it was paired
+  int misses = 0;               ///< number of scans in a row that looked through it
+  std::uint64_t created = 0;    ///< number of the scan (SpMap::scans) that created it
+  std::uint64_t last_seen = 0;  ///< number of the scan that observed it last
 };
 
-/// What became of one observation.
+/// Result of the association of one observation.
 enum class SpVerdict : std::uint8_t {
-  kPaired,     ///< with `segment`
-  kNew,        ///< nothing of the map is near: it may become a segment
+  kPaired,     ///< paired with `segment`
+  kNew,        ///< no segment of the map is near: it may become a new one
   kAmbiguous,  ///< fits a segment alone, but not together with the other pairs
-  kRejected,   ///< near to a segment but outside its gate, or not a valid observation
+  kRejected,   ///< near a segment but outside its gate, or not a valid observation
 };
 
 struct SpMatch {
   SpVerdict verdict = SpVerdict::kNew;
   SegmentId segment = 0;
-  double d2 = 0.0;             ///< squared Mahalanobis distance of (y, theta): eq (13); of kRejected the smallest one
-  std::array<bool, 2> ends{};  ///< by lines::Side: the ends are used too
+  double d2 = 0.0;             ///< squared Mahalanobis distance of (y, theta), eq (13); for kRejected the smallest one
+  std::array<bool, 2> ends{};  ///< whether the end is used, too, by lines::Side
 };
 
-/// A hypothesis of pairs; matches[i] belongs to observation i.
+/// A hypothesis of the association; matches[i] belongs to observation i.
 struct Association {
   std::vector<SpMatch> matches;
   double joint_d2 = 0.0;
   int dof = 0;
-  int nodes = 0;        ///< visited by the search; 0 where nothing was ambiguous
-  bool capped = false;  ///< the search was cut off: the best set so far
+  int nodes = 0;        ///< number of nodes of the search; 0 where the association was unambiguous
+  bool capped = false;  ///< the search was terminated early: the best set so far
 };
 
-/// How well the pairs of the last update hold the robot, apart from any prior: sum of H^T R^-1 H.
+/// How well the pairs of the last update constrain the robot, without any prior: sum of H^T R^-1 H.
 struct Observability {
-  Matrix3 information = Matrix3::Zero();       ///< of d_R (robot frame)
-  double weak_sigma_m = 0.0;                   ///< of the position in the worst direction; infinity: not held at all
+  Matrix3 information = Matrix3::Zero();  ///< information of d_R (robot frame)
+  /// Standard deviation of the position in the worst direction; infinity where it is not constrained.
+  double weak_sigma_m = 0.0;
   Point2 weak_direction = Point2::UnitX();     ///< that direction, unit vector in the frame `map`
-  std::optional<Point2> degenerate_direction;  ///< the same, where weak_sigma_m is over the parameter
+  std::optional<Point2> degenerate_direction;  ///< the worst direction, where weak_sigma_m exceeds the parameter
 };
 
 struct SpMerge {
@@ -74,18 +75,18 @@ struct SpMerge {
   SegmentId gone = 0;
 };
 
-/// What one update did.
+/// Summary of one update.
 struct SpUpdateReport {
   int paired = 0;
-  int ends = 0;  ///< endpoint rows used
+  int ends = 0;  ///< number of endpoint rows used
   int ambiguous = 0;
   int rejected = 0;
   int iterations = 0;
-  double d2 = 0.0;  ///< innovation of all rows used, and how many
-  int dof = 0;
+  double d2 = 0.0;  ///< squared innovation of all rows used
+  int dof = 0;      ///< degrees of freedom of d2
   std::vector<SegmentId> created;
   std::vector<SpMerge> merged;
-  std::vector<SegmentId> lost;  ///< forgotten because their ends met
+  std::vector<SegmentId> lost;  ///< removed because their ends met
 };
 
 struct SpState;
@@ -101,46 +102,47 @@ class SpMap {
   SpMap& operator=(SpMap&&) noexcept;
   ~SpMap();
 
-  /// The robot moved by `increment` = old_T_new (spec eqs (10), (11)); `covariance` is of d in old_T_new (+) d, that
-  /// is in the frame of the new pose. Several increments add up as S1.3 says: C <- J{(-)u} C J{(-)u}^T + C_u.
+  /// Predicts a motion by `increment` = old_T_new (spec eqs (10), (11)); `covariance` is of d in old_T_new (+) d, that
+  /// is in the frame of the new pose. Several increments add up as in S1.3: C <- J{(-)u} C J{(-)u}^T + C_u.
   void predict(const Pose2& increment, const Matrix3& covariance);
 
-  /// Which segment each observation is (spec S1.6).
+  /// Associates each observation with a segment (spec S1.6).
   [[nodiscard]] Association associate(const std::vector<lines::SegmentObservation>& observations) const;
-  /// One scan: corrects robot and segments by the pairs, lets segments grow, adds new ones, merges.
+  /// Processes one scan: corrects robot and segments by the pairs, extends segments, adds new ones and merges.
   /// `association` is of the same observations and of this map since the last update.
   SpUpdateReport update(const std::vector<lines::SegmentObservation>& observations, const Association& association);
-  /// Segments that the scan looks through are gone after some scans; their ids. Call it after update().
+  /// Removes segments that several scans have looked through and returns their ids. Call it after update().
   std::vector<SegmentId> observe_free_space(const LaserScan& scan);
-  /// A measured pose (of a point matcher), `covariance_map` of (x, y, theta) in the frame `map` as in PoseEstimate.
-  /// With a degenerate direction (unit vector in `map`) nothing is taken along it. Gives the squared Mahalanobis
-  /// distance of what was used. Segments whose ends meet by it are forgotten. The measurement must not rest on the same
-  /// scan as an update().
+  /// Applies a measured pose (of a point matcher) with `covariance_map` of (x, y, theta) in the frame `map` as in
+  /// PoseEstimate. Along a degenerate direction (unit vector in `map`) the measurement is not used. Returns the squared
+  /// Mahalanobis distance of the used part. Segments whose ends meet by it are removed. The measurement must not be
+  /// derived from the scan of an update().
   double observe_pose(const Pose2& map_T_base, const Matrix3& covariance_map,
                       const std::optional<Point2>& degenerate_direction = std::nullopt);
-  /// That distance without using the measurement.
+  /// The squared Mahalanobis distance of such a measurement, without applying it.
   [[nodiscard]] double pose_d2(const Pose2& map_T_base, const Matrix3& covariance_map,
                                const std::optional<Point2>& degenerate_direction = std::nullopt) const;
 
-  /// Puts the robot somewhere, independent of the map: re-entry, relocalisation.
+  /// Sets the robot's pose independently of the map, for re-entry and relocalisation.
   void set_robot(const Pose2& map_T_base, const Matrix3& covariance);
-  /// False: no such segment.
+  /// Removes a segment. False when it does not exist.
   bool forget(SegmentId id);
 
   [[nodiscard]] const Pose2& robot() const;
-  [[nodiscard]] Matrix3 robot_covariance() const;      ///< of d_R: frame `base`
-  [[nodiscard]] Matrix3 robot_covariance_map() const;  ///< of (x, y, theta) in the frame `map`, as in PoseEstimate
+  [[nodiscard]] Matrix3 robot_covariance() const;  ///< covariance of d_R: frame `base`
+  /// Covariance of (x, y, theta) in the frame `map`, as in PoseEstimate.
+  [[nodiscard]] Matrix3 robot_covariance_map() const;
 
   [[nodiscard]] const std::vector<SpSegment>& segments() const;  ///< in the order of their ids
-  [[nodiscard]] const SpSegment* find(SegmentId id) const;       ///< null: no such segment
+  [[nodiscard]] const SpSegment* find(SegmentId id) const;       ///< null when it does not exist
   [[nodiscard]] SegmentCovariance segment_covariance(SegmentId id) const;
   [[nodiscard]] Eigen::MatrixXd segment_robot_covariance(SegmentId id) const;  ///< rows of the segment x 3 of d_R
-  /// All of it: 3 rows of d_R, then the rows of every segment in the order of segments().
+  /// The whole covariance: 3 rows of d_R, then the rows of every segment in the order of segments().
   [[nodiscard]] Eigen::MatrixXd covariance() const;
-  /// The part of it for the robot and these segments, in the order given. Every id must be of this map.
+  /// The covariance of the robot and these segments, in the order given. Every id must be of this map.
   [[nodiscard]] Eigen::MatrixXd joint_covariance(const std::vector<SegmentId>& ids) const;
   [[nodiscard]] const Observability& observability() const;  ///< of the last update
-  [[nodiscard]] std::uint64_t scans() const;                 ///< updates so far
+  [[nodiscard]] std::uint64_t scans() const;                 ///< number of updates so far
   [[nodiscard]] const SpMapParams& params() const;
 
  private:

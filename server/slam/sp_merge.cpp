@@ -39,7 +39,7 @@ Matrix2 cross_block(const SpCovariance& p, Index a, Index b) {
   return block;
 }
 
-/// Whether two segments are one line: they agree, and well enough is known of them for that to mean something.
+/// Whether two segments are one line: they agree, and their covariances are small enough for that to be significant.
 bool are_one_line(const SpState& state, std::size_t first, std::size_t second) {
   const MergeRows rows = merge_rows(state.segments[first].map_T_segment, state.segments[second].map_T_segment);
   const Index a = state.records[first].at;

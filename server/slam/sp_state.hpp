@@ -1,5 +1,5 @@
 /// \file
-/// What an SpMap is made of, for the functions that work on it.
+/// The state of an SpMap, for the functions that work on it.
 #pragma once
 
 #include <array>
@@ -11,22 +11,22 @@
 
 namespace seeker::slam {
 
-/// What only the filter needs to know of a segment; in step with SpState::segments.
+/// Data of a segment that only the filter needs; parallel to SpState::segments.
 struct SegmentRecord {
-  Index at = 0;                                         ///< first of its rows in the covariance
-  std::array<int, 2> real_votes{};                      ///< sightings in a row that saw this virtual end as a real one
-  std::array<int, 2> overrun_votes{};                   ///< sightings in a row that went past this real end
+  Index at = 0;                                         ///< index of its first row in the covariance
+  std::array<int, 2> real_votes{};                      ///< consecutive observations of this virtual end as a real one
+  std::array<int, 2> overrun_votes{};                   ///< consecutive observations beyond this real end
   std::array<std::optional<double>, 2> end_used_rad{};  ///< bearing in `base` of this end when it was used last
 };
 
-/// An observation that waits for a second sight of it (spec S1.8).
+/// A new observation that waits for confirmation (spec S1.8).
 struct Tentative {
   Pose2 map_T_segment;
   double length_m = 0.0;
   int scans = 1;
 };
 
-/// Memory of a step, kept to spare the heap.
+/// Reused memory of a step, which avoids heap allocations.
 class Scratch {
  public:
   [[nodiscard]] Eigen::Map<Eigen::MatrixXd> matrix(Index rows, Index columns) {
@@ -52,24 +52,24 @@ struct SpState {
   std::uint64_t scans = 0;
   SegmentId next_id = 1;
   std::array<Scratch, 3> scratch;   ///< P H^T, the robot's columns, a segment's columns
-  std::vector<CentringStep> steps;  ///< memory of centring
+  std::vector<CentringStep> steps;  ///< reused memory of centring
 
   SpState(const SpMapParams& map_params, const Pose2& start, const Matrix3& covariance)
       : params(map_params), map_T_base(start), p(covariance) {}
 
   [[nodiscard]] std::optional<std::size_t> index_of(SegmentId id) const;
   [[nodiscard]] SegmentRows rows_of(std::size_t segment) const { return {records[segment].at, segments[segment].real}; }
-  /// Bearing in `base` at which the end is now.
+  /// The present bearing of the end in `base`.
   [[nodiscard]] double end_bearing_rad(std::size_t segment, std::size_t side) const;
-  /// Other beams see the end than when it was used last: SpMapParams::end_beams.
+  /// Whether the end is observed by other beams than when it was used last: SpMapParams::end_beams.
   [[nodiscard]] bool is_end_news(std::size_t segment, std::size_t side, double beam_step_rad) const;
   void note_end_used(std::size_t segment, std::size_t side);
-  /// Moves the first rows of all segments from `first` on.
+  /// Shifts the row indices of all segments from `first` on.
   void shift_rows(std::size_t first, Index by);
   void erase(std::size_t segment);
 };
 
-/// Not finite, without length or with a covariance that is none.
+/// False when the observation is not finite, has no length or an invalid covariance.
 [[nodiscard]] bool is_usable(const lines::SegmentObservation& observation);
 
 }  // namespace seeker::slam

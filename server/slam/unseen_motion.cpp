@@ -9,14 +9,14 @@ bool UnseenMotion::is_silent(const Pose2& increment) const {
 }
 
 UncertainPose UnseenMotion::expected(double dt_s) const {
-  const double way_sigma_m = params_.speed_sigma_mps * dt_s;
-  const double turn_sigma_rad = params_.turn_sigma_radps * dt_s;
-  return {{x_mps_ * dt_s, y_mps_ * dt_s, turn_radps_ * dt_s},
-          Eigen::Vector3d(way_sigma_m, way_sigma_m, turn_sigma_rad).cwiseAbs2().asDiagonal()};
+  const double displacement_sigma_m = params_.speed_sigma_mps * dt_s;
+  const double rotation_sigma_rad = params_.rotation_sigma_radps * dt_s;
+  return {{x_mps_ * dt_s, y_mps_ * dt_s, rotation_radps_ * dt_s},
+          Eigen::Vector3d(displacement_sigma_m, displacement_sigma_m, rotation_sigma_rad).cwiseAbs2().asDiagonal()};
 }
 
 bool UnseenMotion::is_too_fast(const Pose2& motion, double dt_s) const {
-  return moved({}, motion, params_.max_speed_mps * dt_s, params_.max_turn_radps * dt_s);
+  return moved({}, motion, params_.max_speed_mps * dt_s, params_.max_rotation_radps * dt_s);
 }
 
 void UnseenMotion::note_wheels() {
@@ -30,7 +30,7 @@ void UnseenMotion::note(const Pose2& motion, double dt_s) {
   if (dt_s > 0.0) {
     x_mps_ = motion.x_m / dt_s;
     y_mps_ = motion.y_m / dt_s;
-    turn_radps_ = motion.theta_rad / dt_s;
+    rotation_radps_ = motion.theta_rad / dt_s;
   }
 }
 

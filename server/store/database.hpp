@@ -1,5 +1,5 @@
 /// \file
-/// SQLite behind Result and RAII. Only this folder includes it; sqlite3.h stays in the source file.
+/// SQLite behind Result and RAII. Only this folder includes this header, and only its source file sqlite3.h.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct sqlite3_stmt;
 
 namespace seeker::store {
 
-/// A prepared statement, borrowed from its Database, which keeps it for the next time. Values are bound in the order
-/// of the question marks. A failed bind is told by step().
+/// A prepared statement, borrowed from its Database, which keeps it for later use. Values are bound in the order of the
+/// question marks. step() returns the error of a failed bind.
 class Statement {
  public:
   Statement(sqlite3* database, sqlite3_stmt* statement) : database_(database), statement_(statement) {}
@@ -34,9 +34,9 @@ class Statement {
   Statement& bind(std::span<const std::uint8_t> blob);
   Statement& bind_null();
 
-  /// True: a row is there to be read. False: done.
+  /// Executes up to the next row. True: a row can be read; false: there are no more.
   [[nodiscard]] Result<bool> step();
-  /// For statements without rows.
+  /// Executes a statement that returns no rows.
   [[nodiscard]] Status run();
 
   [[nodiscard]] bool is_null(int column) const;
@@ -55,12 +55,12 @@ class Statement {
 /// How a database file is opened.
 enum class Access : std::uint8_t {
   kExclusive,  ///< by this program alone, for long, with a write-ahead log beside it; made where it is absent
-  kChange,     ///< for one change: no other file is left beside it
-  kMake,       ///< the same; made where it is absent
-  kRead,       ///< nothing is written, except that a change which a crash cut short is undone
+  kChange,     ///< for one change; no other file is left beside it
+  kMake,       ///< as kChange; the file is made where it is absent
+  kRead,       ///< for reading; a change that a crash has interrupted is undone
 };
 
-/// One open database file. Every commit is synced. Not for two threads at once.
+/// One open database file, for one thread at a time. Every commit is synced to the disk.
 class Database {
  public:
   [[nodiscard]] static Result<Database> open(const std::filesystem::path& file, Access access = Access::kExclusive);
@@ -72,12 +72,12 @@ class Database {
   ~Database();
 
   [[nodiscard]] Result<Statement> prepare(const std::string& sql);
-  /// One or more statements without rows and without values.
+  /// Executes one or more statements that take no values and return no rows.
   [[nodiscard]] Status execute(const std::string& sql);
-  /// The first column of the first row.
+  /// Executes a query and returns the first column of its first row.
   [[nodiscard]] Result<std::int64_t> query_integer(const std::string& sql);
   [[nodiscard]] Result<std::string> query_text(const std::string& sql);
-  /// Rows changed by the last statement.
+  /// Number of rows that the last statement has changed.
   [[nodiscard]] int changes() const;
 
  private:
@@ -88,7 +88,7 @@ class Database {
   std::map<std::string, sqlite3_stmt*> statements_;
 };
 
-/// Undone unless committed.
+/// A transaction, which is undone when it is destroyed without a commit.
 class Transaction {
  public:
   [[nodiscard]] static Result<Transaction> begin(Database& database);

@@ -3,7 +3,7 @@
 #include <system_error>
 #include <utility>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "server/store/landmark_rows.hpp"
 
 namespace seeker::store {
@@ -90,7 +90,7 @@ Status write_landmark_file(const fs::path& file, const LandmarkOrigin& origin, c
   if (error) {
     return fail(Errc::kIo, "cannot rename '" + temporary.string() + "': " + error.message());
   }
-  return sync_folder(file.parent_path());
+  return files::sync_folder(file.parent_path());
 }
 
 Status update_landmark_file(const fs::path& file, std::int64_t saved_unix_s, const LandmarkContent& content) {

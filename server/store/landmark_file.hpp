@@ -22,7 +22,7 @@ inline constexpr std::int64_t kMaxLandmarkSides = 16;
 
 using Vector3Record = std::array<double, 3>;
 
-/// How a landmark looks from one side.
+/// The appearance of a landmark from one side.
 struct LandmarkSide {
   Vector3Record to_eye{};
   std::int64_t seen = 0;
@@ -31,11 +31,11 @@ struct LandmarkSide {
   friend bool operator==(const LandmarkSide&, const LandmarkSide&) = default;
 };
 
-/// One landmark as plain numbers; what they mean is told in server/localize/landmark.hpp.
+/// One landmark as plain numbers; server/localize/landmark.hpp explains them.
 struct LandmarkRecord {
   std::uint64_t id = 0;
   Vector3Record p_map{};
-  std::array<double, 6> information{};  ///< xx, xy, xz, yy, yz, zz
+  std::array<double, 6> information{};  ///< information matrix of the position: xx, xy, xz, yy, yz, zz
   Vector3Record to_eye{};
   double concentration = 0.0;
   double scale_m = 0.0;
@@ -49,7 +49,7 @@ struct LandmarkRecord {
   friend bool operator==(const LandmarkRecord&, const LandmarkRecord&) = default;
 };
 
-/// Everything that a localiser needs. Landmarks by rising id.
+/// The content of a database that a localiser needs, landmarks by rising id.
 struct LandmarkContent {
   std::uint64_t calibration = 0;
   std::uint64_t next_id = 1;
@@ -59,7 +59,7 @@ struct LandmarkContent {
   friend bool operator==(const LandmarkContent&, const LandmarkContent&) = default;
 };
 
-/// Where a database comes from. Times are wall time, seconds since 1970 (UTC).
+/// The origin of a database. Times are wall time, seconds since 1970 (UTC).
 struct LandmarkOrigin {
   std::string robot_id;
   std::string software_version;
@@ -70,7 +70,7 @@ struct LandmarkOrigin {
   friend bool operator==(const LandmarkOrigin&, const LandmarkOrigin&) = default;
 };
 
-/// A file in figures.
+/// Summary of a file.
 struct LandmarkHeader {
   LandmarkOrigin origin;
   std::uint64_t calibration = 0;
@@ -82,7 +82,7 @@ struct LandmarkHeader {
   friend bool operator==(const LandmarkHeader&, const LandmarkHeader&) = default;
 };
 
-/// A whole file.
+/// A file with its origin and content.
 struct LandmarkFile {
   LandmarkHeader header;
   LandmarkContent content;  ///< the present version
@@ -94,15 +94,15 @@ struct LandmarkFile {
 /// Writes a new file under a temporary name and renames it over `file`.
 [[nodiscard]] Status write_landmark_file(const std::filesystem::path& file, const LandmarkOrigin& origin,
                                          const LandmarkContent& content);
-/// Makes `content` the present version and keeps the one before. In one transaction: whoever is killed meanwhile leaves
-/// the old version or the new one.
+/// Makes `content` the present version and keeps the one before, in one transaction: a program that is killed meanwhile
+/// leaves the old version or the new one.
 [[nodiscard]] Status update_landmark_file(const std::filesystem::path& file, std::int64_t saved_unix_s,
                                           const LandmarkContent& content);
-/// Makes the version before the present one. kNotReady: none is kept.
+/// Replaces the present version by the one before. kNotReady: none is kept.
 [[nodiscard]] Status revert_landmark_file(const std::filesystem::path& file, std::int64_t saved_unix_s);
-/// The header alone; the landmarks are not looked at.
+/// Reads the header alone, without the landmarks.
 [[nodiscard]] Result<LandmarkHeader> read_landmark_header(const std::filesystem::path& file);
-/// The present version, checked as a whole.
+/// Reads and checks the present version.
 [[nodiscard]] Result<LandmarkFile> read_landmark_file(const std::filesystem::path& file);
 
 }  // namespace seeker::store

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "server/store/map_file_bytes.hpp"
 #include "server/store/pack.hpp"
 
@@ -346,11 +346,11 @@ Result<MapFile> decode_map_file(std::span<const std::uint8_t> bytes, const MapFi
 
 Status write_map_file(const std::filesystem::path& path, const MapFile& file) {
   const Result<std::vector<std::uint8_t>> bytes = encode_map_file(file);
-  return bytes ? write_file_atomically(path, *bytes) : Status(tl::unexpected<Error>(bytes.error()));
+  return bytes ? files::write_file(path, *bytes) : Status(tl::unexpected<Error>(bytes.error()));
 }
 
 Result<MapFile> read_map_file(const std::filesystem::path& path, const MapFileLimits& limits) {
-  const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path, limits.file_bytes);
   if (!bytes) {
     return tl::unexpected<Error>(bytes.error());
   }

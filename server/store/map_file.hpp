@@ -4,7 +4,7 @@
 ///   "SEEKRMAP"  u32 version  u32 header bytes  header  u32 CRC-32 of all before
 ///   body: one zstd frame                               u32 CRC-32 of all before
 ///
-/// The header says who made the map and what is in it, so that a folder can be listed without unpacking; the body is
+/// The header holds the origin and the size of the map, so that a folder can be listed without unpacking; the body is
 /// the LineMap. The same value always gives the same bytes.
 #pragma once
 
@@ -24,7 +24,7 @@ namespace seeker::store {
 inline constexpr std::uint32_t kMapFileVersion = 1;
 inline constexpr std::string_view kMapFileEnding = ".seekermap";
 
-/// Who made a map, when and with what. Times are wall time, seconds since 1970 (UTC); nobody computes with them.
+/// The origin of a map. Times are wall time, seconds since 1970 (UTC), for display only.
 struct MapOrigin {
   std::string name;              ///< see validate_map_name()
   std::string robot_id;          ///< at most kMaxOriginText bytes each
@@ -44,17 +44,17 @@ struct MapFile {
   friend bool operator==(const MapFile&, const MapFile&) = default;
 };
 
-/// What the header tells.
+/// The content of the header.
 struct MapFileHeader {
   MapOrigin origin;
   std::uint32_t epoch = 0;
   std::uint32_t nodes = 0;
   std::uint32_t edges = 0;
-  std::uint32_t loops = 0;  ///< of the edges: loop closures that are enabled
+  std::uint32_t loops = 0;  ///< number of the edges that are enabled loop closures
   std::uint32_t segments = 0;
   std::uint32_t keyframes = 0;
-  std::uint64_t body_bytes = 0;   ///< unpacked
-  std::uint64_t frame_bytes = 0;  ///< packed
+  std::uint64_t body_bytes = 0;   ///< size of the unpacked body
+  std::uint64_t frame_bytes = 0;  ///< size of the packed body
 
   friend bool operator==(const MapFileHeader&, const MapFileHeader&) = default;
 };
@@ -64,12 +64,12 @@ struct MapFileLimits {
   std::size_t body_bytes = 512UL << 20U;  ///< unpacked; 100 000 segments and 50 000 scans take 50 MB
 };
 
-/// kInvalidArgument: not a valid map, name or text; kTooLarge.
+/// Makes the bytes of a map file. kInvalidArgument: map, name or a text is not valid; kTooLarge.
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_map_file(const MapFile& file, const MapFileLimits& limits = {});
-/// kParse: something else than a map file; kCorrupt: cut or altered; kUnsupportedVersion: made by a newer program, with
-/// both versions in the message; kTooLarge. Never a map that validate() refuses.
+/// Reads the bytes of a map file; the map is valid as by validate(). kParse: they are no map file; kCorrupt: cut or
+/// altered; kUnsupportedVersion: made by a newer program, with both versions in the message; kTooLarge.
 [[nodiscard]] Result<MapFile> decode_map_file(std::span<const std::uint8_t> bytes, const MapFileLimits& limits = {});
-/// The header alone; the body may be cut off or damaged. Errors as above.
+/// Reads the header alone; the body may be cut off or damaged. Errors as of decode_map_file().
 [[nodiscard]] Result<MapFileHeader> decode_map_header(std::span<const std::uint8_t> bytes);
 
 /// Replaces `path` as a whole or leaves it as it was. Errors of encode_map_file(), kIo (full disk, no permission).

@@ -1,5 +1,5 @@
 /// \file
-/// Little-endian bytes of map files, written and read without trusting a single count.
+/// Little-endian bytes of map files; every count is checked when it is read.
 #pragma once
 
 #include <array>
@@ -70,7 +70,7 @@ class ByteWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// After the first thing that is missing everything reads as zero and ok() is false.
+/// Reads values in order. After the first missing byte all values read as zero and ok() is false.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -116,21 +116,21 @@ class ByteReader {
   }
   void get(Matrix2& matrix) { get_rows(matrix); }
   void get(Matrix3& matrix) { get_rows(matrix); }
-  /// One byte that is 0 or 1.
+  /// Reads one byte that is 0 or 1.
   void get_flag(bool& flag) {
     std::uint8_t byte = 0;
     get(byte);
     ok_ = ok_ && byte <= 1;
     flag = byte == 1;
   }
-  /// A number of entries of at least `entry_bytes` each; what the bytes left cannot hold is refused.
+  /// Reads a number of entries of at least `entry_bytes` each; more than the remaining bytes can hold is refused.
   [[nodiscard]] std::size_t get_count(std::size_t entry_bytes) {
     std::uint32_t count = 0;
     get(count);
     ok_ = ok_ && count <= left() / entry_bytes;
     return ok_ ? count : 0;
   }
-  /// The next bytes; none when there are not so many.
+  /// Takes the next `size` bytes; an empty span when fewer remain.
   [[nodiscard]] std::span<const std::uint8_t> take(std::size_t size) {
     ok_ = ok_ && size <= rest_.size();
     if (!ok_) {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 
 namespace seeker::store {
 namespace {
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 MapListing listing_of(const fs::path& path, const std::string& name) {
   MapListing listing;
-  const Result<std::vector<std::uint8_t>> bytes = read_file(path, MapFileLimits().file_bytes);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path, MapFileLimits().file_bytes);
   const Result<MapFileHeader> header = bytes ? decode_map_header(*bytes) : tl::unexpected<Error>(bytes.error());
   listing.file_bytes = bytes ? bytes->size() : 0;
   if (header) {
@@ -67,7 +67,7 @@ Result<std::vector<std::uint8_t>> MapFiles::read_bytes(const std::string& name) 
   if (const Status ok = files_.check_present(name); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
-  Result<std::vector<std::uint8_t>> bytes = read_file(path_of(name), MapFileLimits().file_bytes);
+  Result<std::vector<std::uint8_t>> bytes = files::read_file(path_of(name), MapFileLimits().file_bytes);
   if (!bytes) {
     return bytes;
   }

@@ -1,5 +1,5 @@
 /// \file
-/// The folder a robot keeps its maps in: NAME.seekermap each.
+/// The folder in which a robot keeps its maps, each as NAME.seekermap.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,26 @@
 
 namespace seeker::store {
 
-/// One file of the folder. A damaged one is listed with its problem, so that somebody sees it.
+/// One file of the folder. A damaged file is listed with its problem, so that users see it.
 struct MapListing {
   MapFileHeader header;  ///< only the name is set where there is a problem
   std::uint64_t file_bytes = 0;
   std::string problem;
 };
 
-/// Not made until the first map is written. Calls may come from one thread at a time.
+/// The folder is made when the first map is written. Calls may come from one thread at a time.
 class MapFiles {
  public:
   explicit MapFiles(std::filesystem::path folder);
 
-  /// By name. An absent folder has no maps. kIo.
+  /// Lists all files by name; an absent folder has none. kIo.
   [[nodiscard]] Result<std::vector<MapListing>> list() const;
-  /// The header of one map. kNotFound names the maps that are there; errors of decode_map_header().
+  /// Reads the header of one map. kNotFound names the maps that are there; errors of decode_map_header().
   [[nodiscard]] Result<MapListing> inspect(const std::string& name) const;
   [[nodiscard]] Result<MapFile> read(const std::string& name) const;
-  /// The file as it is, checked as a whole.
+  /// Reads the bytes of one file, after a check of the whole file.
   [[nodiscard]] Result<std::vector<std::uint8_t>> read_bytes(const std::string& name) const;
-  /// Writes under the name of its origin. kRefused: there is such a map and `replace` is false.
+  /// Writes a map under the name in its origin. kRefused: there is such a map and `replace` is false.
   [[nodiscard]] Result<MapListing> write(const MapFile& file, bool replace) const;
   [[nodiscard]] Status remove(const std::string& name) const { return files_.remove(name); }
 

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "common/core/line_map.hpp"
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 
 namespace seeker::store {
 
@@ -75,7 +75,7 @@ Status NamedFiles::remove(const std::string& name) const {
   if (!fs::remove(path_of(name), error)) {
     return fail(Errc::kIo, "cannot delete " + kind_.name + " '" + name + "': " + error.message());
   }
-  return sync_folder(folder_);
+  return files::sync_folder(folder_);
 }
 
 }  // namespace seeker::store

@@ -1,19 +1,19 @@
 /// \file
-/// The tables of a database file, and how a file is known to have them.
+/// The tables of a database file, and the check that a file has them.
 #pragma once
 
 #include "server/store/database.hpp"
 
 namespace seeker::store {
 
-/// What a file of one kind looks like.
+/// The schema of the files of one kind.
 struct Schema {
   const char* tables;           ///< SQL that makes them in an empty file
   std::int64_t application_id;  ///< marks a file as being of this kind, in the database's header
   std::int64_t version;         ///< written by this program; a newer file is refused
 };
 
-/// Of the state file: "SEEK".
+/// The schema of the state file, whose application id is "SEEK".
 [[nodiscard]] const Schema& state_schema();
 
 /// Checks the file; an empty one gets the tables. kCorrupt: the structure is damaged; kUnsupportedVersion: written by a

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "server/store/map_file_bytes.hpp"
 
 namespace seeker::store {
@@ -59,16 +59,16 @@ Result<std::vector<std::uint8_t>> unseal(const std::string& kind, std::span<cons
 }
 
 Status write_sealed_file(const std::filesystem::path& path, const std::string& kind, std::string_view content,
-                         Outlives outlives) {
+                         files::Outlives outlives) {
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
-  return write_file_atomically(path, seal(kind, bytes), outlives);
+  return files::write_file(path, seal(kind, bytes), outlives);
 }
 
 Result<std::vector<std::uint8_t>> read_sealed_file(const std::filesystem::path& path, const std::string& kind,
                                                    std::size_t limit_bytes) {
-  const Result<std::vector<std::uint8_t>> bytes = read_file(path, limit_bytes);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path, limit_bytes);
   if (!bytes) {
     return tl::unexpected<Error>(bytes.error());
   }

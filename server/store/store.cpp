@@ -3,7 +3,7 @@
 #include <system_error>
 #include <utility>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "server/store/pack.hpp"
 #include "server/store/schema.hpp"
 #include "server/store/store_body.hpp"
@@ -18,7 +18,7 @@ constexpr const char* kFileName = "seeker.db";
 constexpr const char* kMissionColumns =
     "SELECT id, kind, request, started_ns, ended_ns, outcome, cause, remedy FROM missions ";
 
-/// Moves a damaged file out of the way, under the first free name; its log belongs to it.
+/// Moves a damaged file aside, under the first free name; its log belongs to it.
 Result<fs::path> set_aside(const fs::path& file) {
   for (int n = 1;; ++n) {
     const fs::path kept = file.string() + ".damaged-" + std::to_string(n);
@@ -108,7 +108,7 @@ Result<Store> Store::open(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error)) {
     return fail(Errc::kIo, "the state folder '" + folder.string() + "' cannot be made (" +
-                               (error ? error.message() : "a file of that name is in the way") +
+                               (error ? error.message() : "a file of that name exists already") +
                                "); choose another one with --state");
   }
   const fs::path file = folder / kFileName;
@@ -120,7 +120,7 @@ Result<Store> Store::open(const fs::path& folder) {
     { const Database closed = std::move(*database); }
     return open_failure(file, ok.error());
   }
-  if (const Status ok = sync_folder(folder); !ok) {
+  if (const Status ok = files::sync_folder(folder); !ok) {
     return tl::unexpected(ok.error());
   }
   return Store(std::make_unique<Body>(Body{std::move(*database)}));

@@ -1,6 +1,6 @@
 /// \file
-/// What the robot remembers over a restart: missions with their journal, events and detections, and small settings.
-/// Plain values only: who stores something decides how it is written as bytes.
+/// State of a robot that survives a restart: missions with their journal, events and detections, and small settings.
+/// The store holds plain values; the caller decides how a value is written as bytes.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@ namespace seeker::store {
 
 using Blob = std::vector<std::uint8_t>;
 
-/// Version of the tables this program writes. An older file is brought up to it; a newer one is refused.
+/// Version of the tables this program writes. An older file is upgraded; a newer one is refused.
 inline constexpr std::int64_t kSchemaVersion = 1;
-/// Largest blob accepted or handed back.
+/// Largest blob that is stored or returned.
 inline constexpr std::size_t kMaxBlob_bytes = std::size_t{64} << 20U;
-/// Largest text accepted in one field.
+/// Largest text in one field.
 inline constexpr std::size_t kMaxText_bytes = std::size_t{64} << 10U;
 
-/// How a mission ended. Stamps are robot time in nanoseconds.
+/// The end of a mission. Stamps are robot time in nanoseconds.
 struct MissionEndRecord {
   std::int64_t ended_ns = 0;
   std::string outcome;  ///< stable word, e.g. "TARGET_FOUND"
@@ -68,7 +68,7 @@ struct DetectionRecord {
   friend bool operator==(const DetectionRecord&, const DetectionRecord&) = default;
 };
 
-/// What a mission needs to be resumed: its grid lists and evidence as bytes. Kept compressed, with a checksum.
+/// State from which a mission is resumed: its grid lists and evidence as bytes. Stored compressed, with a checksum.
 struct Checkpoint {
   std::int64_t robot_time_ns = 0;
   Blob journal;
@@ -99,10 +99,11 @@ class Store {
   Store& operator=(Store&&) noexcept;
   ~Store();
 
-  /// Notes a mission as running. The same id again replaces its request, start and end, and drops its checkpoint. Where
-  /// it had no end it goes on: its events stay. Where it had one this is another mission: those of the old one go.
+  /// Records a mission as running. A known id replaces its request, start and end, and drops its checkpoint. If that
+  /// mission had no end, it is continued and keeps its events; if it had one, this is another mission and they are
+  /// deleted.
   [[nodiscard]] Status begin_mission(const MissionRecord& mission);
-  /// kNotFound: no such mission. Drops the checkpoint, which nobody needs any more.
+  /// Records the end of a mission and drops its checkpoint. kNotFound: no such mission.
   [[nodiscard]] Status end_mission(const std::string& id, const MissionEndRecord& end);
   /// Replaces the mission's checkpoint. kNotFound: no such mission.
   [[nodiscard]] Status save_checkpoint(const std::string& mission, const Checkpoint& checkpoint);
@@ -113,11 +114,11 @@ class Store {
   [[nodiscard]] Result<std::vector<MissionRecord>> missions(std::size_t limit) const;
 
   [[nodiscard]] Status record_event(const EventRecord& event);
-  /// All of them or none: one write to the disk instead of one each.
+  /// Records all events or none, in one write to the disk.
   [[nodiscard]] Status record_events(std::span<const EventRecord> events);
   /// Events of a mission by rising sequence.
   [[nodiscard]] Result<std::vector<EventRecord>> events(const std::string& mission) const;
-  /// Highest sequence among them, 0 when there are none: a mission that goes on counts from there.
+  /// Highest sequence among the events of a mission, 0 when there are none; a resumed mission counts from there.
   [[nodiscard]] Result<std::uint64_t> highest_event(const std::string& mission) const;
 
   [[nodiscard]] Status save_detection(const DetectionRecord& detection);
@@ -127,7 +128,7 @@ class Store {
   [[nodiscard]] Result<std::uint64_t> highest_detection_id() const;
 
   [[nodiscard]] Status put(const std::string& key, const Blob& value);
-  /// Nothing for a key that was never put.
+  /// Reads a setting; std::nullopt for a key that was never put.
   [[nodiscard]] Result<std::optional<Blob>> get(const std::string& key) const;
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// What the source files of Store share.
+/// Declarations that the source files of Store share.
 #pragma once
 
 #include <initializer_list>
@@ -16,11 +16,11 @@ struct Store::Body {
   Database database;
 };
 
-/// kTooLarge above kMaxBlob_bytes; `what` begins the sentence.
+/// Checks the size of a blob. kTooLarge above kMaxBlob_bytes; `what` begins the message.
 [[nodiscard]] Status check_blob(const char* what, const Blob& blob);
-/// kTooLarge above kMaxText_bytes.
+/// Checks the sizes of texts. kTooLarge above kMaxText_bytes.
 [[nodiscard]] Status check_texts(std::initializer_list<std::string_view> texts);
-/// kInvalidArgument when empty.
+/// Checks an id. kInvalidArgument when it is empty.
 [[nodiscard]] Status check_id(const char* what, const std::string& id);
 
 /// Runs `statement` to its end and collects what `read` makes of each row.

@@ -17,14 +17,14 @@ constexpr std::uint32_t kVarianceSample = 256;
 struct Branch {
   std::uint32_t bound = 0;
   std::int32_t node = 0;
-  std::int32_t detour = -1;  ///< index of the last border crossed on the way to it
+  std::int32_t detour = -1;  ///< index of the last border crossed on the path to it
 };
 
 struct Farther {
   bool operator()(const Branch& a, const Branch& b) const { return a.bound > b.bound; }
 };
 
-/// A border that the way to a branch crosses: how far the query is from it.
+/// A border that the path to a branch crosses, with the distance of the query from it.
 struct Detour {
   std::int32_t earlier = -1;
   std::uint8_t dimension = 0;

@@ -1,6 +1,7 @@
 /// \file
-/// Best-bin-first search in a k-d tree, as the paper has it (spec S2.1; Beis and Lowe): approximate. Exact search
-/// (nearest_two()) is faster up to some ten thousand descriptors; tests/bench/bench_stereo.cpp tells recall and time.
+/// Approximate best-bin-first search in a k-d tree, as in the paper (spec S2.1; Beis and Lowe). Exact search
+/// (nearest_two()) is faster up to about ten thousand descriptors; tests/bench/bench_stereo.cpp measures recall and
+/// time.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@
 namespace seeker::vision {
 
 struct BbfParams {
-  int max_leaves = 200;  ///< looked at per query
-  int leaf_size = 1;     ///< descriptors in a leaf at most
+  int max_leaves = 200;  ///< number of leaves visited per query
+  int leaf_size = 1;     ///< largest number of descriptors in a leaf
 
   friend bool operator==(const BbfParams&, const BbfParams&) = default;
 };
@@ -24,14 +25,14 @@ class BbfTree {
   BbfTree(std::span<const Descriptor> candidates, Metric metric, const BbfParams& params = {});
 
   [[nodiscard]] std::size_t size() const { return descriptors_.size(); }
-  /// Like nearest_two(), indices into the candidates, but maybe not the nearest ones; what is named has the distance
-  /// that is told. With max_leaves of the candidates' number it is exact up to ties.
+  /// As nearest_two(), with indices into the candidates, but not necessarily the nearest ones; the distances are exact.
+  /// The search is exact up to ties when max_leaves equals the number of candidates.
   [[nodiscard]] std::vector<NearestTwo> nearest_two(std::span<const Descriptor> queries) const;
 
  private:
-  /// Inner nodes send values up to `low` left and from `high` on right. Leaves hold candidates [first, last) of order_.
+  /// Inner nodes lead values up to `low` left and from `high` on right. Leaves hold candidates [first, last) of order_.
   struct Node {
-    std::int32_t left = -1;  ///< below 0: a leaf
+    std::int32_t left = -1;  ///< negative for a leaf
     std::int32_t right = -1;
     std::uint32_t first = 0;
     std::uint32_t last = 0;
@@ -48,7 +49,7 @@ class BbfTree {
 
   BbfParams params_;
   Metric metric_;
-  std::vector<std::uint32_t> order_;     ///< candidates' indices by leaf
+  std::vector<std::uint32_t> order_;     ///< indices of the candidates by leaf
   std::vector<Descriptor> descriptors_;  ///< in the order of order_
   std::vector<Node> nodes_;
 };

@@ -18,10 +18,10 @@ using Histogram = std::array<int, 256>;
 [[nodiscard]] Histogram histogram(const cv::Mat& grey);
 
 /// Otsu's threshold over the grey levels [low, high]: the level t for which the classes [low, t] and [t + 1, high]
-/// differ most. Nothing where fewer than two levels occur.
+/// differ most. No value where fewer than two levels occur.
 [[nodiscard]] std::optional<int> otsu_threshold(const Histogram& counts, int low, int high);
 
-/// Look-up table that maps the given percentiles to 0 and 255. The identity where both fall on one level.
+/// Look-up table that maps the given percentiles to 0 and 255. The identity where both are the same level.
 [[nodiscard]] std::array<std::uint8_t, 256> stretch_table(const Histogram& counts, double low, double high);
 
 /// The picture after each step.
@@ -44,9 +44,9 @@ struct Binarisation {
   cv::Mat classes;
 };
 
-/// Otsu's first. With `extra_binarisations` also Otsu's within the dark and within the light class, which part a very
-/// dark target from dark furniture behind it, and the local mean, which follows uneven light. Empty where the
-/// picture has one grey level.
+/// Otsu's binarisation first. With `extra_binarisations` also Otsu's within the dark and within the light class, which
+/// separates a very dark target from dark furniture behind it, and the local mean, which follows uneven light. Empty
+/// where the picture has one grey level.
 [[nodiscard]] std::vector<Binarisation> binarise(const cv::Mat& denoised, const TemplateParams& params);
 
 }  // namespace seeker::vision

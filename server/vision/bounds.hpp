@@ -10,7 +10,7 @@
 
 namespace seeker::vision {
 
-/// A field with the range it must lie in.
+/// A field with the range in which it must lie.
 struct Bound {
   const char* name;
   double value;
@@ -18,7 +18,7 @@ struct Bound {
   double high;
 };
 
-/// kInvalidArgument naming the first field outside its range (or not a number), with the range.
+/// Fails with kInvalidArgument for the first field outside its range (or not a number), naming the field and the range.
 template <std::size_t N>
 [[nodiscard]] Status check_bounds(const std::array<Bound, N>& bounds) {
   for (const Bound& b : bounds) {

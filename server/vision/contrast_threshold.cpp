@@ -11,14 +11,14 @@ namespace seeker::vision {
 namespace {
 
 constexpr double kBlur_px = 0.8;  ///< twice, so that the difference is that of sigma 0.8 and 1.13
-constexpr int kStripe_px = 64;    ///< every third stripe of as many rows is looked at
+constexpr int kStripe_px = 64;    ///< every third stripe of as many rows is examined
 const cv::Size kKernel(5, 5);
 constexpr double kGreyLevels = 255.0;
 constexpr int kLayersPerOctave = 3;  ///< SIFT compares contrasts times its layers with the threshold
 /// A picture that has a quarter fewer than wanted does without a lower threshold, which costs time and finds weaker
 /// points; at 0.75 key points an extremum, as many extrema as key points wanted are enough.
 constexpr double kExtremaPerWanted = 1.0;
-/// Of a picture with far more than are kept only the strongest are looked at: at 0.75 key points an extremum these
+/// In a picture with far more extrema than are kept only the strongest are used: at 0.75 key points per extremum these
 /// are then enough.
 constexpr double kPlenty = 1.75;
 
@@ -60,7 +60,7 @@ void add_extrema(const cv::Mat& difference, float lowest, float edge, std::vecto
   }
 }
 
-/// Contrasts of extrema, and the share of the picture in which they were looked for.
+/// Contrasts of extrema, and the share of the picture that was searched.
 struct Sample {
   std::vector<float> contrasts;
   double share = 0.0;

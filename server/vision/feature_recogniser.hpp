@@ -1,6 +1,6 @@
 /// \file
-/// Targets found by SIFT key points that agree on a homography: for textured targets, also turned, oblique or partly
-/// hidden ones. Dearer than template matching; chosen per target.
+/// Recognition of targets by SIFT key points that agree on a homography: for textured targets, also rotated, oblique or
+/// partly hidden ones. More expensive than template matching; chosen per target.
 #pragma once
 
 #include <vector>
@@ -14,10 +14,11 @@
 
 namespace seeker::vision {
 
-/// One detection in the scene serves all targets. At most one sighting per target and picture.
+/// Recognises all targets by one detection in the scene, with at most one sighting per target and picture.
 class FeatureRecogniser : public Recogniser {
  public:
-  /// Takes those of `targets` that are of kind kFeature. kInvalidArgument: a picture has too few key points.
+  /// Takes those of `targets` that are of kind kFeature. Fails with kInvalidArgument when a picture has too few key
+  /// points.
   [[nodiscard]] static Result<std::unique_ptr<FeatureRecogniser>> make(const std::vector<TargetModel>& targets,
                                                                        const RecogniserParams& params);
 

@@ -50,7 +50,7 @@ std::vector<cv::Point2f> pick(const std::vector<cv::Point2f>& points, const std:
   return out;
 }
 
-/// Convex and turning the same way as the target's picture (a mirrored target cannot be seen).
+/// Convex and with the same orientation as the target's picture (a mirrored target cannot be visible).
 bool convex_and_unmirrored(const std::array<cv::Point2d, 4>& c) {
   for (std::size_t i = 0; i < c.size(); ++i) {
     const cv::Point2d side = c[(i + 1) % 4] - c[i];

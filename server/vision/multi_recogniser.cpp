@@ -102,8 +102,7 @@ Status check_target(const TargetModel& target, int scene_width_px, int scene_hei
   const Image grey = to_grey(picture);
   const auto [low, high] = std::minmax_element(grey.data().begin(), grey.data().end());
   if (*high - *low < kMinRange) {
-    return fail(Errc::kInvalidArgument,
-                who + "its picture has one colour: give a picture with something on it to recognise");
+    return fail(Errc::kInvalidArgument, who + "its picture has one colour: give a picture with visible features");
   }
   if (!(target.width_m > 0.0 && target.height_m > 0.0 && target.width_m < std::numeric_limits<double>::infinity() &&
         target.height_m < std::numeric_limits<double>::infinity())) {

@@ -1,5 +1,5 @@
 /// \file
-/// The factory: from a list of targets to one recogniser that finds them all.
+/// The factory that makes one recogniser for a list of targets.
 #pragma once
 
 #include <memory>
@@ -10,23 +10,24 @@
 
 namespace seeker::vision {
 
-/// Longest side of a target's picture that is accepted.
+/// Largest accepted side of a target's picture.
 inline constexpr int kMaxTargetSide_px = 2048;
-/// Most targets at once.
+/// Largest number of targets.
 inline constexpr int kMaxTargets = 64;
 
-/// Builds what the targets need: one template recogniser for all of kind kTemplate, one feature recogniser for all of
-/// kind kFeature; sightings of both, best first, never two targets at one place. Sighting::target counts in `targets`.
-/// Solids are passed over: see make_target_recogniser() in server/vision/solids.
-/// kInvalidArgument: no target, or a picture that is empty, one colour or without features; bad parameters.
-/// kTooLarge: a picture larger than the camera's (omnidirectional) or than kMaxTargetSide_px.
+/// Makes one template recogniser for all targets of kind kTemplate and one feature recogniser for all of kind kFeature;
+/// the sightings of both are returned, best first, never two targets at one position. Sighting::target is an index into
+/// `targets`. Solids are skipped: see make_target_recogniser() in server/vision/solids. Fails with kInvalidArgument
+/// without a target, for a picture that is empty, of one colour or without features, and for invalid parameters; fails
+/// with kTooLarge for a picture larger than the camera's (omnidirectional) or than kMaxTargetSide_px.
 [[nodiscard]] Result<std::unique_ptr<Recogniser>> make_recogniser(const std::vector<TargetModel>& targets,
                                                                   const RecogniserParams& params = {});
 
-/// Several recognisers as one: sightings of all, best first, never two targets at one place. Asserts that there is one.
+/// Combines several recognisers: sightings of all, best first, never two targets at one position. Requires at least
+/// one.
 [[nodiscard]] std::unique_ptr<Recogniser> combine(std::vector<std::unique_ptr<Recogniser>> parts);
 
-/// Refuses a target's picture for a scene of the given size: empty, larger than the scene, one colour.
+/// Refuses a target's picture for a scene of the given size when it is empty, larger than the scene or of one colour.
 [[nodiscard]] Status check_target(const TargetModel& target, int scene_width_px, int scene_height_px);
 
 }  // namespace seeker::vision

@@ -74,7 +74,7 @@ Status check_size(const OmniCameraParams& params, const Image& picture) {
     return fail(Errc::kInvalidArgument, "the picture is " + std::to_string(picture.width_px()) + "x" +
                                             std::to_string(picture.height_px()) + ", the camera is calibrated for " +
                                             std::to_string(params.width_px) + "x" + std::to_string(params.height_px) +
-                                            ": set the camera's resolution or calibrate it anew");
+                                            ": set the camera's resolution or calibrate it again");
   }
   return {};
 }

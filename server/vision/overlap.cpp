@@ -7,7 +7,7 @@ namespace seeker::vision {
 namespace {
 
 bool holds_centre(const Sighting& outer, const Sighting& inner) {
-  // Within half of the seen size, not within the enclosing box, which is larger than a turned target.
+  // Within half of the seen size, not within the enclosing box, which is larger than a rotated target.
   const double reach = 0.5 * std::max(outer.size.width_px, outer.size.height_px);
   return std::hypot(outer.u_px - inner.u_px, outer.v_px - inner.v_px) < reach;
 }

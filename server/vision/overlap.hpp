@@ -1,5 +1,5 @@
 /// \file
-/// One place, one sighting.
+/// Suppression of overlapping sightings.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace seeker::vision {
 
-/// Sorts by score, best first, and drops every sighting whose centre lies in a better one's box or the reverse.
-/// Returns how many were dropped. The order of equal scores is that of the input.
+/// Sorts by score, best first, and drops every sighting whose centre lies in a better one's box or vice versa. Returns
+/// the number of dropped ones. The order of equal scores is that of the input.
 int suppress_overlaps(std::vector<Sighting>& sightings);
 
 }  // namespace seeker::vision

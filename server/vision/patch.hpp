@@ -1,5 +1,5 @@
 /// \file
-/// Patches of bounded size cut from a picture at any place and scale, and their correlation (stage 3 of spec S3.4).
+/// Patches of bounded size cut from a picture at any position and scale, and their correlation (stage 3 of spec S3.4).
 /// The candidate is resized to one of few template sizes, so that the cost does not grow with the candidate.
 #pragma once
 
@@ -14,9 +14,9 @@ class GreyPyramid {
  public:
   explicit GreyPyramid(const cv::Mat& grey);
 
-  /// Samples columns x rows values at the centres of equal cells of `box` (pixel edges: the picture covers
-  /// [0, width) x [0, height)), bilinear in the level in which a cell is one to two pixels; outside, the nearest pixel
-  /// counts. Row-major.
+  /// Samples columns x rows values at the centres of equal cells of `box` (pixel edges: the picture covers [0, width) x
+  /// [0, height)), bilinear in the level in which a cell is one to two pixels; outside the picture the nearest pixel is
+  /// used. Row-major.
   void sample(const cv::Rect2d& box, int columns, int rows, std::vector<float>& values) const;
 
  private:
@@ -33,11 +33,11 @@ class TemplatePatch {
   [[nodiscard]] int rows() const { return rows_; }
   /// Zero-mean NCC with sampled values, -1..1; 0 where their standard deviation is below min_contrast.
   [[nodiscard]] double ncc(const std::vector<float>& values, double min_contrast) const;
-  /// The best correlation, by its amount, with a plain shape: disc, box, half-plane. A candidate that looks more
-  /// like one of these than like the target is not the target. Shapes that the target itself equals are left out.
+  /// The best correlation, by its absolute value, with a plain shape: disc, box, half-plane. A candidate that is more
+  /// similar to one of these than to the target is not the target. Shapes that the target itself equals are left out.
   [[nodiscard]] double plain_ncc(const std::vector<float>& values) const;
-  /// Correlation of the gradient fields, -1..1: sensitive to edges that are elsewhere or missing, blind to slow
-  /// changes of brightness.
+  /// Correlation of the gradient fields, -1..1: sensitive to displaced or missing edges, insensitive to slow changes of
+  /// brightness.
   [[nodiscard]] double gradient_ncc(const std::vector<float>& values) const;
 
  private:
@@ -56,8 +56,8 @@ class TemplatePatch {
   std::vector<float> centred_;  ///< zero mean and unit norm over the mask, 0 outside
   std::vector<float> mask_;     ///< 0 or 1
   double mask_count_ = 0.0;
-  std::vector<std::vector<float>> plain_shapes_;  ///< like centred_
-  std::vector<Gradient> gradients_;               ///< unit norm, inner samples with their four neighbours in the mask
+  std::vector<std::vector<float>> plain_shapes_;  ///< normalised like centred_
+  std::vector<Gradient> gradients_;               ///< unit norm; inner samples with their four neighbours in the mask
 };
 
 }  // namespace seeker::vision

@@ -10,23 +10,23 @@ namespace seeker::vision {
 
 class PhotoView {
  public:
-  /// Of pictures of this size. Asserts that it is not empty.
+  /// Creates the view for pictures of this size, which must not be empty (asserted).
   PhotoView(const ViewParams& params, int width_px, int height_px);
 
   [[nodiscard]] double focal_px() const { return focal_px_; }
-  /// In the plane of the floor, left positive, 0 straight ahead.
+  /// Bearing in the plane of the floor, left positive, 0 straight ahead.
   [[nodiscard]] double bearing_rad(double u_px, double v_px) const;
-  /// From below the camera to where the pixel shows the floor. Nothing at or above the horizon, nor where the camera's
-  /// height is not known.
+  /// Distance on the floor from the point below the camera to where the pixel shows the floor. No value at or above the
+  /// horizon, nor where the camera's height is not known.
   [[nodiscard]] std::optional<double> floor_range_m(double u_px, double v_px) const;
-  /// Length on a plane across the optical axis, at the distance of that place on the floor, that one pixel spans.
+  /// Length that one pixel spans on a plane across the optical axis, at the distance of that point of the floor.
   [[nodiscard]] std::optional<double> floor_scale_m(double u_px, double v_px) const;
 
  private:
   struct Ray {
     double ahead = 1.0;  ///< along the floor
     double right = 0.0;
-    double down = 0.0;  ///< all three for 1 along the optical axis
+    double down = 0.0;  ///< the three components per unit along the optical axis
   };
   [[nodiscard]] Ray ray(double u_px, double v_px) const;
 

@@ -1,5 +1,5 @@
 /// \file
-/// Between seeker::Image and OpenCV's matrices. Only the vision folder's .cpp files include it.
+/// Conversion between seeker::Image and OpenCV's matrices. Only the .cpp files of the vision folder include it.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,7 +10,7 @@ namespace seeker::vision {
 
 /// A one-channel copy (ITU-R BT.601 for colour).
 [[nodiscard]] cv::Mat to_grey_mat(const Image& picture);
-/// CV_8UC1 or CV_8UC3 (red, green, blue) as a value.
+/// Copies CV_8UC1 or CV_8UC3 (red, green, blue) into an Image.
 [[nodiscard]] Image to_image(const cv::Mat& mat);
 
 }  // namespace seeker::vision

@@ -14,7 +14,7 @@
 namespace seeker::vision {
 namespace {
 
-/// Columns beyond one turn: the widest target that may lie across the seam.
+/// Columns beyond one full circle: the widest target that may lie across the seam.
 constexpr double kOverlap_rad = 0.6;
 
 PixelBox enclosing_box(const std::array<PixelPoint, 8>& points) {
@@ -38,7 +38,7 @@ PixelPoint to_pixel(const cv::Point2d& p) { return {p.x, p.y}; }
 
 double distance_px(const PixelPoint& a, const PixelPoint& b) { return std::hypot(a.u_px - b.u_px, a.v_px - b.v_px); }
 
-/// Corners and the middles of the sides: in the original picture the sides of an unwrapped box are bent.
+/// Corners and the middles of the sides: in the original picture the sides of an unwrapped box are curved.
 std::array<cv::Point2d, 8> outline(const std::array<cv::Point2d, 4>& c) {
   return {c[0], 0.5 * (c[0] + c[1]), c[1], 0.5 * (c[1] + c[2]), c[2], 0.5 * (c[2] + c[3]), c[3], 0.5 * (c[3] + c[0])};
 }

@@ -1,5 +1,5 @@
 /// \file
-/// The picture in which targets are searched: a photograph as it is, or the cylindrical panorama of an
+/// The working picture in which targets are searched: a photograph unchanged, or the cylindrical panorama of an
 /// omnidirectional picture, in which "up" is outward and an upright target keeps its proportions at any bearing and
 /// range (spec S3.4: the template rotated to the radial direction, for all directions at once).
 #pragma once
@@ -12,17 +12,18 @@
 namespace seeker::vision {
 
 /// Rows of the panorama are equidistant in tan(elevation), columns in bearing, both with the same scale; the first
-/// column is at +180 deg, columns beyond one turn repeat the beginning so that no target is cut by the seam.
+/// column is at +180 deg, and columns beyond one full circle repeat the beginning so that no target is cut by the seam.
 class SceneView {
  public:
-  /// Asserts that the omnidirectional camera, where set, is valid.
+  /// Requires a valid omnidirectional camera where one is given (asserted).
   explicit SceneView(const ViewParams& params);
 
-  /// The working picture, CV_8UC1. kInvalidArgument: empty, or not the calibrated size.
+  /// The working picture, CV_8UC1. Fails with kInvalidArgument when the picture is empty or has not the calibrated
+  /// size.
   [[nodiscard]] Result<cv::Mat> working_picture(const Image& picture) const;
-  /// Area that stands for "the picture" in the limits on regions, in pixels of the working picture.
+  /// The area to which the limits on regions refer, in pixels of the working picture.
   [[nodiscard]] double reference_area_px(const Image& picture) const;
-  /// Fills place, size, bearing, elevation and range of a sighting from a quadrilateral in the working picture (corners
+  /// Sets position, size, bearing, elevation and range of a sighting by a quadrilateral in the working picture (corners
   /// top left, top right, bottom right, bottom left of the target) and the target's real height.
   void locate(const std::array<cv::Point2d, 4>& corners, const cv::Size& working, double height_m,
               Sighting& sighting) const;

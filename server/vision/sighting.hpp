@@ -1,5 +1,5 @@
 /// \file
-/// What the recognisers take and give: targets, sightings, counts of every stage (spec S3.4).
+/// Input and output of the recognisers: targets, sightings, and the counts of every stage (spec S3.4).
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct PixelBox {
   friend bool operator==(const PixelBox&, const PixelBox&) = default;
 };
 
-/// Size of something in the picture: across (tangential in an omnidirectional picture) and up (radial).
+/// Size of an object in the picture: across (tangential in an omnidirectional picture) and up (radial).
 struct PixelSize {
   double width_px = 0.0;
   double height_px = 0.0;
@@ -33,67 +33,70 @@ struct PixelSize {
   friend bool operator==(const PixelSize&, const PixelSize&) = default;
 };
 
-/// How a target is recognised; chosen per target.
+/// Method of recognition of a target, chosen per target.
 enum class TargetKind : std::uint8_t {
   kTemplate,  ///< dynamic template matching, spec S3.4: cheap, for pictures of strong contrast that face the robot
-  kFeature,   ///< SIFT and a homography: dearer, for textured pictures, also oblique or partly hidden
+  kFeature,   ///< SIFT and a homography: more expensive, for textured pictures, also oblique or partly hidden
   kSolid,     ///< a solid by its shape, spec S6 (server/vision/solids)
 };
 [[nodiscard]] std::string_view to_string(TargetKind kind);
 
-/// A thing to look for. The picture shows the target upright and fills it from edge to edge; a solid has none.
+/// A target to search for. The picture shows the target upright and fills it from edge to edge; a solid has none.
 struct TargetModel {
   std::string name;
   Image picture;          ///< grey or colour
-  double width_m = 0.30;  ///< of the real thing
+  double width_m = 0.30;  ///< size of the real object
   double height_m = 0.30;
   TargetKind kind = TargetKind::kTemplate;
-  SolidKind solid = SolidKind::kSphere;  ///< of kind kSolid
+  SolidKind solid = SolidKind::kSphere;  ///< shape of a target of kind kSolid
 
   friend bool operator==(const TargetModel&, const TargetModel&) = default;
 };
 
-/// A target found in one picture.
+/// A target recognised in one picture.
 struct Sighting {
-  int target = 0;     ///< index into the list of models that the recogniser was made from
+  int target = 0;     ///< index into the list of models given to the recogniser
   double u_px = 0.0;  ///< column and row of the target's centre in the original picture
   double v_px = 0.0;
-  double score = 0.0;         ///< 0..1: grey-level NCC (templates) or share of matches that agree (features)
+  double score = 0.0;         ///< 0 to 1: grey-level NCC (templates) or share of matches that agree (features)
   double verify_score = 0.0;  ///< NCC of the grey-level gradients (templates) or inliers (features)
   PixelBox box;               ///< encloses the target in the original picture
-  double rotation_rad = 0.0;  ///< of the target's "up" from the picture's "up", counter-clockwise as seen
-  /// alpha' of spec S3.5, eq (4): left positive, 0 = forward. A photograph has no mirror: its bearing follows from
-  /// the horizontal field of view in the parameters, 0 at the middle column.
+  /// Rotation of the target's "up" from the picture's "up", counter-clockwise in the picture.
+  double rotation_rad = 0.0;
+  /// The bearing alpha' of spec S3.5, eq (4): left positive, 0 = forward. In a photograph it follows from the
+  /// horizontal field of view in the parameters, 0 at the middle column.
   double bearing_base_rad = 0.0;
   std::optional<double> elevation_rad;  ///< of the centre above the camera's horizon; omnidirectional pictures only
-  std::optional<double> range_m;        ///< hint from the apparent and the real size; about 15 %; never a measurement
-  /// Of the middle of what stands on the floor, by the camera's height and where the picture shows the floor before it.
+  std::optional<double> range_m;  ///< estimate from the apparent and the real size; about 15 %; never a measurement
+  /// Range of the middle of an object on the floor, from the camera's height and the point where the picture shows the
+  /// floor before it.
   std::optional<double> floor_range_m;
-  PixelSize size;  ///< as seen: across and up, in pixels of the original picture
+  PixelSize size;  ///< apparent size: across and up, in pixels of the original picture
 
   friend bool operator==(const Sighting&, const Sighting&) = default;
 };
 
-/// How many candidates each stage saw and refused, summed over targets. The stages are in the order of S3.4.
+/// Numbers of candidates that each stage processed and rejected, summed over targets. The stages are in the order of
+/// S3.4.
 struct StageCounts {
   int regions = 0;             ///< connected regions of all binarisations and both polarities
   int rejected_area = 0;       ///< area outside 0.05 % .. 20 % of the picture
   int rejected_duplicate = 0;  ///< same box as a region of another binarisation
   int rejected_aspect = 0;     ///< (region, target) pairs whose proportions differ by more than 25 %
-  int candidates = 0;          ///< (region, target) pairs correlated
+  int candidates = 0;          ///< (region, target) pairs that were correlated
   int rejected_ncc = 0;        ///< correlation below the threshold
-  int rejected_verify = 0;     ///< refused by the gradient check
-  int rejected_overlap = 0;    ///< another sighting at the same place scores higher
+  int rejected_verify = 0;     ///< rejected by the gradient check
+  int rejected_overlap = 0;    ///< another sighting at the same position has a higher score
   int features = 0;            ///< key points in the scene (feature recogniser)
   int matches = 0;             ///< mutual matches after the ratio test (feature recogniser)
-  int rejected_geometry = 0;   ///< no sane homography, or too few inliers (feature recogniser)
+  int rejected_geometry = 0;   ///< no plausible homography, or too few inliers (feature recogniser)
   int accepted = 0;
 
   StageCounts& operator+=(const StageCounts& other);
   friend bool operator==(const StageCounts&, const StageCounts&) = default;
 };
 
-/// Everything that one picture gave, best score first.
+/// All results of one picture, best score first.
 struct RecognitionReport {
   std::vector<Sighting> sightings;
   StageCounts stages;
@@ -107,7 +110,7 @@ struct StageImage {
   Image image;
 };
 
-/// Finds targets in pictures. Same picture, same report: no state, no random numbers. Safe to share between threads.
+/// Recognises targets in pictures. The same picture gives the same report: no state, no random numbers. Thread-safe.
 class Recogniser {
  public:
   Recogniser() = default;
@@ -115,9 +118,9 @@ class Recogniser {
   Recogniser& operator=(const Recogniser&) = delete;
   virtual ~Recogniser() = default;
 
-  /// kInvalidArgument: the picture is empty, or its size differs from what the camera's calibration is for.
+  /// Fails with kInvalidArgument when the picture is empty, or its size differs from that of the camera's calibration.
   [[nodiscard]] virtual Result<RecognitionReport> recognise(const Image& picture) const = 0;
-  /// The stages of the same work as pictures, in their order.
+  /// The stages of the same processing as pictures, in their order.
   [[nodiscard]] virtual Result<std::vector<StageImage>> explain(const Image& picture) const = 0;
 };
 

@@ -19,7 +19,7 @@ constexpr double kSharpestShare = 0.1;
 constexpr double kMinSharpness = 0.11;
 constexpr double kMinSharpnessToOther = 0.5;
 constexpr double kSurelySharp = 0.17;
-constexpr int kTile_px = 16;  // the coarsest cell; every third tile of every second row of tiles is looked at
+constexpr int kTile_px = 16;  // the coarsest cell; every third tile of every second row of tiles is measured
 constexpr int kLevels = 5;    // cells of 1, 2, 4, 8, 16 px
 
 constexpr int kMinPairs = 40;            // fewer say nothing about the rig
@@ -82,7 +82,7 @@ std::optional<double> sharpness_of(std::vector<double>& shares) {
 std::string remedy(PictureFault fault) {
   switch (fault) {
     case PictureFault::kBlack: return "is black: take off the lens cap, switch on the light or lengthen the exposure";
-    case PictureFault::kSaturated: return "is saturated: shorten the exposure or turn away from the light";
+    case PictureFault::kSaturated: return "is saturated: shorten the exposure or rotate away from the light";
     default: return "is blurred: clean and focus the lens, or drive slower than its exposure allows";
   }
 }
@@ -205,7 +205,7 @@ Status check_pair(PairFault fault) {
     case PairFault::kRowsDisagree:
       return fail(Errc::kInvalidArgument,
                   "what both eyes see does not lie on one row: the pictures are not of one moment, or the calibration "
-                  "is not this camera's; synchronise the eyes or calibrate anew");
+                  "is not this camera's; synchronise the eyes or calibrate again");
     default: return {};
   }
 }

@@ -68,7 +68,7 @@ Result<StereoFeatures> SiftStereoExtractor::extract(const StereoFrame& frame) co
   // 158 ms with two (vision.md 1.1).
   const FeatureList left = detect_sift(left_grey, params_.detector, Orientations::kAll);
   const FeatureList right = detect_sift(right_grey, params_.detector, Orientations::kAll);
-  // Whether the rig is right is asked of pairs that are sure by themselves, whatever the gates are.
+  // The rig is checked by pairs that are certain by their descriptors alone, for any gates.
   const MatchParams sure{params_.match.metric, params_.match.max_distance, kSureRatio};
   const auto sure_pairs = match_mutually(left.descriptors, right.descriptors, sure);
   if (Status ok = check_pair(fault_of_pair(left, right, sure_pairs, row_gate_px())); !ok) {

@@ -1,5 +1,5 @@
 /// \file
-/// From a pair of pictures to places with a depth: SIFT in both eyes, matched under the five constraints of spec S2.1.
+/// Stereo features: SIFT key points in both eyes, matched under the five constraints of spec S2.1.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace seeker::vision {
 
-/// How alike the scales of two matching key points must be, spec S2.1 constraint (4).
+/// Criterion for the scales of two matching key points, spec S2.1 constraint (4).
 enum class ScaleGate : std::uint8_t {
   kDifference,  ///< |sigma_l - sigma_r| < scale_gate, in pixels: as printed
   kRatio,       ///< the larger at most scale_gate times the smaller
@@ -22,22 +22,22 @@ enum class ScaleGate : std::uint8_t {
 
 /// The five constraints of spec S2.1.
 struct StereoMatchParams {
-  double max_row_offset_px = 1.0;          ///< (1)
-  double min_disparity_px = 4.0;           ///< (2), exclusive
-  double max_disparity_px = 200.0;         ///< (2), exclusive: 20 in the paper
-  double max_turn_rad = deg_to_rad(20.0);  ///< (3)
+  double max_row_offset_px = 1.0;              ///< (1)
+  double min_disparity_px = 4.0;               ///< (2), exclusive
+  double max_disparity_px = 200.0;             ///< (2), exclusive: 20 in the paper
+  double max_rotation_rad = deg_to_rad(20.0);  ///< (3)
   ScaleGate scale_gate_kind = ScaleGate::kRatio;
   double scale_gate = 1.5;  ///< (4)
   Metric metric = Metric::kL2;
-  /// Of unit descriptors; those further apart do not match. The default is calibrated: with RootSIFT and L2 it lets as
-  /// many foreign pairs through as 3.5 does with SIFT and L1 (spec S2.1). Foreign are key points of like scale and
+  /// Largest distance of unit descriptors that match. The default is calibrated: with RootSIFT and L2 it accepts as
+  /// many wrong pairs as 3.5 does with SIFT and L1 (spec S2.1). Wrong pairs are key points of similar scale and
   /// orientation 40 rows apart. In five pairs of photographs with 1000 key points the gate of the same rate was 0.41 to
-  /// 0.56, in the middle 0.455; for the 500 strongest of all pairs together 0.41. By the same count 0.25 to 0.46, in
-  /// the middle 0.29, stands for 2.5 (spec S2.5).
+  /// 0.56, with a median of 0.455; for the 500 strongest of all pairs together 0.41. By the same count 0.25 to 0.46,
+  /// with a median of 0.29, corresponds to 2.5 (spec S2.5).
   double max_distance = 0.43;
   bool paper_uniqueness =
       false;               ///< (5): drop a left point with more than one right point that passes (1)-(4) and the gate
-  double max_ratio = 0.8;  ///< else: best over second best distance, either way
+  double max_ratio = 0.8;  ///< otherwise: best over second best distance, in either direction
   bool refine_disparity = true;  ///< to a fraction of a pixel, by correlation around the match
 
   friend bool operator==(const StereoMatchParams&, const StereoMatchParams&) = default;
@@ -55,16 +55,16 @@ struct StereoFeatureParams {
 /// kInvalidArgument with the field's name.
 [[nodiscard]] Status validate(const StereoFeatureParams& params);
 
-/// Features of one pair, and what became of the candidates.
+/// Features of one pair, and the counts of its candidates.
 struct StereoFeatures {
   std::vector<StereoFeature> features;
-  int left_keypoints = 0;  ///< places
-  int right_keypoints = 0;
+  int left_keypoints = 0;              ///< number of positions in the left picture
+  int right_keypoints = 0;             ///< number of positions in the right picture
   int matches_before_constraints = 0;  ///< mutual best by descriptor alone, spec S2.11 Table 1
-  int inliers_of_rows = 0;             ///< of those, pairs that pass (1): few of many tell of a wrong calibration
+  int inliers_of_rows = 0;             ///< pairs of those that pass (1): a small share indicates a wrong calibration
 };
 
-/// Finds and matches. Not for two threads at once; the eyes are worked on with as many threads as OpenCV is given.
+/// Detects and matches features. Not thread-safe; the eyes are processed with as many threads as OpenCV is given.
 class StereoExtractor {
  public:
   StereoExtractor() = default;
@@ -72,14 +72,14 @@ class StereoExtractor {
   StereoExtractor& operator=(const StereoExtractor&) = delete;
   virtual ~StereoExtractor() = default;
 
-  /// kInvalidArgument, with the cause and its remedy: pictures of another size than the geometry's; black, saturated or
-  /// blurred pictures (which eye); left and right swapped; pictures that are not of one moment or one calibration.
+  /// Fails with kInvalidArgument, cause and remedy for pictures of another size than the geometry's, black, saturated
+  /// or blurred pictures (naming the eye), swapped eyes, and pictures that are not of one moment or one calibration.
   [[nodiscard]] virtual Result<StereoFeatures> extract(const StereoFrame& frame) const = 0;
-  /// Key points of one picture with the same detector: what place recognition uses.
+  /// Key points of one picture with the same detector, for place recognition.
   [[nodiscard]] virtual Result<FeatureList> detect(const Image& picture) const = 0;
 };
 
-/// Asserts that both arguments are valid.
+/// Requires valid arguments (asserted).
 [[nodiscard]] std::unique_ptr<StereoExtractor> make_stereo_extractor(const StereoGeometry& geometry,
                                                                      const StereoFeatureParams& params);
 

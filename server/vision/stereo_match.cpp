@@ -44,7 +44,7 @@ bool may_match(const Keypoint& left, const Keypoint& right, const StereoMatchPar
   }
   const double turn =
       wrap_angle(static_cast<double>(left.orientation_rad) - static_cast<double>(right.orientation_rad));
-  if (!(std::abs(turn) < params.max_turn_rad)) {
+  if (!(std::abs(turn) < params.max_rotation_rad)) {
     return false;
   }
   const double smaller = std::min(left.scale_px, right.scale_px);

@@ -1,5 +1,5 @@
 /// \file
-/// Which key point of the right picture a key point of the left one is: the five constraints of spec S2.1.
+/// Stereo matching of key points under the five constraints of spec S2.1.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace seeker::vision {
 
-/// Pairs (left, right) that pass all constraints, in the order of `left`, one a place. Several features at one place
-/// (Orientations::kAll) must follow each other; they do not make each other ambiguous. By counting
-/// (params.paper_uniqueness) a left point with two right points that pass is dropped; else the pair must be each
-/// other's best and clearly better than the second where there is one. `row_gate_px`: constraint (1), for key points of
-/// coarser pixels wider than the parameter's.
+/// Pairs (left, right) that pass all constraints, in the order of `left`, one per position. Several features at one
+/// position (Orientations::kAll) must be consecutive; they are not ambiguous with each other. By counting
+/// (params.paper_uniqueness) a left point with two accepted right points is dropped; otherwise the pair must be
+/// mutually best and clearly better than the second best where there is one. `row_gate_px` is the gate of constraint
+/// (1), which for key points of coarser pixels is wider than the parameter.
 [[nodiscard]] std::vector<FeatureMatch> match_stereo(const FeatureList& left, const FeatureList& right,
                                                      const StereoMatchParams& params, double row_gate_px);
 

@@ -29,7 +29,7 @@ Status validate(const StereoFeatureParams& params) {
   return check_bounds(std::array<Bound, 7>{{{"match.max_row_offset_px", m.max_row_offset_px, 0.1, 20.0},
                                             {"match.min_disparity_px", m.min_disparity_px, 0.0, 1000.0},
                                             {"match.max_disparity_px", m.max_disparity_px, 1.0, 4096.0},
-                                            {"match.max_turn_rad", m.max_turn_rad, 0.01, kPi},
+                                            {"match.max_rotation_rad", m.max_rotation_rad, 0.01, kPi},
                                             {"match.scale_gate", m.scale_gate, 0.1, 100.0},
                                             {"match.max_distance", m.max_distance, 0.01, 20.0},
                                             {"match.max_ratio", m.max_ratio, 0.1, 1.0}}});

@@ -1,5 +1,5 @@
 /// \file
-/// What is prepared of a target's picture before any scene is seen.
+/// Precomputed data of a target's picture.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@
 
 namespace seeker::vision {
 
-/// A part of the target's picture that may show up as a region of the scene. The region's box tells where the whole
-/// target would be.
+/// A part of the target's picture that may appear as a region of the scene. The region's box gives the box of the whole
+/// target.
 struct Anchor {
   cv::Rect2d part;            ///< relative to the whole: (0, 0, 1, 1) is the whole picture
   double aspect = 1.0;        ///< width / height of the part in pixels
@@ -26,11 +26,11 @@ struct Anchor {
   [[nodiscard]] bool fits(const cv::Rect& region, double tolerance) const;
 };
 
-/// One way to correlate a target.
+/// One variant of a target that is correlated.
 struct TemplateVariant {
   std::vector<TemplatePatch> patches;  ///< from the smallest to the largest
   std::vector<Anchor> anchors;
-  cv::Rect2d part{0.0, 0.0, 1.0, 1.0};  ///< of the picture that the patches show
+  cv::Rect2d part{0.0, 0.0, 1.0, 1.0};  ///< part of the picture that the patches show
 
   /// The whole picture's box, given that of the part that the patches show.
   [[nodiscard]] cv::Rect2d whole(const cv::Rect2d& box) const;
@@ -38,8 +38,8 @@ struct TemplateVariant {
   [[nodiscard]] const TemplatePatch& patch_for(const cv::Rect2d& box) const;
 };
 
-/// All of one target. Always the whole picture; where the picture shows a textured object on ground of one colour,
-/// also the object alone, since in a scene it stands before something else.
+/// All variants of one target: always the whole picture; where the picture shows a textured object on ground of one
+/// colour, also the object alone, since its background differs in a scene.
 struct TargetTemplate {
   int target = 0;
   double height_m = 0.0;

@@ -19,16 +19,16 @@ namespace seeker::vision {
 /// panorama (scene_view.hpp).
 class TemplateRecogniser : public Recogniser {
  public:
-  /// Takes those of `targets` that are of kind kTemplate. Pictures and parameters must have passed check_target()
-  /// and validate(); make_recogniser() sees to it.
+  /// Takes those of `targets` that are of kind kTemplate. Pictures and parameters must have passed check_target() and
+  /// validate(), as make_recogniser() ensures.
   TemplateRecogniser(const std::vector<TargetModel>& targets, const RecogniserParams& params);
 
-  /// Also kTooLarge: a target's picture is larger than this picture.
+  /// Fails also with kTooLarge when a target's picture is larger than this picture.
   [[nodiscard]] Result<RecognitionReport> recognise(const Image& picture) const override;
   [[nodiscard]] Result<std::vector<StageImage>> explain(const Image& picture) const override;
 
  private:
-  /// A region with the binarisation it comes from, after the area limits and without duplicates.
+  /// The regions of all binarisations within the area limits and without duplicates.
   std::vector<Region> candidate_regions(const std::vector<Binarisation>& binarisations, double reference_area_px,
                                         StageCounts& stages) const;
   [[nodiscard]] bool area_fits(const Region& region, double reference_area_px) const;
@@ -41,9 +41,9 @@ class TemplateRecogniser : public Recogniser {
   RecogniserParams params_;
   SceneView view_;
   std::vector<TargetTemplate> targets_;
-  double smallest_part_ = 1.0;  ///< least share of a target's area that any anchor has
-  int widest_px_ = 0;           ///< largest picture of a target
-  int highest_px_ = 0;
+  double smallest_part_ = 1.0;  ///< smallest share of a target's area that any anchor has
+  int widest_px_ = 0;           ///< largest width of a target's picture
+  int highest_px_ = 0;          ///< largest height of a target's picture
 };
 
 }  // namespace seeker::vision

@@ -69,6 +69,17 @@ TEST(Architecture, EveryIncludeIsInTheTable) {
   EXPECT_THAT(findings, IsEmpty()) << joined(findings);
 }
 
+TEST(Architecture, EveryFolderOfTheTableIsThere) {
+  std::vector<std::string> findings;
+  const Layers layers = table();
+  for (const auto& [folder, may_include] : layers.folders) {
+    if (!fs::is_directory(testing::source_file(folder))) {
+      findings.push_back("tests/arch/layers.txt: folder '" + folder + "' does not exist");
+    }
+  }
+  EXPECT_THAT(findings, IsEmpty()) << joined(findings);
+}
+
 TEST(Architecture, EveryTargetIsInTheTable) {
   const auto lists = files_of_tree([](const fs::path& p) { return p.filename() == "CMakeLists.txt"; });
   ASSERT_GT(lists.size(), 10U) << "the CMakeLists.txt files were not found";

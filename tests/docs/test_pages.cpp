@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 using ::testing::IsEmpty;
 
 constexpr std::size_t kColumns = 120;
-const std::map<std::string, std::size_t> kMostLines = {{"docs/results.md", 200}, {"docs/architecture.md", 260}};
+const std::map<std::string, std::size_t> kMostLines = {
+    {"docs/results.md", 200}, {"docs/architecture.md", 200}, {"docs/algorithms.md", 200}};
 
 Page read_page(const std::string& path) {
   std::ifstream in(testing::source_file(path), std::ios::binary);

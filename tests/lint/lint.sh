@@ -28,6 +28,7 @@ check_scripts() {
 step "format" check_format
 step "scripts" check_scripts
 step "rules" tests/lint/rules.sh
+step "words" tests/lint/words.sh
 step "clang-tidy" tests/lint/tidy.sh
 ((code == 0)) && echo "lint: clean"
 exit "$code"

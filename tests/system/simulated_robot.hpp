@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/image/png.hpp"
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/app/loop/robot_loop.hpp"
 #include "tests/support/data.hpp"
 

@@ -1,5 +1,5 @@
 /// \file
-/// From a robot file to a robot: drivers, estimator, behaviours.
+/// From a robot file to its drivers: of a simulation, of a recording, of a place in an emulated world, of real cameras.
 #pragma once
 
 #include <memory>
@@ -7,33 +7,29 @@
 #include <vector>
 
 #include "server/app/composition/robot_options.hpp"
-#include "server/app/landmarks/landmark_library.hpp"
-#include "server/app/loop/loop_params.hpp"
 #include "server/app/runtime/devices.hpp"
 #include "server/drivers/sim/sim_devices.hpp"
 
 namespace seeker::app {
 
-/// The parts of a loop, and the simulation behind them where there is one (for scoring and fault injection).
-struct Assembly {
-  LoopParts parts;
+/// The drivers of one robot, and the simulation behind them where there is one (for scoring and fault injection).
+struct MadeDevices {
+  Devices devices;
   std::shared_ptr<sim::Simulation> simulation;
   std::shared_ptr<drivers::SimFaults> faults;
-  LandmarkUse landmarks;
 };
 
-/// Errors name the file or field that is wrong. Without a folder in `landmarks` there are no databases of landmarks.
-[[nodiscard]] Result<Assembly> assemble(const RobotOptions& options, LandmarkStorage landmarks = {});
-
-/// Several simulated robots in one world: that of the first one's `sim` section, which also gives the speed and the
-/// periods of the devices; seed, start and model are each robot's own.
-struct SharedAssembly {
+/// Drivers of several simulated robots in one world.
+struct MadeSharedDevices {
   std::shared_ptr<sim::SharedWorld> world;
   std::shared_ptr<drivers::TickBarrier> barrier;
-  std::vector<Assembly> robots;
+  std::vector<MadeDevices> robots;
 };
 
-/// As assemble(), for at least one robot.
-[[nodiscard]] Result<SharedAssembly> assemble_shared(std::span<const RobotOptions> robots);
+/// Errors name the file or field that is wrong.
+[[nodiscard]] Result<MadeDevices> make_devices(const RobotOptions& options);
+
+/// At least one robot; the world, its speed and the periods of the devices are those of the first one's `sim` section.
+[[nodiscard]] Result<MadeSharedDevices> make_shared_devices(std::span<const RobotOptions> robots);
 
 }  // namespace seeker::app

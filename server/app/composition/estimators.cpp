@@ -1,6 +1,9 @@
 #include "server/app/composition/estimators.hpp"
 
 #include "common/core/assert.hpp"
+#include "common/core/rng.hpp"
+#include "server/app/estimators/landmark_estimator.hpp"
+#include "server/app/estimators/tracker_estimator.hpp"
 #include "server/slam/line_slam.hpp"
 #include "server/slam/odometry_tracker.hpp"
 #include "server/slam/scan_map_tracker.hpp"
@@ -35,6 +38,35 @@ std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotO
     default: break;
   }
   return std::make_unique<slam::LineSlam>(options.slam);
+}
+
+Result<std::unique_ptr<Estimator>> make_estimator(const RobotOptions& options, const Devices& devices,
+                                                  const std::shared_ptr<LandmarkLibrary>& library) {
+  if (is_tracker(options.estimator)) {
+    return std::unique_ptr<Estimator>(std::make_unique<TrackerEstimator>(make_tracker(options.estimator, options)));
+  }
+  if (devices.stereo == nullptr) {
+    return fail(Errc::kInvalidArgument, "estimator landmarks needs a stereo camera, and this robot has none");
+  }
+  const LandmarkEstimatorParams& params = options.stereo.estimator;
+  if (const Status ok = validate_map_name(params.database); !ok) {
+    return fail(Errc::kInvalidArgument,
+                "estimator landmarks needs the name of a database; give it with --set stereo.estimator.database=NAME");
+  }
+  const Result<LoadedLandmarks> loaded = library->load(params.database);
+  if (!loaded) {
+    return tl::unexpected<Error>(loaded.error());
+  }
+  Result<localize::StereoLocaliser> localiser =
+      localize::StereoLocaliser::create(devices.stereo->geometry(), loaded->database, options.stereo.localiser);
+  if (!localiser) {
+    return fail_with_context("database '" + params.database + "'", localiser.error());
+  }
+  return std::unique_ptr<Estimator>(std::make_unique<LandmarkEstimator>(
+      std::move(*localiser), loaded->database, params,
+      LandmarkUpdating{
+          .library = library, .geometry = devices.stereo->geometry(), .inline_work = devices.clock->lockstep()},
+      Rng(options.sim.seed).fork("landmark-estimator")));
 }
 
 }  // namespace seeker::app

@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "server/app/composition/robot_options.hpp"
+#include "server/app/estimators/estimator.hpp"
+#include "server/app/landmarks/landmark_library.hpp"
+#include "server/app/runtime/devices.hpp"
 #include "server/slam/pose_tracker.hpp"
 
 namespace seeker::app {
@@ -20,5 +23,10 @@ namespace seeker::app {
 [[nodiscard]] bool is_tracker(EstimatorType type);
 /// A tracker with the parameters of the robot file, at the origin of `map`. Asserts is_tracker().
 [[nodiscard]] std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotOptions& options);
+
+/// The estimator that the robot file names, whichever it is. Errors name the field that is wrong, or the database of
+/// landmarks in `library` that cannot be used.
+[[nodiscard]] Result<std::unique_ptr<Estimator>> make_estimator(const RobotOptions& options, const Devices& devices,
+                                                                const std::shared_ptr<LandmarkLibrary>& library);
 
 }  // namespace seeker::app

@@ -89,13 +89,13 @@ void describe(config::Fields& f, RobotMapParams& params) {
   f.field("calm_scans_per_tick", params.calm_scans_per_tick);
   f.check("calm_scans_per_tick", params.calm_scans_per_tick > 0, "must be above 0");
   f.field("calm_move_m", params.calm_move_m);
-  f.angle_deg("calm_turn_deg", params.calm_turn_rad);
+  f.angle_deg("calm_turn_deg", params.calm_rotation_rad);
   f.seconds("segment_period_s", params.segment_period);
   f.seconds("relocalise_limit_s", params.relocalise_limit);
   f.seconds("checkpoint_period_s", params.checkpoint_period);
   f.check("checkpoint_period_s", params.checkpoint_period > Duration::zero(), "must be above 0");
-  f.field("checkpoint_way_m", params.checkpoint_way_m);
-  f.check("checkpoint_way_m", params.checkpoint_way_m > 0.0, "must be above 0");
+  f.field("checkpoint_distance_m", params.checkpoint_distance_m);
+  f.check("checkpoint_distance_m", params.checkpoint_distance_m > 0.0, "must be above 0");
   f.seconds("place_period_s", params.place_period);
   f.check("place_period_s", params.place_period > Duration::zero(), "must be above 0");
   f.seconds("look_round_after_s", params.look_round_after);
@@ -187,11 +187,11 @@ void describe(config::Fields& f, LandmarkEstimatorParams& params) {
   f.section("update", params.update);
 }
 
-void describe(config::Fields& f, TurnAndLookParams& params) {
+void describe(config::Fields& f, RotateAndLookParams& params) {
   f.section("follower", params.follower);
   f.field("settle_s", params.settle_s);
   f.angle_deg("still_deg_s", params.still_rad_s);
-  f.field("turn_time_s", params.turn_time_s);
+  f.field("rotation_time_s", params.rotation_time_s);
   f.field("tries", params.tries);
   f.check("tries", params.tries > 0, "must be above 0");
 }

@@ -3,14 +3,14 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "common/files/files.hpp"
 #include "common/log/log.hpp"
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/app/composition/robot_options.hpp"
 #include "server/app/fleet/fleet_part.hpp"
 #include "server/app/robot/robot.hpp"
 #include "server/app/runtime/termination_signals.hpp"
 #include "server/net/server.hpp"
-#include "server/store/atomic_file.hpp"
 
 namespace seeker::app {
 namespace {
@@ -56,8 +56,7 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
   }
   log::info(kPart, options.robot_id + " listens on " + params.address + ":" + std::to_string(*port));
   if (!arguments.port_file.empty()) {
-    if (const Status written = store::write_file_atomically(arguments.port_file, std::to_string(*port) + "\n");
-        !written) {
+    if (const Status written = files::write_file(arguments.port_file, std::to_string(*port) + "\n"); !written) {
       log::error(kPart, written.error().message);
       return EXIT_FAILURE;
     }

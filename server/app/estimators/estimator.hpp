@@ -1,5 +1,5 @@
 /// \file
-/// Whatever tells the robot where it is: dead reckoning, scan matching, line SLAM, a database of landmarks.
+/// What estimates the robot's pose: dead reckoning, scan matching, line SLAM, a database of landmarks.
 #pragma once
 
 #include <memory>
@@ -26,17 +26,17 @@ class Estimator {
   [[nodiscard]] virtual Status on_odometry(const drivers::OdometrySample& sample) = 0;
   /// Corrects by a sweep taken at the newest odometry. Errors as above.
   [[nodiscard]] virtual Status on_scan(const LaserScan& scan) = 0;
-  /// Whether it wants to see with both eyes now.
+  /// Whether it wants a stereo observation now.
   [[nodiscard]] virtual bool wants_look(RobotTime /*now*/) const { return false; }
   /// Pictures were taken at the newest odometry; on_look() follows, perhaps some ticks later.
   virtual void look_begun(RobotTime /*stamp*/) {}
-  /// What was asked for, or why there is nothing.
+  /// The stereo observation that was asked for, or why there is none.
   virtual void on_look(const Result<StereoLook>& /*look*/) {}
-  /// The robot is there: by landmarks, or because somebody says so. kNotReady: it cannot be told.
+  /// Sets the pose: landmarks were recognised there, or an operator says so. kNotReady: the estimator cannot be set.
   [[nodiscard]] virtual Status place_at(const PoseEstimate& /*place*/) {
-    return fail(Errc::kNotReady, "this estimator cannot be told where the robot is");
+    return fail(Errc::kNotReady, "the pose of this estimator cannot be set");
   }
-  /// What happened since it was asked last and people should know.
+  /// Events since the last call that an operator should know of.
   [[nodiscard]] virtual std::vector<std::string> take_news() { return {}; }
   [[nodiscard]] virtual PoseEstimate estimate() const = 0;
   /// The map of segments behind the estimate; null where none is kept.

@@ -12,7 +12,7 @@ namespace seeker::app {
 
 class OdometryHistory {
  public:
-  /// Samples whose stamp does not rise are left out; one that jumps begins the history anew.
+  /// Samples whose stamp does not rise are left out; one that jumps empties the history first.
   void add(const drivers::OdometrySample& sample);
   /// The pose at the stamp, between the samples before and after it at constant speed; velocity and flags are those of
   /// the sample after it. Stamps beyond the samples that are kept get the first or the last of them. Nothing before the

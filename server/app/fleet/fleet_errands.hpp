@@ -20,7 +20,7 @@ struct FleetErrands {
   /// Asks the worker to judge the map of a robot. False: too much waits.
   std::function<bool(const std::string& robot_id)> judge;
   /// An event of the main robot.
-  std::function<void(const std::string& kind, const std::string& text, api::Severity)> tell_operator;
+  std::function<void(const std::string& kind, const std::string& text, api::Severity)> notify_operator;
 };
 
 }  // namespace seeker::app

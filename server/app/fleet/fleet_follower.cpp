@@ -78,7 +78,7 @@ void FleetFollower::note(const Status& outcome) {
 Status FleetFollower::once() {
   if (std::chrono::steady_clock::now() >= announce_at_) {
     if (Status announced = announce(); !announced) {
-      others_.hear(Result<api::FleetShared>(tl::unexpected<Error>(announced.error())));
+      others_.receive(Result<api::FleetShared>(tl::unexpected<Error>(announced.error())));
       return announced;
     }
     announce_at_ = std::chrono::steady_clock::now() + params_.period;
@@ -111,7 +111,7 @@ Status FleetFollower::exchange_seen() {
                                                    .detections = std::move(own->detections),
                                                    .searched = std::move(own->searched)});
   if (others) {
-    others_.hear(std::move(*others));
+    others_.receive(std::move(*others));
     return {};
   }
   return others.error().code == Errc::kNotFound ? Status() : Status(tl::unexpected<Error>(others.error()));
@@ -150,12 +150,12 @@ Status FleetFollower::share() {
   if (!own) {
     return tl::unexpected<Error>(own.error());
   }
-  api::FleetShare told{params_.robot_id, instance_, std::nullopt};
+  api::FleetShare reported{params_.robot_id, instance_, std::nullopt};
   if (*own) {
-    told.topology = api::within_limits(**std::move(own));
+    reported.topology = api::within_limits(**std::move(own));
   }
-  const Result<api::FleetShared> shared = main_.share(told);
-  others_.hear(shared);
+  const Result<api::FleetShared> shared = main_.share(reported);
+  others_.receive(shared);
   if (!shared && shared.error().code == Errc::kNotFound) {
     announce_at_ = {};  // it has forgotten this robot, or was started anew
     return {};

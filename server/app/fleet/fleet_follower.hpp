@@ -1,6 +1,7 @@
 /// \file
-/// A robot that joins the fleet of another one: tells the main robot what it has, sends what that one lacks, and hears
-/// how all lie. More often it tells where it has been and means to go, and hears of the others. Without a link it goes
+/// A robot that joins the fleet of another one: it announces its map to the main robot, sends the pieces that
+/// are missing there, and receives how all maps lie. More often it reports where it has been and means to go, and
+/// receives the same of the others. Without a link it goes
 /// on alone, and catches up when the link is back.
 #pragma once
 

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 4096;  ///< pieces to be written and maps to be judged
 
-TellDamage damage_teller(const FleetHost& host) {
-  return [tell_operator = host.tell_operator](const std::string& what) {
+ReportDamage damage_teller(const FleetHost& host) {
+  return [notify_operator = host.notify_operator](const std::string& what) {
     log::warning(kFleetPart, what);
-    tell_operator("fleet-memory-damaged", what, api::Severity::kWarning);
+    notify_operator("fleet-memory-damaged", what, api::Severity::kWarning);
   };
 }
 
@@ -55,7 +55,7 @@ FleetErrands FleetLeader::errands(const FleetHost& host) {
     });
     return posted.has_value();
   };
-  errands.tell_operator = host.tell_operator;
+  errands.notify_operator = host.notify_operator;
   return errands;
 }
 

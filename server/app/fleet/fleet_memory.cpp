@@ -20,17 +20,17 @@ constexpr std::size_t kMaxMemoryBytes = 64UL << 20U;
 }  // namespace
 
 FleetMemory::FleetMemory(std::filesystem::path folder, std::string robot_id, const PieceFiles& pieces,
-                         TellDamage tell_damage)
+                         ReportDamage report_damage)
     : folder_(std::move(folder)),
       robot_id_(std::move(robot_id)),
       pieces_(pieces),
-      tell_damage_(std::move(tell_damage)) {}
+      report_damage_(std::move(report_damage)) {}
 
 std::optional<v1::KeptFleet> FleetMemory::read() const {
   auto kept = read_kept_message<v1::KeptFleet>(folder_ / kMemoryFile, kMemoryKind, kMaxMemoryBytes);
   if (!kept) {
     if (kept.error().code != Errc::kNotFound) {
-      tell_damage_("how the maps lie to each other has to be found anew: " + kept.error().message);
+      report_damage_("how the maps lie to each other has to be found anew: " + kept.error().message);
     }
     return std::nullopt;
   }
@@ -55,8 +55,8 @@ RememberedFleet FleetMemory::recall(const v1::KeptFleet& kept) {
   const Pieces pieces = own ? pieces_.load(*own) : Pieces{};
   Result<LineMap> map = own ? unpack_map(*own, pieces) : Result<LineMap>(tl::unexpected<Error>(own.error()));
   if (!map) {
-    tell_damage_("how the maps lie to each other has to be found anew, the main robot's own is not there any more: " +
-                 map.error().message);
+    report_damage_("how the maps lie to each other has to be found anew, the main robot's own is not there any more: " +
+                   map.error().message);
     return fleet;
   }
   packed_ = {*own, pieces};
@@ -64,7 +64,7 @@ RememberedFleet FleetMemory::recall(const v1::KeptFleet& kept) {
   if (Result<RobotTopology> topology = wire::from_message<RobotTopology>(kept.own_topology())) {
     fleet.own_topology = std::move(*topology);
   }
-  fleet.own_finds = read_found(kept.own_detections(), robot_id_, tell_damage_);
+  fleet.own_finds = read_found(kept.own_detections(), robot_id_, report_damage_);
   fleet.pairs = recall_pairs(kept);
   return fleet;
 }
@@ -85,8 +85,8 @@ std::vector<fleet::PairAnswer> FleetMemory::recall_pairs(const v1::KeptFleet& ke
     const std::optional<std::uint8_t> b = slot_of(pair.robot_b());
     Result<fleet::MergeAnswer> answer = read_answer(pair);
     if (!answer) {
-      tell_damage_("how the maps of '" + pair.robot_a() + "' and '" + pair.robot_b() +
-                   "' lie has to be found anew: " + answer.error().message);
+      report_damage_("how the maps of '" + pair.robot_a() + "' and '" + pair.robot_b() +
+                     "' lie has to be found anew: " + answer.error().message);
     } else if (a && b && *a < *b) {
       pairs.push_back({*a, *b, std::move(*answer)});
     }

@@ -42,7 +42,7 @@ struct JudgedFleet {
 class FleetMemory {
  public:
   /// `pieces` must outlive this and have the same folder.
-  FleetMemory(std::filesystem::path folder, std::string robot_id, const PieceFiles& pieces, TellDamage tell_damage);
+  FleetMemory(std::filesystem::path folder, std::string robot_id, const PieceFiles& pieces, ReportDamage report_damage);
 
   /// The file as it is; nothing where there is none, or where it is damaged, which is reported.
   [[nodiscard]] std::optional<v1::KeptFleet> read() const;
@@ -64,7 +64,7 @@ class FleetMemory {
   const std::filesystem::path folder_;
   const std::string robot_id_;
   const PieceFiles& pieces_;
-  const TellDamage tell_damage_;
+  const ReportDamage report_damage_;
   PackedMap packed_;                  ///< the own map as it is on the disk
   std::uint64_t packed_version_ = 0;  ///< of it
   std::string written_;               ///< content of the file

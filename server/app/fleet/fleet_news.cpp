@@ -20,20 +20,20 @@ std::string text_of(const api::FleetFinding& finding) {
 
 }  // namespace
 
-void FleetNews::tell(const std::vector<api::FleetFinding>& findings, const FleetHost& host) {
-  std::map<Key, bool> told;
+void FleetNews::report(const std::vector<api::FleetFinding>& findings, const FleetHost& host) {
+  std::map<Key, bool> reported;
   for (const api::FleetFinding& finding : findings) {
     const Key key{finding.robot_id, finding.detection.id};
-    const auto before = told_.find(key);
-    const auto [known, is_first] = told.try_emplace(key, before != told_.end() && before->second);
-    const bool is_new = is_first && before == told_.end();
+    const auto before = reported_.find(key);
+    const auto [known, is_first] = reported.try_emplace(key, before != reported_.end() && before->second);
+    const bool is_new = is_first && before == reported_.end();
     const bool placed = finding.detection.position.has_value();
     if (is_new || (placed && !known->second)) {
       known->second = placed;
-      host.tell_operator("fleet-found", text_of(finding), api::Severity::kInfo);
+      host.notify_operator("fleet-found", text_of(finding), api::Severity::kInfo);
     }
   }
-  told_ = std::move(told);
+  reported_ = std::move(reported);
 }
 
 }  // namespace seeker::app

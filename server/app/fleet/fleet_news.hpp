@@ -1,5 +1,5 @@
 /// \file
-/// What other robots have found, told once to the operator of this one.
+/// What other robots have found, reported once to the operator of this one.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@ class FleetNews {
   /// An event `fleet-found` for each finding that is new, and again where a target whose bearing alone was known has
   /// got a place. `findings` are in the robot's own frame `map`, all that there are: one that is not among them any
   /// more is forgotten, and news if it comes back. So no more is remembered than fits into one answer.
-  void tell(const std::vector<api::FleetFinding>& findings, const FleetHost& host);
+  void report(const std::vector<api::FleetFinding>& findings, const FleetHost& host);
 
  private:
   using Key = std::pair<std::string, std::uint64_t>;  ///< robot and its id
 
-  std::map<Key, bool> told_;  ///< with a place
+  std::map<Key, bool> reported_;  ///< with a place
 };
 
 }  // namespace seeker::app

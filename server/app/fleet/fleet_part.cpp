@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "common/files/files.hpp"
 #include "common/log/log.hpp"
-#include "server/store/atomic_file.hpp"
 
 namespace seeker::app {
 namespace {
@@ -17,7 +17,7 @@ Status lead(const FleetSettings& settings, const std::filesystem::path& folder, 
   log::info("fleet", "other robots join at " + settings.address + ":" + std::to_string(*port));
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  return store::write_file_atomically(folder / "port", std::to_string(*port) + "\n");
+  return files::write_file(folder / "port", std::to_string(*port) + "\n");
 }
 
 }  // namespace

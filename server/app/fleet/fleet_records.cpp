@@ -105,12 +105,12 @@ Result<fleet::MergeAnswer> read_answer(const v1::KeptPair& from) {
 }
 
 std::vector<api::Detection> read_found(const DetectionField& kept, const std::string& robot_id,
-                                       const TellDamage& tell_damage) {
+                                       const ReportDamage& report_damage) {
   std::vector<api::Detection> found;
   wire::Check check;
   wire::read_detections(kept, found, check);
   if (!check.ok()) {
-    tell_damage("what robot '" + robot_id + "' had found cannot be read again: " + check.status().error().message);
+    report_damage("what robot '" + robot_id + "' had found cannot be read again: " + check.status().error().message);
     return {};
   }
   return found;

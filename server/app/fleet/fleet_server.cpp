@@ -34,7 +34,7 @@ Status with_value(const M& message, Go go) {
 
 /// Writes the value of a result with `put`.
 template <class T, class Put>
-Status tell(const Result<T>& result, Put put) {
+Status report(const Result<T>& result, Put put) {
   if (!result) {
     return tl::unexpected<Error>(result.error());
   }
@@ -43,7 +43,7 @@ Status tell(const Result<T>& result, Put put) {
 }
 
 Status announce(FleetLeader& leader, const api::FleetManifest& manifest, v1::FleetReply& reply) {
-  return tell(leader.announce(manifest), [&](const api::FleetAnswer& answer) {
+  return report(leader.announce(manifest), [&](const api::FleetAnswer& answer) {
     for (const api::FleetMissing& missing : answer.missing) {
       wire::write(missing, reply.add_missing());
     }
@@ -59,19 +59,19 @@ Status serve(FleetLeader& leader, const v1::FleetRequest& request, v1::FleetRepl
           request.announce(), [&](const api::FleetManifest& manifest) { return announce(leader, manifest, reply); });
     case v1::FleetRequest::kChunk:
       return with_value<api::FleetChunk>(request.chunk(), [&](const api::FleetChunk& chunk) {
-        return tell(leader.receive(chunk), [&](std::uint64_t received) { reply.set_received_bytes(received); });
+        return report(leader.receive(chunk), [&](std::uint64_t received) { reply.set_received_bytes(received); });
       });
     case v1::FleetRequest::kShare:
       return with_value<api::FleetShare>(request.share(), [&](const api::FleetShare& share) {
-        return tell(leader.share(share), [&](const api::FleetShared& shared) { wire::write(shared, &reply); });
+        return report(leader.share(share), [&](const api::FleetShared& shared) { wire::write(shared, &reply); });
       });
     case v1::FleetRequest::kSeen:
       return with_value<api::FleetSeen>(request.seen(), [&](const api::FleetSeen& seen) {
-        return tell(leader.seen(seen), [&](const api::FleetSightings& others) { wire::write(others, &reply); });
+        return report(leader.seen(seen), [&](const api::FleetSightings& others) { wire::write(others, &reply); });
       });
     case v1::FleetRequest::kDecide:
       return with_value<api::FleetDecision>(request.decide(), [&](const api::FleetDecision& decision) {
-        return tell(leader.decide(decision), put_fleet);
+        return report(leader.decide(decision), put_fleet);
       });
     case v1::FleetRequest::kStatus: put_fleet(leader.status()); return {};
     default: return fail(Errc::kInvalidArgument, "the main robot does not know this request");
@@ -171,7 +171,7 @@ void FleetServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_view p
   leader_.map([this, peer](const Result<std::vector<std::uint8_t>>& file) {
     v1::FleetReply reply;
     wire::set_error(*reply.mutable_error(),
-                    tell(file, [&](const auto& bytes) { reply.set_file(bytes.data(), bytes.size()); }));
+                    report(file, [&](const auto& bytes) { reply.set_file(bytes.data(), bytes.size()); }));
     asio::post(io_, [this, peer, reply = std::move(reply)] { send(peer, reply); });
   });
 }

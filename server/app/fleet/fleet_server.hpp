@@ -23,7 +23,7 @@ namespace seeker::app {
 /// connection that sends what is no request is closed; the others do not notice.
 class FleetServer {
  public:
-  /// `leader` must outlive this; its own robot hears of the others every `refresh_period` of wall time.
+  /// `leader` must outlive this; its own robot receives a view of the others every `refresh_period` of wall time.
   FleetServer(FleetLeader& leader, Duration refresh_period);
   FleetServer(const FleetServer&) = delete;
   FleetServer& operator=(const FleetServer&) = delete;

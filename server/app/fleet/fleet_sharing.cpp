@@ -9,13 +9,13 @@ FleetSharing::FleetSharing(const FleetSharingParams& params, MemberBook& book, O
     : params_(params), book_(book), main_(main), host_(std::move(host)) {}
 
 /// The main robot first: of cells of the floor that more than one knows the first counts.
-std::vector<OtherRobot> FleetSharing::others_of(HeardRobot heard) const {
+std::vector<OtherRobot> FleetSharing::others_of(ReportingRobot received) const {
   std::vector<OtherRobot> others;
-  if (heard.main_T_map) {
-    others.reserve(heard.others.size() + 1);
-    others.push_back({main_.id(), main_.report(), inverse(*heard.main_T_map), false});
-    others.insert(others.end(), std::make_move_iterator(heard.others.begin()),
-                  std::make_move_iterator(heard.others.end()));
+  if (received.main_T_map) {
+    others.reserve(received.others.size() + 1);
+    others.push_back({main_.id(), main_.report(), inverse(*received.main_T_map), false});
+    others.insert(others.end(), std::make_move_iterator(received.others.begin()),
+                  std::make_move_iterator(received.others.end()));
   }
   return others;
 }
@@ -31,22 +31,22 @@ std::vector<OtherRobot> FleetSharing::others_of_main(WallTime now) const {
 }
 
 Result<api::FleetShared> FleetSharing::share(const api::FleetShare& share) {
-  Result<HeardRobot> heard = book_.hear(share, std::chrono::steady_clock::now());
-  if (!heard) {
-    return tl::unexpected<Error>(heard.error());
+  Result<ReportingRobot> received = book_.receive(share, std::chrono::steady_clock::now());
+  if (!received) {
+    return tl::unexpected<Error>(received.error());
   }
-  const api::FleetState state = heard->state;
-  return api::FleetShared{state, topologies_of(others_of(std::move(*heard)))};
+  const api::FleetState state = received->state;
+  return api::FleetShared{state, topologies_of(others_of(std::move(*received)))};
 }
 
 Result<api::FleetSightings> FleetSharing::seen(const api::FleetSeen& seen) {
   const WallTime now = std::chrono::steady_clock::now();
-  Result<HeardRobot> heard = book_.hear(seen, now);
-  if (!heard) {
-    return tl::unexpected<Error>(heard.error());
+  Result<ReportingRobot> received = book_.receive(seen, now);
+  if (!received) {
+    return tl::unexpected<Error>(received.error());
   }
-  const Point2 p_map = heard->map_T_base.value_or(Pose2{}).translation();
-  const std::vector<OtherRobot> others = others_of(std::move(*heard));
+  const Point2 p_map = received->map_T_base.value_or(Pose2{}).translation();
+  const std::vector<OtherRobot> others = others_of(std::move(*received));
   const nav::SharedFloor floor = nav::carried(floors_of(others));
   return api::FleetSightings{floor ? api::within_limits(cut(*floor), p_map) : std::vector<OccupancyTile>(),
                              findings_of(others), searched_by(others, now, params_.search_age)};
@@ -55,11 +55,11 @@ Result<api::FleetSightings> FleetSharing::seen(const api::FleetSeen& seen) {
 /// Floors of buildings are large: they are exchanged less often than topologies.
 bool FleetSharing::refresh_seen(WallTime now) {
   const std::optional<OwnSeen> own = seen_inbox_.take();
-  const bool found_more = own && main_.hear(*own, now);
+  const bool found_more = own && main_.receive(*own, now);
   const std::vector<OtherRobot> others = others_of_main(now);
   others_floor_ = nav::carried(floors_of(others));
   others_searched_ = shared_search(searched_by(others, now, params_.search_age), others_searched_);
-  news_.tell(findings_of(others), host_);
+  news_.report(findings_of(others), host_);
   host_.give_seen(seen_inbox_.reply());
   return found_more;
 }
@@ -73,7 +73,7 @@ bool FleetSharing::refresh() {
   }
   host_.give_topology(topology_inbox_.reply());
   if (const std::optional<OwnTopology> own = topology_inbox_.take()) {
-    main_.hear(*own);
+    main_.receive(*own);
   }
   std::vector<RobotTopology> others = topologies_of(others_of_main(now));
   host_.take_view(others.empty()

@@ -36,7 +36,7 @@ class FleetSharing {
   [[nodiscard]] bool refresh();
 
  private:
-  [[nodiscard]] std::vector<OtherRobot> others_of(HeardRobot heard) const;
+  [[nodiscard]] std::vector<OtherRobot> others_of(ReportingRobot received) const;
   [[nodiscard]] std::vector<OtherRobot> others_of_main(WallTime now) const;
   [[nodiscard]] bool refresh_seen(WallTime now);
 

@@ -2,13 +2,13 @@
 
 namespace seeker::app {
 
-void KnownOthers::hear(api::FleetSightings sightings) {
+void KnownOthers::receive(api::FleetSightings sightings) {
   floor_ = floor_of(sightings.floor);
   searched_ = shared_search(std::move(sightings.searched), searched_);
-  news_.tell(sightings.findings, host_);
+  news_.report(sightings.findings, host_);
 }
 
-void KnownOthers::hear(const Result<api::FleetShared>& shared) {
+void KnownOthers::receive(const Result<api::FleetShared>& shared) {
   std::optional<FleetView> view = view_;
   const api::FleetState state = shared ? shared->state : api::FleetState::kWaiting;
   switch (state) {

@@ -19,13 +19,13 @@ class KnownOthers {
  public:
   KnownOthers(std::string robot_id, FleetHost host) : robot_id_(std::move(robot_id)), host_(std::move(host)) {}
 
-  /// The topologies of the others, or why the main robot was not heard. Without a link the robot goes on alone, but
+  /// The topologies of the others, or why the main robot gave no answer. Without a link the robot goes on alone, but
   /// places that others have been at were seen all the same: it keeps them, and takes up the goals of the others, since
   /// nobody can say whether they still go there. The same while its map waits to be judged, as after a restart of the
   /// main robot. What was denied since is dropped.
-  void hear(const Result<api::FleetShared>& shared);
+  void receive(const Result<api::FleetShared>& shared);
   /// What the others have seen; the robot gets it with the next topologies.
-  void hear(api::FleetSightings sightings);
+  void receive(api::FleetSightings sightings);
 
  private:
   const std::string robot_id_;

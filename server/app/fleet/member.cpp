@@ -4,8 +4,8 @@
 
 namespace seeker::app {
 
-bool silent(const std::optional<WallTime>& heard, WallTime now, Duration limit) {
-  return !heard || now - *heard >= limit;
+bool silent(const std::optional<WallTime>& received, WallTime now, Duration limit) {
+  return !received || now - *received >= limit;
 }
 
 Member::Member(MemberRecord record, std::uint8_t its_slot)

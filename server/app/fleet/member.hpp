@@ -13,8 +13,8 @@
 
 namespace seeker::app {
 
-/// Whether a robot that was last heard at a time, or never, counts as gone.
-[[nodiscard]] bool silent(const std::optional<WallTime>& heard, WallTime now, Duration limit);
+/// Whether a robot whose last message came at a time, or never, counts as gone.
+[[nodiscard]] bool silent(const std::optional<WallTime>& received, WallTime now, Duration limit);
 
 /// An entry of the book of members. It has no lock: MemberBook guards it with its mutex.
 struct Member {

@@ -148,7 +148,7 @@ void MemberBook::ask_for_record(const std::string& robot_id, Member& member) {
   }
 }
 
-Result<HeardRobot> MemberBook::hear(const api::FleetShare& share, WallTime now) {
+Result<ReportingRobot> MemberBook::receive(const api::FleetShare& share, WallTime now) {
   const std::lock_guard lock(mutex_);
   Member* member = find(share.robot_id, share.instance);
   if (member == nullptr) {
@@ -157,25 +157,25 @@ Result<HeardRobot> MemberBook::hear(const api::FleetShare& share, WallTime now) 
   member->seen = now;
   member->shared = now;
   member->map.set_pose(share.topology ? std::optional(share.topology->map_T_base) : std::nullopt);
-  member->report.hear_topology(share.topology);
-  return heard(share.robot_id, *member, now);
+  member->report.receive_topology(share.topology);
+  return received(share.robot_id, *member, now);
 }
 
-Result<HeardRobot> MemberBook::hear(const api::FleetSeen& seen, WallTime now) {
+Result<ReportingRobot> MemberBook::receive(const api::FleetSeen& seen, WallTime now) {
   const std::lock_guard lock(mutex_);
   Member* member = find(seen.robot_id, seen.instance);
   if (member == nullptr) {
     return has_to_announce(seen.robot_id);
   }
   member->seen = now;
-  if (seen.placed && member->report.hear_seen(seen.tiles, seen.detections, seen.searched, now)) {
+  if (seen.placed && member->report.receive_seen(seen.tiles, seen.detections, seen.searched, now)) {
     ask_for_record(seen.robot_id, *member);
   }
-  return heard(seen.robot_id, *member, now);
+  return received(seen.robot_id, *member, now);
 }
 
-HeardRobot MemberBook::heard(const std::string& robot_id, const Member& member, WallTime now) const {
-  HeardRobot robot{member.standing.state(), member.standing.main_T_map(), member.map.manifest().map_T_base, {}};
+ReportingRobot MemberBook::received(const std::string& robot_id, const Member& member, WallTime now) const {
+  ReportingRobot robot{member.standing.state(), member.standing.main_T_map(), member.map.manifest().map_T_base, {}};
   if (robot.main_T_map) {
     robot.others = others_than(robot_id, *robot.main_T_map, now);
   }
@@ -317,24 +317,24 @@ void MemberBook::settle(const JoinOutcome& outcome) {
   for (auto& [id, member] : members_) {
     if (member.standing.settle(member.slot, outcome, names)) {
       ++revision_;
-      tell_state(member);
+      report_state(member);
     }
   }
 }
 
-void MemberBook::tell_state(const Member& member) const {
+void MemberBook::report_state(const Member& member) const {
   const std::string& id = member.map.manifest().robot_id;
   const api::FleetState state = member.standing.state();
   const std::string text =
       "robot '" + id + "' is " + std::string(api::to_string(state)) + ": " + member.standing.reason();
   log::info(kFleetPart, text);
   if (state == api::FleetState::kAmbiguous) {
-    errands_.tell_operator("fleet-ambiguous",
-                           text + "; 'seeker fleet status' shows the ways to lay its map, 'seeker fleet merge " + id +
-                               " --hypothesis N' accepts one",
-                           api::Severity::kWarning);
+    errands_.notify_operator("fleet-ambiguous",
+                             text + "; 'seeker fleet status' shows the ways to lay its map, 'seeker fleet merge " + id +
+                                 " --hypothesis N' accepts one",
+                             api::Severity::kWarning);
   } else if (state == api::FleetState::kContradicted) {
-    errands_.tell_operator("fleet-contradicted", text, api::Severity::kWarning);
+    errands_.notify_operator("fleet-contradicted", text, api::Severity::kWarning);
   }
 }
 

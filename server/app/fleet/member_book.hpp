@@ -26,7 +26,7 @@ struct MemberBookParams {
 };
 
 /// A robot that has reported, and what it may be sent of the others.
-struct HeardRobot {
+struct ReportingRobot {
   api::FleetState state = api::FleetState::kWaiting;
   std::optional<Pose2> main_T_map;  ///< absent where it is not merged: nothing is sent to it
   std::optional<Pose2> map_T_base;
@@ -59,9 +59,9 @@ class MemberBook {
   /// AnnouncedMap::receive().
   [[nodiscard]] Result<std::uint64_t> receive(const api::FleetChunk& chunk);
   /// kNotFound: the robot has to announce its map first.
-  [[nodiscard]] Result<HeardRobot> hear(const api::FleetShare& share, WallTime now);
+  [[nodiscard]] Result<ReportingRobot> receive(const api::FleetShare& share, WallTime now);
   /// As above.
-  [[nodiscard]] Result<HeardRobot> hear(const api::FleetSeen& seen, WallTime now);
+  [[nodiscard]] Result<ReportingRobot> receive(const api::FleetSeen& seen, WallTime now);
   [[nodiscard]] api::FleetStatus status(WallTime now) const;
   /// The operator's decision. kNotFound, kRefused.
   [[nodiscard]] Result<api::FleetStatus> decide(const api::FleetDecision& decision, WallTime now);
@@ -97,11 +97,11 @@ class MemberBook {
   [[nodiscard]] std::uint8_t number_for(const std::string& robot_id) const;
   void ask_for_judgement(const std::string& robot_id, Member& member);
   void ask_for_record(const std::string& robot_id, Member& member);
-  [[nodiscard]] HeardRobot heard(const std::string& robot_id, const Member& member, WallTime now) const;
+  [[nodiscard]] ReportingRobot received(const std::string& robot_id, const Member& member, WallTime now) const;
   [[nodiscard]] std::vector<OtherRobot> others_than(const std::string& robot_id, const Pose2& main_T_map,
                                                     WallTime now) const;
   [[nodiscard]] api::FleetStatus status_now(WallTime now) const;
-  void tell_state(const Member& member) const;
+  void report_state(const Member& member) const;
 
   const MemberBookParams params_;
   const OwnRobot& main_;

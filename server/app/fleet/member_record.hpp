@@ -11,7 +11,7 @@
 
 namespace seeker::app {
 
-/// Searched floor is not kept, since nobody could tell how old it is.
+/// Searched floor is not kept, since its age would not be known.
 struct MemberRecord {
   api::FleetManifest manifest;
   Pieces pieces;

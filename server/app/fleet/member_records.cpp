@@ -22,8 +22,8 @@ constexpr const char* kRecordKind = "fleet-robot";
 
 }  // namespace
 
-MemberRecords::MemberRecords(fs::path folder, const PieceFiles& pieces, TellDamage tell_damage)
-    : folder_(std::move(folder)), pieces_(pieces), tell_damage_(std::move(tell_damage)) {}
+MemberRecords::MemberRecords(fs::path folder, const PieceFiles& pieces, ReportDamage report_damage)
+    : folder_(std::move(folder)), pieces_(pieces), report_damage_(std::move(report_damage)) {}
 
 std::vector<MemberRecord> MemberRecords::load(const std::string& main_robot_id) const {
   std::error_code error;
@@ -52,8 +52,8 @@ std::optional<MemberRecord> MemberRecords::load_one(const std::string& robot_id)
   Result<api::FleetManifest> manifest = kept ? wire::from_message<api::FleetManifest>(kept->manifest())
                                              : Result<api::FleetManifest>(tl::unexpected<Error>(kept.error()));
   if (!manifest || manifest->robot_id != robot_id) {
-    tell_damage_("what robot '" + robot_id + "' had sent cannot be read again, it has to send all of it: " +
-                 (manifest ? "the record is that of another robot" : manifest.error().message));
+    report_damage_("what robot '" + robot_id + "' had sent cannot be read again, it has to send all of it: " +
+                   (manifest ? "the record is that of another robot" : manifest.error().message));
     return std::nullopt;
   }
   MemberRecord record;
@@ -70,8 +70,8 @@ std::optional<MemberRecord> MemberRecords::load_one(const std::string& robot_id)
       record.topology = std::move(*topology);
     }
   }
-  record.finds = {read_found(kept->detections(), robot_id, tell_damage_),
-                  read_found(kept->earlier_detections(), robot_id, tell_damage_)};
+  record.finds = {read_found(kept->detections(), robot_id, report_damage_),
+                  read_found(kept->earlier_detections(), robot_id, report_damage_)};
   return record;
 }
 

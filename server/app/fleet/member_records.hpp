@@ -21,7 +21,7 @@ namespace seeker::app {
 class MemberRecords {
  public:
   /// `pieces` must outlive this and have the same folder.
-  MemberRecords(std::filesystem::path folder, const PieceFiles& pieces, TellDamage tell_damage);
+  MemberRecords(std::filesystem::path folder, const PieceFiles& pieces, ReportDamage report_damage);
 
   /// Records of all robots but the main one, in an order that is the same on every disk. A damaged one is left out and
   /// reported.
@@ -34,7 +34,7 @@ class MemberRecords {
 
   const std::filesystem::path folder_;
   const PieceFiles& pieces_;
-  const TellDamage tell_damage_;
+  const ReportDamage report_damage_;
   std::mutex mutex_;
 };
 

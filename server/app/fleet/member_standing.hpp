@@ -32,7 +32,7 @@ class MemberStanding {
   /// The operator's decision. kRefused: there is no such hypothesis.
   [[nodiscard]] Status decide(const api::FleetDecision& decision);
   /// Applies the hypothesis that the operator has accepted to what was found for the pair of the main robot and this
-  /// one. The acceptance lapses where the maps do not fit in that way any more.
+  /// one. The acceptance lapses where the maps do not fit with that transform any more.
   void apply_acceptance(fleet::MergeAnswer& answer);
   /// State, reason and pose of the map from the newest map join; `names` are the robots' ids by slot. The answer is
   /// whether the state has changed.

@@ -20,12 +20,12 @@ struct OwnMap {
   LineMap map;
   std::optional<Pose2> map_T_base;
 };
-/// What it tells of where it has been and means to go, frame `map`; nothing where it does not know its place.
+/// What it reports of where it has been and means to go, frame `map`; nothing where it does not know its place.
 using OwnTopology = std::optional<RobotTopology>;
 
 /// What it has seen, frame `map`, within the limits of a fleet.
 struct OwnSeen {
-  bool placed = false;  ///< it knows its place; else the rest is empty, and what it told before holds
+  bool placed = false;  ///< it knows its place; else the rest is empty, and what it reported before holds
   std::vector<OccupancyTile> floor;
   std::vector<api::Detection> detections;  ///< that belong to the map as it is now
   std::optional<SearchedFloor> searched;
@@ -44,7 +44,7 @@ struct FleetHost {
   /// What the robot knows of the others from now on, frame `map`; nothing: it is alone.
   std::function<void(std::optional<FleetView>)> take_view;
   /// An event of the robot; returns at once and calls nobody back.
-  std::function<void(const std::string& kind, const std::string& text, api::Severity)> tell_operator;
+  std::function<void(const std::string& kind, const std::string& text, api::Severity)> notify_operator;
 };
 
 }  // namespace seeker::app

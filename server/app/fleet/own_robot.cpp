@@ -34,11 +34,11 @@ void OwnRobot::keep_remembered() {
   remembered_ = true;
 }
 
-void OwnRobot::take_map(const OwnMap& own, bool begins_anew) {
+void OwnRobot::take_map(const OwnMap& own, bool is_new_map) {
   const std::lock_guard lock(mutex_);
   map_T_base_ = own.map_T_base;
   places_ = places_of(own.map);
-  if (begins_anew) {
+  if (is_new_map) {
     forget_report();
   }
   remembered_ = false;
@@ -52,18 +52,18 @@ void OwnRobot::forget_report() {
   }
 }
 
-void OwnRobot::hear(const OwnTopology& reported) {
+void OwnRobot::receive(const OwnTopology& reported) {
   const std::lock_guard lock(mutex_);
   map_T_base_ = reported ? std::optional(reported->map_T_base) : std::nullopt;
-  report_.hear_topology(remembered_ ? std::nullopt : reported);
+  report_.receive_topology(remembered_ ? std::nullopt : reported);
 }
 
-bool OwnRobot::hear(const OwnSeen& seen, WallTime heard_at) {
+bool OwnRobot::receive(const OwnSeen& seen, WallTime received_at) {
   const std::lock_guard lock(mutex_);
   if (!seen.placed || remembered_) {
     return false;
   }
-  const bool found_more = report_.hear_seen(seen.floor, seen.detections, seen.searched, heard_at);
+  const bool found_more = report_.receive_seen(seen.floor, seen.detections, seen.searched, received_at);
   if (!seen.searched) {
     report_.search = {};  // its program is this one: it has forgotten nothing, but is in another map
   }

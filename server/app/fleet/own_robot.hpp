@@ -26,13 +26,13 @@ class OwnRobot {
   void recall(const LineMap& map, const std::optional<RobotTopology>& topology, std::vector<api::Detection> found);
   /// The robot has not taken up its map again: what is remembered of it holds.
   void keep_remembered();
-  /// The map as it is now. `begins_anew`: it has not grown from the one before, so that all that was reported in that
+  /// The map as it is now. `is_new_map`: it has not grown from the one before, so that all that was reported in that
   /// one lapses.
-  void take_map(const OwnMap& own, bool begins_anew);
-  void hear(const OwnTopology& reported);
+  void take_map(const OwnMap& own, bool is_new_map);
+  void receive(const OwnTopology& reported);
   /// The answer is whether it has found other targets than it reported before. A robot that has lost its pose takes
   /// nothing back.
-  [[nodiscard]] bool hear(const OwnSeen& seen, WallTime heard_at);
+  [[nodiscard]] bool receive(const OwnSeen& seen, WallTime received_at);
 
   /// The robot has not taken up its map since it was restarted: what is remembered holds, and what its loop reports is
   /// in another frame.

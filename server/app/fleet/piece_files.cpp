@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/files/files.hpp"
 #include "common/log/log.hpp"
 #include "common/wire/sha256.hpp"
 #include "server/app/fleet/fleet_settings.hpp"
-#include "server/store/atomic_file.hpp"
 
 namespace seeker::app {
 namespace {
@@ -24,7 +24,7 @@ Pieces PieceFiles::load(const api::FleetManifest& manifest) const {
   Pieces pieces;
   for (const api::FleetNode& node : manifest.nodes) {
     Result<std::vector<std::uint8_t>> piece =
-        store::read_file(folder / piece_name(node.hash), api::kMaxFleetPieceBytes);
+        files::read_file(folder / piece_name(node.hash), api::kMaxFleetPieceBytes);
     if (piece && wire::sha256_of(*piece) == node.hash) {
       pieces[node.hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*piece));
     }
@@ -36,7 +36,7 @@ void PieceFiles::keep(const std::string& robot_id, const api::PieceHash& hash, c
   const fs::path folder = folder_ / robot_id;
   std::error_code error;
   fs::create_directories(folder, error);
-  if (const Status kept = store::write_file_atomically(folder / piece_name(hash), *bytes); !kept) {
+  if (const Status kept = files::write_file(folder / piece_name(hash), *bytes); !kept) {
     log::warning(kFleetPart, "a piece of '" + robot_id + "' is not kept: " + kept.error().message);
   }
 }

@@ -17,14 +17,14 @@ std::vector<api::Detection> RobotReport::Finds::all() const {
   return api::within_limits(std::move(all));
 }
 
-void RobotReport::Search::hear(std::optional<SearchedFloor> reported, WallTime heard_at) {
+void RobotReport::Search::receive(std::optional<SearchedFloor> reported, WallTime received_at) {
   if (reported && reported != floor) {
     floor = std::move(reported);
-    changed = heard_at;
+    changed = received_at;
   }
 }
 
-void RobotReport::hear_topology(const std::optional<RobotTopology>& reported) {
+void RobotReport::receive_topology(const std::optional<RobotTopology>& reported) {
   if (reported && (!reported->topology.nodes.empty() || !topology)) {
     topology = reported;
     return;
@@ -37,10 +37,10 @@ void RobotReport::hear_topology(const std::optional<RobotTopology>& reported) {
   }
 }
 
-bool RobotReport::hear_seen(const std::vector<OccupancyTile>& tiles, const std::vector<api::Detection>& detections,
-                            const std::optional<SearchedFloor>& searched, WallTime heard_at) {
+bool RobotReport::receive_seen(const std::vector<OccupancyTile>& tiles, const std::vector<api::Detection>& detections,
+                               const std::optional<SearchedFloor>& searched, WallTime received_at) {
   floor = floor_of(tiles);
-  search.hear(searched, heard_at);
+  search.receive(searched, received_at);
   if (finds.now == detections) {
     return false;
   }

@@ -31,7 +31,7 @@ struct RobotReport {
     WallTime changed;  ///< when the robot last reported another floor than before
     /// An absent report changes nothing: a robot that was restarted has lost what it searched, but the floor was
     /// searched all the same.
-    void hear(std::optional<SearchedFloor> reported, WallTime heard_at);
+    void receive(std::optional<SearchedFloor> reported, WallTime received_at);
   };
 
   std::optional<RobotTopology> topology;
@@ -40,11 +40,12 @@ struct RobotReport {
   Search search;
 
   /// A robot that was restarted, or has lost its pose, knows fewer places than it reported before: those stay.
-  void hear_topology(const std::optional<RobotTopology>& reported);
+  void receive_topology(const std::optional<RobotTopology>& reported);
   /// Takes the floor that was seen, the targets that were found and the floor that was searched. The answer is whether
   /// the targets are others than before.
-  [[nodiscard]] bool hear_seen(const std::vector<OccupancyTile>& tiles, const std::vector<api::Detection>& detections,
-                               const std::optional<SearchedFloor>& searched, WallTime heard_at);
+  [[nodiscard]] bool receive_seen(const std::vector<OccupancyTile>& tiles,
+                                  const std::vector<api::Detection>& detections,
+                                  const std::optional<SearchedFloor>& searched, WallTime received_at);
   /// All finds in another frame, without those that lie out of reach there: their receiver would refuse all of them.
   [[nodiscard]] std::vector<api::Detection> finds_in(const Pose2& other_T_map) const;
 };

@@ -28,7 +28,7 @@ struct LandmarkStorage {
   std::string software_version;
 };
 
-/// Safe to share between threads: every call opens its file anew. kNotReady where there is no folder.
+/// Safe to share between threads: every call opens its file. kNotReady where there is no folder.
 class LandmarkLibrary {
  public:
   explicit LandmarkLibrary(LandmarkStorage storage);

@@ -1,6 +1,6 @@
 /// \file
-/// The robot's cameras: pictures are taken on the loop's thread; what is slow about them, recognising targets and
-/// finding stereo features, runs in the background when live and inline in lockstep.
+/// Cameras takes pictures on the loop's thread. Recognising targets and finding stereo features are slow: they run in
+/// the background when live and inline in lockstep.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@
 
 namespace seeker::app {
 
-/// Owner of what is being recognised and looked at. Lives on the loop's thread.
+/// Owns the recognition and the stereo observation that are in progress. Lives on the loop's thread.
 class Cameras {
  public:
   /// `stereo` may be null: no features are found in stereo pictures then. The references outlive the cameras.
@@ -33,22 +33,24 @@ class Cameras {
 
   explicit Cameras(const Parts& parts);
 
-  /// There is a camera, and no picture of it is being looked at.
+  /// True when the robot has a camera and no recognition is running or waits for take_recognition().
   [[nodiscard]] bool can_recognise() const { return camera_ != nullptr && !recognition_.busy(); }
 
-  /// Takes a picture and begins to look for targets in it; only where can_recognise(). `context` is where the robot is
-  /// and what it senses; the stamp becomes that of the exposure.
+  /// Takes a picture and begins to look for targets in it. Call it only when can_recognise() is true. `context` is
+  /// where the robot is and what it senses; the stamp becomes that of the exposure.
   void recognise(const std::shared_ptr<const vision::Recogniser>& recogniser, Recognition context);
-  /// The sightings, once they are there. A recogniser that failed is a fault, and there is nothing.
+  /// Returns the sightings once the recognition has finished. When it failed, a fault is raised and nothing is
+  /// returned.
   [[nodiscard]] std::optional<Recognition> take_recognition();
 
   /// Takes a stereo picture and begins to find its features. `context` is where the robot is. Returns the stamp of the
-  /// exposure, with the answer to come from take_look(); an error, which is the answer itself; or nothing while the
-  /// features of an earlier picture are being found.
+  /// exposure, after which take_look() delivers the features; or an error, after which none follow; or nothing while
+  /// the features of an earlier picture are being found.
   [[nodiscard]] std::optional<Result<RobotTime>> look(StereoLook context);
+  /// Returns the result of the last look() once it is there.
   [[nodiscard]] std::optional<Result<StereoLook>> take_look();
 
-  /// One picture for a client. kNotFound names the cameras there are.
+  /// Takes one picture for a client. An unknown camera is kNotFound, and the message lists those that there are.
   [[nodiscard]] Result<api::ImageFrame> grab(const std::string& camera, const Pose2& map_T_base);
 
  private:

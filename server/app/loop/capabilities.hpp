@@ -1,5 +1,5 @@
 /// \file
-/// What a robot can be asked to do, by the devices that it has.
+/// capabilities() lists what a robot can be asked to do, given its devices.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace seeker::app {
 
-/// The words of api::RobotInfo::capabilities. `has_segments`: its estimator keeps a map of line segments.
+/// Returns the words of api::RobotInfo::capabilities. `has_segments` says whether the estimator keeps a map of line
+/// segments.
 [[nodiscard]] std::vector<std::string> capabilities(const Devices& devices, bool has_segments);
 
 }  // namespace seeker::app

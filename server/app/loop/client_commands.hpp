@@ -1,5 +1,5 @@
 /// \file
-/// What clients may ask of the robot while it runs.
+/// ClientCommands carries out what clients ask of a running robot.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ namespace seeker::app {
 /// the loop's thread.
 class ClientCommands {
  public:
-  /// Who carries the commands out. All outlive the commands.
+  /// These objects carry the commands out; they must outlive ClientCommands.
   struct Parties {
     WorldLink& world;
     Sensing& sensing;
@@ -38,21 +38,32 @@ class ClientCommands {
 
   explicit ClientCommands(const Parties& parties) : parties_(parties) {}
 
+  /// See MissionControl::start().
   [[nodiscard]] Result<api::MissionId> start_mission(const api::MissionRequest& request, const std::string& client);
-  /// `client` becomes the owner of a mission that it has go on after a crash.
+  /// When the command resumes a mission that a crash cut off, `client` becomes its owner.
   [[nodiscard]] Status command_mission(api::MissionCommand command, const std::string& client);
+  /// Ends the mission and stops the base; the holder of the lease must acquire it again to drive.
   void stop();
+  /// Latches or releases the emergency stop; latching it pauses the mission.
   void set_estop(bool engaged);
+  /// Acquires, renews, takes over or releases the lease; see MotionAuthority::command_lease().
   [[nodiscard]] Result<api::LeaseState> command_lease(const std::string& client, api::LeaseAction action);
+  /// Drives by hand with a velocity that expires: with the lease, at real time, while no mission runs.
   [[nodiscard]] Status drive(const std::string& client, const api::DriveCommand& command);
+  /// Starts a component again. The robot is disarmed and its mission paused by that.
   [[nodiscard]] Status restart_component(const std::string& name);
+  /// See Cameras::grab().
   [[nodiscard]] Result<api::ImageFrame> grab_image(const std::string& camera);
+  /// See MapCommands::load(). A mission that was cut off does not go on in this map.
   [[nodiscard]] Status load_map(const LineMap& map, const MapIdentity& identity);
+  /// See MapCommands::relocalise().
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base);
 
+  /// The connection of a client broke: its lease is void, and its mission's link policy begins to count.
   void client_lost(const std::string& client, const std::string& why, WallTime wall_now);
+  /// The client has connected again.
   void client_back(const std::string& client);
-  /// The client left on purpose: its lease is free, its mission goes on.
+  /// The client left on purpose: it gives its lease up, its mission goes on.
   void client_closed(const std::string& client);
 
  private:

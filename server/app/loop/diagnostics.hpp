@@ -1,5 +1,6 @@
 /// \file
-/// What is wrong with the robot, and what has happened to it: faults, the states of its components, numbered events.
+/// Diagnostics records what is wrong with the robot and what has happened to it: faults, the states of its components,
+/// and numbered events.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +17,22 @@
 
 namespace seeker::app {
 
-/// Owner of the faults, of the component states and of the event numbers. A fault that is new, or that goes, is an
+/// Owns the faults, the component states and the event numbers. A fault that is new, or that goes, is an
 /// event. Lives on the loop's thread.
 class Diagnostics {
  public:
-  /// `hub` and `hooks` outlive it.
+  /// `hub` and `hooks` must outlive it.
   Diagnostics(std::shared_ptr<const drivers::Clock> clock, UpdateHub& hub, const LoopHooks& hooks);
 
+  /// Raises the fault `id`; one that is there already is updated without a new event.
   void raise(const std::string& id, const std::string& component, const std::string& message, const std::string& remedy,
              api::Severity severity = api::Severity::kError);
-  /// True when the fault was there.
+  /// Clears the fault and returns whether it was there.
   bool clear(const std::string& id);
-  /// The estimator's or the map's answer to a reading: an error raises the warning `id`, success clears it.
+  /// Takes the estimator's or the map's answer to a reading: an error raises the warning `id`, success clears it.
   void note_reading(const Status& status, const std::string& id);
 
-  /// An event outside of missions, stamped with the present robot time.
+  /// Emits an event that belongs to no mission, stamped with the present robot time.
   void log(const std::string& kind, const std::string& text, api::Severity severity = api::Severity::kInfo);
   /// Hands an event to the journal as it is and, with the next sequence number, to subscribers.
   void emit(const api::Event& event);

@@ -1,5 +1,5 @@
 /// \file
-/// Where the robot is in which map: the estimator's pose, the map's epoch, and the trajectory in it.
+/// Localiser knows where the robot is in which map: the estimator's pose, the map's epoch, and the trajectory in it.
 #pragma once
 
 #include <memory>
@@ -17,32 +17,36 @@
 
 namespace seeker::app {
 
-/// What has changed when the map's epoch has risen.
+/// Describes how the map has changed when its epoch has risen.
 struct MapShift {
-  MapCorrection correction;        ///< what missions move their places by
+  MapCorrection correction;        ///< by which missions move their places
   std::optional<Pose2> new_T_old;  ///< how the map moved around the robot; nothing: the map stays where it was
 };
 
-/// Owner of estimator, map, pose and trajectory. Lives on the loop's thread.
+/// Owns estimator, map, pose and trajectory. Lives on the loop's thread.
 class Localiser {
  public:
   Localiser(const LoopParams& params, const nav::OccupancyParams& occupancy, std::unique_ptr<Estimator> estimator,
             Diagnostics& diagnostics);
 
   /// Hands the new readings to the estimator, then takes its pose; beams that end at other robots are left out of the
-  /// scan. Something, where the map has moved: everything that holds places follows it, before map_readings().
+  /// scan. Returns a value when the epoch has risen: the caller must pass it to all that hold places
+  /// before it calls map_readings().
   [[nodiscard]] std::optional<MapShift> localise(const Sensing& sensing, const Neighbours& neighbours, RobotTime now);
-  /// Writes the same readings into the map, where the robot is known to be in it.
+  /// Writes the readings of the last localise() into the map, while the robot knows its place in it.
   void map_readings(const Sensing& sensing);
   /// Notes the pose in the trajectory.
   void note_pose(RobotTime now);
 
-  /// The robot was found at this place; an estimator that cannot be corrected so is told in an event.
+  /// The robot was found at this place; an event says so when the estimator cannot be corrected by it.
   void place_at(const PoseEstimate& place, RobotTime now);
+  /// Whether the estimator wants a stereo observation now.
   [[nodiscard]] bool wants_look(RobotTime now) const { return estimator_->wants_look(now); }
+  /// A stereo picture was taken at this time; on_look() follows.
   void look_begun(RobotTime stamp) { estimator_->look_begun(stamp); }
+  /// Hands a stereo observation, or why there is none, to the estimator.
   void on_look(const Result<StereoLook>& look);
-  /// Another map is in use: the trajectory is void, and the pose is the estimator's in the new one.
+  /// Another map has come into use: clears the trajectory and takes the estimator's pose in the new map.
   void forget_places(RobotTime now);
   /// Takes the estimator's pose as it is now, after the map or the place in it were set from outside.
   void take_estimate(RobotTime now);
@@ -50,7 +54,7 @@ class Localiser {
   [[nodiscard]] const PoseEstimate& pose() const { return pose_; }
   [[nodiscard]] RobotMap& map() { return map_; }
   [[nodiscard]] const RobotMap& map() const { return map_; }
-  /// The keeper of the map of segments; null where the estimator keeps none.
+  /// Returns the estimator's map of line segments; null when it keeps none.
   [[nodiscard]] slam::MapTracker* tracker() const { return estimator_->map_tracker(); }
   [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
 

@@ -1,5 +1,5 @@
 /// \file
-/// What the loop calls outside of itself: the journal, the store of maps, tests.
+/// LoopHooks are callbacks by which the journal, the store of maps and tests follow the loop.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,20 @@ namespace seeker::app {
 struct LoopHooks {
   /// Called with every event, before it is published.
   std::function<void(const api::Event&)> on_event;
+  /// Called with a request that has become the running mission.
   std::function<void(const api::MissionRequest&)> on_mission_started;
+  /// Called with every mission status, before subscribers get it.
   std::function<void(const api::MissionStatus&)> on_mission;
+  /// Called with every detection that is new, refined or withdrawn, before subscribers get it.
   std::function<void(const api::Detection&)> on_detection;
-  /// Keeps the map of a mission that is building it; the answer is MissionCheckpoints::written().
+  /// Keeps the map of a mission that is building it; whoever does so must report by MissionCheckpoints::written().
   std::function<void(const api::MissionId&, Checkpoint)> on_checkpoint;
-  /// Keeps where the robot is in that map; the answer is MissionCheckpoints::place_written().
+  /// Keeps where the robot is in that map; whoever does so must report by
+  /// MissionCheckpoints::place_written().
   std::function<void(const api::MissionId&, const MissionPlace&)> on_place;
-  /// The robot was not found in the map that is kept for a mission, which goes on without it.
+  /// Called when the robot was not found in the map that is kept for this mission, which goes on in a new map.
   std::function<void(const api::MissionId&)> on_checkpoint_unused;
-  /// No mission needs its checkpoint any more.
+  /// Called when no mission needs its checkpoints any more, so that they may be deleted.
   std::function<void()> on_checkpoints_void;
 };
 

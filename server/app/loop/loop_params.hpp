@@ -1,5 +1,5 @@
 /// \file
-/// The parameters of the loop, and the parts that it is put together from.
+/// The parameters of the robot loop, and the parts that it is put together from.
 #pragma once
 
 #include <chrono>
@@ -28,13 +28,14 @@ struct FleetMotionParams {
 
 struct LoopParams {
   Duration period = std::chrono::milliseconds(100);
-  Duration base_timeout = std::chrono::milliseconds(500);  ///< silence that is a fault, robot time
+  Duration base_timeout = std::chrono::milliseconds(500);  ///< the base counts as silent after this robot time
   Duration lidar_timeout = std::chrono::seconds(1);
   Duration sonar_timeout = std::chrono::seconds(1);
-  Duration tile_period = std::chrono::milliseconds(500);  ///< between publications of changed tiles, robot time
-  Duration grid_period = std::chrono::seconds(2);         ///< between publications of lists and evidence
+  Duration tile_period = std::chrono::milliseconds(500);  ///< robot time between publications of changed tiles
+  Duration grid_period =
+      std::chrono::seconds(2);  ///< robot time between publications of a search's cell lists and evidence
   double trajectory_spacing_m = 0.1;
-  std::size_t max_trajectory = 100'000;  ///< poses; the oldest half is thinned out beyond it
+  std::size_t max_trajectory = 100'000;  ///< most poses kept; beyond it every second pose of the older half is dropped
   SafetyParams safety;
   MissionParams mission;
   RobotMapParams map;
@@ -45,12 +46,11 @@ struct LoopParams {
 struct LoopParts {
   Devices devices;
   std::unique_ptr<Estimator> estimator;
-  std::shared_ptr<const vision::StereoExtractor> stereo;  ///< finds features in stereo pictures; null: nobody wants any
+  std::shared_ptr<const vision::StereoExtractor> stereo;  ///< null when no stereo features are needed
   std::string estimator_type;
   BehaviourFactory behaviours;
   nav::OccupancyParams occupancy;
-  std::function<void()>
-      forget_places;  ///< called when another map was loaded: what missions remember of places is void
+  std::function<void()> forget_places;  ///< called when another map takes over, so that missions forget their places
 };
 
 }  // namespace seeker::app

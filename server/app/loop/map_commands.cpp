@@ -70,8 +70,8 @@ Status MapCommands::replace(const LineMap& map, const MapIdentity& identity) {
   return {};
 }
 
-void MapCommands::begin_anew() {
-  parties_.localiser.map().begin_anew();
+void MapCommands::begin_new_map() {
+  parties_.localiser.map().begin_new_map();
   forget_places();
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// What may be done with the map in use from outside: saved, replaced by another, or searched for the robot's place.
+/// MapCommands saves or replaces the map in use, and looks for the robot's place in it.
 #pragma once
 
 #include <functional>
@@ -18,11 +18,10 @@
 
 namespace seeker::app {
 
-/// Owns nothing but the rule that whoever holds places forgets them when another map takes the present one's place.
-/// Lives on the loop's thread.
+/// Owns no state. It makes all that remember places forget them when the map is replaced. Lives on the loop's thread.
 class MapCommands {
  public:
-  /// Who holds places, or decides whether the map may change. All outlive the commands.
+  /// These objects hold places or decide whether the map may change; they must outlive MapCommands.
   struct Parties {
     WorldLink& world;
     const Sensing& sensing;
@@ -33,25 +32,26 @@ class MapCommands {
     Diagnostics& diagnostics;
   };
 
-  /// `forget_places` may be empty: LoopParts::forget_places.
+  /// `forget_places` is LoopParts::forget_places and may be empty.
   MapCommands(const Parties& parties, std::function<void()> forget_places);
 
-  /// The present map, to be saved under a name.
+  /// Returns the present map, to be saved under `name`.
   [[nodiscard]] Result<LoopMap> to_save(const std::string& name) const;
-  /// kRefused when the robot localises in the map of this name: its file stays as it is.
+  /// Returns kRefused when the robot only localises in the map `name`, whose file must not change.
   [[nodiscard]] Status not_in_use(const std::string& name) const;
+  /// The map was saved: from now on it is the map of that name.
   void saved(const MapIdentity& identity);
 
-  /// kBusy, kNotReady or kRefused while a mission, the world or a moving robot forbid it.
+  /// Returns kBusy during a mission, kNotReady while the world is out of reach, kRefused while the robot moves.
   [[nodiscard]] Status may_change() const;
-  /// Replaces the map, where may_change(); the robot looks for its place in it.
+  /// Replaces the map if may_change() allows it; the robot then looks for its place in it.
   [[nodiscard]] Status load(const LineMap& map, const MapIdentity& identity);
-  /// As load() for a robot that may still roll.
+  /// Replaces the map without asking may_change(), so that the robot may still roll.
   [[nodiscard]] Status replace(const LineMap& map, const MapIdentity& identity);
   /// Looks for the robot's place, near a pose or everywhere.
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base);
   /// Forgets the map; a new one begins where the robot is.
-  void begin_anew();
+  void begin_new_map();
 
  private:
   void forget_places();

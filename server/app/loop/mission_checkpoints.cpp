@@ -26,7 +26,7 @@ void MissionCheckpoints::keep(const MissionExecutor& missions, RobotTime now) {
       !is_placed(pose.quality)) {
     return;
   }
-  const bool far = map_T_base_ && distance_m(*map_T_base_, pose.map_T_base) >= params_.checkpoint_way_m;
+  const bool far = map_T_base_ && distance_m(*map_T_base_, pose.map_T_base) >= params_.checkpoint_distance_m;
   const bool due = far || now - at_ >= params_.checkpoint_period;
   if (!due || waits_ || revision_ == tracker->revision()) {
     keep_place(mission->id, missions, now);

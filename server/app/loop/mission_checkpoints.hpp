@@ -24,21 +24,22 @@ class MissionCheckpoints {
   MissionCheckpoints(const RobotMapParams& params, const Localiser& localiser, Diagnostics& diagnostics,
                      const LoopHooks& hooks);
 
-  /// Whether a mission of this kind builds the map that it needs to go on.
+  /// Returns whether such a mission builds a map that it needs in order to go on after a crash.
   [[nodiscard]] static bool wanted_for(const api::MissionTask& task);
 
-  /// A mission begins: its first checkpoint is due a period or a distance from here.
+  /// Call it when a mission begins; its first checkpoint is due after the period or the distance of the parameters.
   void begin(RobotTime now);
-  /// Once a tick: keeps the map when that is due, and the robot's place in it more often.
+  /// Call it once a tick: it keeps the map when that is due, and the robot's place in it more often.
   void keep(const MissionExecutor& missions, RobotTime now);
-  /// There is one on disk that a mission goes on from.
+  /// Call it when a mission goes on from a checkpoint on disk.
   void adopt() { kept_ = true; }
-  /// No mission needs them any more. `of_a_crash`: those of an earlier run of the program are void, too.
+  /// Call it when no mission needs its checkpoints any more; with `of_a_crash` those of an earlier run of the program
+  /// are void, too.
   void drop(bool of_a_crash);
 
-  /// The answer to LoopHooks::on_checkpoint.
+  /// Takes the outcome of LoopHooks::on_checkpoint.
   void written(const Status& written);
-  /// The answer to LoopHooks::on_place. A place that was not kept is no loss: the next one follows soon.
+  /// Takes the outcome of LoopHooks::on_place. A place that was not kept is no loss: the next one follows soon.
   void place_written() { place_waits_ = false; }
 
  private:
@@ -49,12 +50,12 @@ class MissionCheckpoints {
   const Localiser& localiser_;
   Diagnostics& diagnostics_;
   const LoopHooks& hooks_;
-  bool kept_ = false;   ///< there may be one on disk
-  bool waits_ = false;  ///< one is being written
+  bool kept_ = false;   ///< a checkpoint may be on disk
+  bool waits_ = false;  ///< a checkpoint is being written
   std::optional<std::uint64_t> revision_;
   RobotTime at_;
-  std::optional<Pose2> map_T_base_;  ///< where the robot was then
-  bool place_waits_ = false;         ///< one is being written
+  std::optional<Pose2> map_T_base_;  ///< where the robot was at the last checkpoint
+  bool place_waits_ = false;         ///< a place is being written
   RobotTime place_at_;
 };
 

@@ -197,7 +197,7 @@ void MissionControl::resume_when_found() {
   }
   resumption_.end_search();
   if (!is_placed(parties_.localiser.pose().quality)) {
-    begin_map_anew();
+    begin_new_map();
   }
   const auto& unfinished = resumption_.unfinished();
   const Result<api::MissionId> started = unfinished
@@ -209,7 +209,7 @@ void MissionControl::resume_when_found() {
 }
 
 /// Better than a robot that is lost for good: the fleet, or an operator, may lay the two maps upon each other later.
-void MissionControl::begin_map_anew() {
+void MissionControl::begin_new_map() {
   parties_.diagnostics.log(
       "resume-anew",
       "the robot did not find its place in the map it had (" + parties_.localiser.pose().cause +
@@ -220,7 +220,7 @@ void MissionControl::begin_map_anew() {
     parties_.hooks.on_checkpoint_unused(resumption_.unfinished()->id);
   }
   resumption_.go_on_without_map(resumption_.kept().so_far);
-  parties_.maps.begin_anew();
+  parties_.maps.begin_new_map();
 }
 
 }  // namespace seeker::app

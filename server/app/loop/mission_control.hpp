@@ -1,5 +1,5 @@
 /// \file
-/// Starting, resuming and stopping missions, with everything that must hold before one may begin.
+/// MissionControl starts, resumes and stops missions, and checks what must hold before one begins.
 #pragma once
 
 #include <optional>
@@ -21,10 +21,10 @@
 
 namespace seeker::app {
 
-/// Owner of the mission that was cut off and of the checkpoints of the one that runs. Lives on the loop's thread.
+/// Owns the mission that was cut off and the checkpoints of the one that runs. Lives on the loop's thread.
 class MissionControl {
  public:
-  /// All outlive the control.
+  /// These objects must outlive MissionControl.
   struct Parties {
     MissionExecutor& executor;
     const WorldLink& world;
@@ -39,41 +39,43 @@ class MissionControl {
 
   MissionControl(const RobotMapParams& params, const Parties& parties);
 
-  /// kRefused: stopped or in other hands; kNotReady: the robot does not know where it is, or cannot do this.
+  /// kRefused: the emergency stop is latched, another client holds the lease, or the base cannot be driven. kNotReady:
+  /// the robot's place is not known, or its world is out of reach.
   [[nodiscard]] Result<api::MissionId> start(const api::MissionRequest& request, const std::string& client);
-  /// `client` becomes the owner of a mission that it has go on after a crash.
+  /// When the command resumes a mission that a crash cut off, `client` becomes its owner.
   [[nodiscard]] Status command(api::MissionCommand command, const std::string& client);
+  /// Ends the present mission and the search for the robot's place in a kept map.
   void stop();
 
-  /// The mission that a crash cut off: `resume` starts it again while no other has been started.
+  /// Remembers the mission that a crash cut off; `resume` starts it again unless another has been started.
   void offer_unfinished(std::optional<api::MissionRequest> request) { resumption_.offer(std::move(request)); }
   [[nodiscard]] const MissionResumption& resumption() const { return resumption_; }
-  /// The cut-off mission whose map may be there; nothing when there is none to resume or it needs no map.
+  /// Returns the cut-off mission whose map must be read before it resumes; nothing when none waits or it needs no map.
   [[nodiscard]] std::optional<api::MissionId> checkpoint_to_resume() const;
-  /// The present map is not the robot's own yet: the one that its mission was building waits for `resume`.
+  /// True while the map that the cut-off mission was building waits for `resume`.
   [[nodiscard]] bool map_waits_for_resume() const;
   /// Loads the map of the cut-off mission and looks for the robot's place in it, first where it was last; then the
   /// mission goes on. Where there is no map to load, or the robot is not found in it, a new map is begun.
   [[nodiscard]] Status resume_in_map(const Result<LineMap>& map, const MapIdentity& identity, const std::string& client,
                                      KeptState kept = {});
-  /// A mission that was cut off does not go on in the map that was loaded now.
+  /// Call it when a client has loaded another map: what was kept for the cut-off mission does not apply to it.
   void another_map_loaded() { resumption_.another_map_loaded(); }
-  /// Once a tick: goes on with the mission whose map was loaded, when the robot has been looked for in it.
+  /// Call it once a tick: it goes on with the mission whose map was loaded, when the robot has been looked for in it.
   void resume_when_found();
-  /// What the robot drives while it is looked for, and nobody else drives it.
+  /// Returns the velocity that rotates the robot during that search; zero when another client holds the lease.
   [[nodiscard]] Twist2 search_velocity();
 
-  /// Once a tick: keeps the map of the mission that runs.
+  /// Call it once a tick: it keeps the map of the mission that runs.
   void keep_checkpoint() { checkpoints_.keep(parties_.executor, parties_.world.now()); }
   [[nodiscard]] MissionCheckpoints& checkpoints() { return checkpoints_; }
-  /// The mission has ended: nothing needs its checkpoint any more.
+  /// Call it when the mission has ended: its checkpoints may be deleted.
   void drop_checkpoints();
 
  private:
   [[nodiscard]] Status may_start(const api::MissionRequest& request, const std::string& client) const;
   [[nodiscard]] Status able_to(const api::MissionTask& task) const;
   [[nodiscard]] Status resume_without_map(const Error& error, const KeptState& kept, const std::string& client);
-  void begin_map_anew();
+  void begin_new_map();
 
   Parties parties_;
   MissionResumption resumption_;

@@ -1,5 +1,5 @@
 /// \file
-/// What moves the base: who may, what the safety supervisor allows of it, and the motors.
+/// MotionControl moves the base: it knows who may command it, what the safety supervisor allows, and the motors.
 #pragma once
 
 #include <memory>
@@ -18,29 +18,30 @@
 
 namespace seeker::app {
 
-/// The only one that commands the base. Lives on the loop's thread.
+/// No other class commands the base. Lives on the loop's thread.
 class MotionControl {
  public:
-  /// The references outlive it.
+  /// The references must outlive it.
   MotionControl(const SafetyParams& params, std::shared_ptr<drivers::BaseDriver> base, const Sensing& sensing,
                 const SituationSource& situation, WorldLink& world, Diagnostics& diagnostics);
 
   /// Powers the motors where that is allowed, and commands what the supervisor allows of `wanted`.
   void act(const Twist2& wanted);
-  /// Commands the base to stand and voids the velocities that are on their way.
+  /// Commands the base to stand and voids the velocity commands that have been sent and not yet carried out.
   void stop();
-  /// Latches or releases the emergency stop. False when it was so already.
+  /// Latches or releases the emergency stop. Returns false when it was in that state already.
   bool set_estop(bool engaged);
   /// Stands still and powers the motors off, before the components stop.
   void halt();
-  /// The base begins with its motors off, and it stays disarmed until somebody moves it on purpose.
+  /// Call it after a component was restarted: the robot stays disarmed until somebody moves it on purpose, and a
+  /// restarted base has its motors off.
   void restarted(const std::string& component);
 
-  /// Whether the base moves as it is commanded: a recording never does.
+  /// Success when the base obeys commands; the error says why it does not. A recording never does.
   [[nodiscard]] Status drivable() const { return base_->drivable(); }
   [[nodiscard]] MotionAuthority& authority() { return authority_; }
   [[nodiscard]] const MotionAuthority& authority() const { return authority_; }
-  /// Why less than what was wanted is allowed; empty when all is.
+  /// Returns why less than what was wanted is allowed; empty when all is.
   [[nodiscard]] const std::string& safety_reason() const { return safety_reason_; }
 
  private:

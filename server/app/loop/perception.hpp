@@ -1,5 +1,6 @@
 /// \file
-/// What is seen in pictures, brought to those who asked: targets to the mission, landmarks to estimator and mission.
+/// Perception brings what is found in pictures to those who asked: targets to the mission, landmarks to the estimator
+/// and the mission.
 #pragma once
 
 #include <string>
@@ -11,10 +12,10 @@
 
 namespace seeker::app {
 
-/// Owner of the cameras. Lives on the loop's thread.
+/// Owns the cameras. Lives on the loop's thread.
 class Perception {
  public:
-  /// The references outlive it.
+  /// The references must outlive it.
   Perception(const Cameras::Parts& parts, const Sensing& sensing, Localiser& localiser, MissionExecutor& missions);
 
   /// Hands over what has been found in pictures since the last tick.
@@ -23,7 +24,7 @@ class Perception {
   void look_for_targets();
   /// Takes a stereo picture for the estimator and, where `for_mission`, for the mission as well.
   void look_with_both(bool for_mission);
-  /// One picture for a client. kNotFound names the cameras there are.
+  /// Takes one picture for a client. An unknown camera is kNotFound, and the message lists those that there are.
   [[nodiscard]] Result<api::ImageFrame> grab(const std::string& camera);
 
  private:
@@ -35,7 +36,7 @@ class Perception {
   const Sensing& sensing_;
   Localiser& localiser_;
   MissionExecutor& missions_;
-  bool mission_waits_ = false;  ///< for the answer to a look
+  bool mission_waits_ = false;  ///< for the result of a stereo observation
 };
 
 }  // namespace seeker::app

@@ -1,5 +1,5 @@
 /// \file
-/// What subscribers get of the robot, each topic at its own pace, and the status that clients ask for.
+/// Publisher sends each topic to its subscribers at its own pace, and builds the status that clients ask for.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@
 
 namespace seeker::app {
 
-/// Owner of what has been published so far. Lives on the loop's thread.
+/// Owns what has been published so far. Lives on the loop's thread.
 class Publisher {
  public:
-  /// What it reports on. All outlive it.
+  /// The publisher reports on these objects; they must outlive it.
   struct Sources {
     const WorldLink& world;
     const Sensing& sensing;
@@ -33,11 +33,12 @@ class Publisher {
 
   Publisher(const LoopParams& params, const Sources& sources, UpdateHub& hub);
 
-  /// Publishes what is new and due. Nobody gets what nobody has subscribed to.
+  /// Publishes what is new and due. A topic without subscribers is not built.
   void publish();
   /// Everything that a new subscriber needs is published in the next publish().
   void republish() { republish_ = true; }
   [[nodiscard]] bool republishes() const { return republish_; }
+  /// Builds the robot's present status, as it is published and as clients ask for it.
   [[nodiscard]] api::RobotStatus status() const;
 
  private:

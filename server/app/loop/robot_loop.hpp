@@ -1,6 +1,6 @@
 /// \file
-/// The one loop that owns the robot's state: sense, estimate, decide, act, publish (design section 3). Everything here
-/// runs on one thread; others reach it through a Mailbox.
+/// RobotLoop owns the robot's state and runs sense, estimate, decide, act and publish in every tick
+/// (docs/architecture.md). Everything here runs on one thread; others reach it through a Mailbox.
 #pragma once
 
 #include "common/api/robot_api.hpp"
@@ -34,10 +34,10 @@ class RobotLoop {
 
   /// Starts the components and takes the first readings. Faults are reported, not returned: the loop always runs.
   void start();
-  /// One pass, at the end of which robot time has advanced by one period.
+  /// Runs one pass, at the end of which robot time has advanced by one period.
   void tick(WallTime wall_now);
-  /// Waits at most `limit` of wall time for the end of the tick in a world that others are in too. False: not yet. A
-  /// world that cannot be reached is a fault at once, and the end of a mission when it lasts.
+  /// Waits at most `limit` of wall time until a world that is shared with others has finished the tick; false when it
+  /// has not yet. A world that cannot be reached is a fault at once, and the end of a mission when it lasts.
   [[nodiscard]] bool await(Duration limit, WallTime wall_now);
   /// True when nothing would change by ticking: a simulated world stands still while no mission runs.
   [[nodiscard]] bool idle() const;
@@ -50,7 +50,7 @@ class RobotLoop {
   [[nodiscard]] api::RobotStatus status() const { return publisher_.status(); }
   [[nodiscard]] std::vector<std::string> capabilities() const;
   [[nodiscard]] const RobotMap& robot_map() const { return localiser_.map(); }
-  /// What is called when something happens; set before start().
+  /// Returns the callbacks, which must be set before start().
   [[nodiscard]] LoopHooks& hooks() { return hooks_; }
 
   [[nodiscard]] ClientCommands& commands() { return commands_; }

@@ -1,6 +1,6 @@
 /// \file
-/// What the robot's devices say: the newest readings, which of them are new, and the faults of devices that are silent
-/// or that send what cannot be.
+/// Sensing keeps the newest readings of the devices, knows which of them are new, and raises faults for devices that
+/// are silent or send what is impossible.
 #pragma once
 
 #include <memory>
@@ -17,35 +17,35 @@
 
 namespace seeker::app {
 
-/// Owner of the readings. Lives on the loop's thread.
+/// Owns the readings. Lives on the loop's thread.
 class Sensing {
  public:
-  /// `world` and `diagnostics` outlive it.
+  /// `world` and `diagnostics` must outlive it.
   Sensing(const LoopParams& params, const Devices& devices, WorldLink& world, Diagnostics& diagnostics);
 
-  /// Reads each device that is active once. A reading with numbers that cannot be is not taken.
+  /// Reads each device that is active once. A reading with impossible numbers is rejected and raises a fault.
   void read();
-  /// Nothing that is there counts as new any more.
+  /// Marks all readings as used: none counts as new any more.
   void mark_as_used() { fresh_odometry_ = fresh_scan_ = fresh_sonar_ = false; }
-  /// Silence is counted from now on: a device was started again.
+  /// Counts silence from now on; call it when devices were started.
   void restart_patience();
-  /// The base counts anew from zero after this: odometry goes on from where it is.
+  /// Call it after the base was restarted and counts from zero: odometry goes on from the pose that it had.
   void base_restarted();
 
-  /// The newest readings; null until there has been one.
+  /// These return the newest readings; null until there has been one.
   [[nodiscard]] const drivers::OdometrySample* odometry() const { return odometry_ ? &*odometry_ : nullptr; }
   [[nodiscard]] const LaserScan* scan() const { return scan_ ? &*scan_ : nullptr; }
   [[nodiscard]] const SonarScan* sonar() const { return sonar_ ? &*sonar_ : nullptr; }
-  /// Whether the last read() brought them.
+  /// These say whether the last read() brought a new one.
   [[nodiscard]] bool fresh_odometry() const { return fresh_odometry_; }
   [[nodiscard]] bool fresh_scan() const { return fresh_scan_; }
   [[nodiscard]] bool fresh_sonar() const { return fresh_sonar_; }
 
   [[nodiscard]] bool has_lidar() const { return devices_.lidar != nullptr; }
   [[nodiscard]] const OdometryHistory& history() const { return history_; }
-  /// By the odometry; at rest before the first reading.
+  /// Returns the velocity by odometry; at rest before the first reading.
   [[nodiscard]] Twist2 velocity() const { return odometry_ ? odometry_->velocity : Twist2{}; }
-  /// The base by dead reckoning; the origin before the first reading.
+  /// Returns the pose of the base by dead reckoning; the origin before the first reading.
   [[nodiscard]] Pose2 odom_T_base() const { return odometry_ ? odometry_->odom_T_base : Pose2{}; }
   [[nodiscard]] bool moving() const;
 
@@ -77,8 +77,8 @@ class Sensing {
   bool fresh_sonar_ = false;
   LastTimes last_;
   OdometryHistory history_;
-  std::optional<Pose2> odom_T_restart_;  ///< where the base was restarted, until its first sample after that,
-  std::optional<Pose2> odom_T_counted_;  ///< and the frame in which it has counted since then
+  std::optional<Pose2> odom_T_restart_;  ///< where the base was restarted, until its next sample
+  std::optional<Pose2> odom_T_counted_;  ///< the frame in which the base has counted since its restart
 };
 
 }  // namespace seeker::app

@@ -1,5 +1,5 @@
 /// \file
-/// What a mission may know at one moment, gathered from those who own it.
+/// SituationSource gathers what a mission may know at one moment from those who own it.
 #pragma once
 
 #include "server/app/loop/localiser.hpp"
@@ -13,14 +13,14 @@ namespace seeker::app {
 /// Owns nothing. Lives on the loop's thread.
 class SituationSource {
  public:
-  /// The references outlive it. `has_stereo`: there is a stereo camera whose pictures can be looked at.
+  /// The references must outlive it. `has_stereo` says whether features can be found in pictures of a stereo camera.
   SituationSource(const WorldLink& world, const Sensing& sensing, const Localiser& localiser,
                   const Neighbours& neighbours, bool has_stereo)
       : world_(world), sensing_(sensing), localiser_(localiser), neighbours_(neighbours), has_stereo_(has_stereo) {}
 
-  /// Its pointers are valid until the next reading.
+  /// Returns the situation; its pointers are valid until the next Sensing::read().
   [[nodiscard]] Situation situation() const;
-  /// Other robots as they are now, frame `base`.
+  /// Returns the other robots as they are now, in frame `base`.
   [[nodiscard]] std::vector<nav::Mover> movers_base() const;
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// Where the robot has been.
+/// A trajectory records where the robot has been.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace seeker::app {
 
-/// Poses in frame `map`, spaced by distance; memory is bounded by keeping every second pose of the older half.
+/// Keeps poses in frame `map`, spaced by distance; beyond `max_poses` every second one of the older half is dropped.
 class Trajectory {
  public:
   Trajectory(double spacing_m, std::size_t max_poses) : spacing_m_(spacing_m), max_poses_(max_poses) {}
 
-  /// Kept when it is at least the spacing away from the pose kept last.
+  /// Adds the pose if it is at least `spacing_m` away from the last one.
   void add(RobotTime now, const Pose2& map_T_base);
   void clear() { poses_.clear(); }
   [[nodiscard]] const std::vector<api::StampedPose>& stamped() const { return poses_; }

@@ -1,5 +1,5 @@
 /// \file
-/// The robot's time, and whether the world that its devices are in can be reached.
+/// WorldLink knows the robot's time, and whether the world that its devices are in can be reached.
 #pragma once
 
 #include <memory>
@@ -26,33 +26,34 @@ class WorldLink {
             Diagnostics& diagnostics);
 
   [[nodiscard]] RobotTime now() const { return clock_->now(); }
-  /// See drivers::Clock: ends a tick, waits for the end of the tick in a world that is shared, and lets the others in
-  /// it wait for this robot or go on without it.
+  /// As in drivers::Clock: advance() ends a tick, await() waits for the end of the tick in a shared world, hold() makes
+  /// the others in it wait for this robot, let_go() lets them go on without it.
   [[nodiscard]] Status advance() { return clock_->advance(period_); }
   [[nodiscard]] Result<bool> await(Duration limit) { return clock_->await(limit); }
   void hold() { clock_->hold(); }
   void let_go() { clock_->let_go(); }
   [[nodiscard]] double speed() const { return clock_->speed(); }
   [[nodiscard]] std::optional<TickTiming> timing() const { return clock_->timing(); }
-  /// The robot's time runs as fast as the wall clock.
+  /// True when robot time runs as fast as the wall clock.
   [[nodiscard]] bool realtime() const;
 
-  /// Looks whether the world is there, and keeps the fault `world-lost` and the drivers' states up to date.
+  /// Returns whether the world is there, and keeps the fault `world-lost` and the drivers' states up to date.
   bool check();
-  /// As check(), between ticks: the error of Clock::reachable() once the world has been away for too long.
+  /// Does the same as check() between ticks; returns the error of Clock::reachable() once the world has been away for
+  /// too long.
   [[nodiscard]] Status watch(WallTime wall_now);
-  /// The world was away at the last watch().
+  /// True when the world was away at the last watch().
   [[nodiscard]] bool lost() const { return lost_at_.has_value(); }
-  /// Why the robot can do nothing now: its world is away, or the source of its readings has ended.
+  /// Returns why the robot can do nothing now: its world is away, or the source of its readings has ended.
   [[nodiscard]] Status within_reach() const;
-  /// Robot time since which readings can be expected: the world's last return.
+  /// Returns when the world last came back: readings can be expected since then.
   [[nodiscard]] RobotTime back_at() const { return back_at_; }
-  /// The remedy for an error of Clock::reachable().
+  /// Returns the remedy for an error of Clock::reachable().
   [[nodiscard]] static std::string remedy_for(const Error& lost);
-  /// Whether the fault has been raised since it was asked last: clients are told at once.
+  /// Returns whether the fault was raised since the last call, so that clients get a status at once.
   [[nodiscard]] bool take_loss() { return std::exchange(newly_lost_, false); }
 
-  /// The source of the readings has been read to its end. False when that was known.
+  /// Notes that the source of the readings has ended; returns false when that was known.
   bool end() { return !std::exchange(ended_, true); }
   [[nodiscard]] bool ended() const { return ended_; }
 

@@ -43,7 +43,7 @@ PoseEstimate RobotMap::follow(const PoseEstimate& estimate, RobotTime now, const
     last_move_ = old_map_T_base ? move_of(before, pieces_, *old_map_T_base, out.map_T_base) : MapMove{};
     const bool little =
         old_map_T_base && distance_m(*old_map_T_base, out.map_T_base) < params_.calm_move_m &&
-        std::abs(wrap_angle(out.map_T_base.theta_rad - old_map_T_base->theta_rad)) < params_.calm_turn_rad;
+        std::abs(wrap_angle(out.map_T_base.theta_rad - old_map_T_base->theta_rad)) < params_.calm_rotation_rad;
     if (!rendering()) {
       begin_rendering(little);
     } else {
@@ -168,7 +168,7 @@ Status RobotMap::load(const LineMap& map, const MapIdentity& identity, RobotTime
   return {};
 }
 
-void RobotMap::begin_anew() {
+void RobotMap::begin_new_map() {
   tracker_->reset({});
   identity_ = {};
   relocalising_since_.reset();

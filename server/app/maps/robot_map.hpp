@@ -22,14 +22,14 @@
 namespace seeker::app {
 
 struct RobotMapParams {
-  int render_scans_per_tick = 40;  ///< kept scans written anew after the map has moved,
-  int calm_scans_per_tick = 5;     ///< or so many where that made no more difference
-  double calm_move_m = 0.05;       ///< to where the robot is than this: a cell of the occupancy,
-  double calm_turn_rad = 0.01;     ///< and this: a cell at five metres
+  int render_scans_per_tick = 40;   ///< kept scans rendered again after the map has moved,
+  int calm_scans_per_tick = 5;      ///< or so many where that made no more difference
+  double calm_move_m = 0.05;        ///< to where the robot is than this: a cell of the occupancy,
+  double calm_rotation_rad = 0.01;  ///< and this: a cell at five metres
   Duration segment_period = std::chrono::milliseconds(500);  ///< between publications of changed segments, robot time
   Duration relocalise_limit = std::chrono::seconds(60);      ///< robot time in which a search for the place must end
   Duration checkpoint_period = std::chrono::seconds(30);     ///< robot time between checkpoints of a mission's map,
-  double checkpoint_way_m = 5.0;  ///< or so far from where the last was made: what is seen then is in it in part
+  double checkpoint_distance_m = 5.0;  ///< or this distance from the last: much of what is seen by then is not in it
   Duration place_period = std::chrono::seconds(1);  ///< robot time between notes of where the robot is in that map
   /// A robot that resumes a mission and is not found in its map within this robot time turns once on the spot,
   Duration look_round_after = std::chrono::seconds(3);
@@ -51,8 +51,9 @@ struct LoopMap {
 
 /// When the pose's map epoch rises, the kept scans are written into a new occupancy map, some per tick, so that the
 /// loop is never late; live scans are written into both, and the old one serves until the new one is finished. A map
-/// that moves meanwhile is written anew once more after that: one that goes on moving must be finished now and then.
-/// Tiles carry the epoch of the map they were written in. Epochs count on when a map is loaded, whatever its own.
+/// that moves meanwhile is rendered once more after that: a map that moves again and again must be finished now and
+/// then. Tiles carry the epoch of the map they were written in. Epochs count on when a map is loaded; the loaded map's
+/// own epoch does not matter.
 class RobotMap {
  public:
   /// `tracker` may be null: the estimator keeps no map then.
@@ -61,15 +62,15 @@ class RobotMap {
   [[nodiscard]] bool has_segments() const { return tracker_ != nullptr; }
 
   /// The estimate with this run's epoch. The map has moved when the epoch differs from that of the estimate before:
-  /// by how much is told by where the robot would be in the old one, `old_map_T_base`.
+  /// by how much follows from where the robot would be in the old one, `old_map_T_base`.
   [[nodiscard]] PoseEstimate follow(const PoseEstimate& estimate, RobotTime now,
                                     const std::optional<Pose2>& old_map_T_base = std::nullopt);
-  /// How the map has moved when follow() said so last and was told `old_map_T_base`: piece by piece, and around the
-  /// robot as the robot did.
+  /// How the map had moved at the last follow() that found it moved and was given `old_map_T_base`: piece by piece, and
+  /// around the robot as the robot did.
   [[nodiscard]] const MapMove& last_move() const { return last_move_; }
   [[nodiscard]] Status integrate(const LaserScan& scan, const Pose2& map_T_base);
   [[nodiscard]] Status integrate(const SonarScan& scan, const Pose2& map_T_base);
-  /// Once a tick: goes on with a map that is being written anew.
+  /// Once a tick: goes on rendering a map that has moved.
   void step();
   [[nodiscard]] bool rendering() const { return fresh_.has_value(); }
   /// The occupancy is that of the newest epoch.
@@ -77,7 +78,7 @@ class RobotMap {
   /// The robot looks for its place; ticks must go on although no mission runs.
   [[nodiscard]] bool relocalising() const { return relocalising_since_.has_value(); }
 
-  /// Stays at its address; its own revision falls when it was written anew: see revision().
+  /// Stays at its address; its own revision falls when it was rendered again: see revision().
   [[nodiscard]] const nav::OccupancyMap& occupancy() const { return occupancy_; }
   /// Of the occupancy; rises only.
   [[nodiscard]] std::uint64_t revision() const { return revision_base_ + occupancy_.revision(); }
@@ -100,7 +101,7 @@ class RobotMap {
   /// Looks for the robot where it was last, then everywhere: MapTracker::look_where_it_stood().
   [[nodiscard]] Status look_where_it_stood(const Pose2& map_T_base, RobotTime now);
   /// Forgets the map; a new one begins where the robot is. There must be one of segments.
-  void begin_anew();
+  void begin_new_map();
 
  private:
   struct KeptScan {

@@ -53,7 +53,7 @@ struct Decision {
   Twist2 command;
   bool wants_image = false;           ///< recognise the targets in a picture taken now
   bool wants_look = false;            ///< see with both eyes now; on_look() follows
-  std::optional<PoseEstimate> place;  ///< the robot was found there: the estimator is told
+  std::optional<PoseEstimate> place;  ///< where the robot was found to be: the estimator is set to it
   bool step_done = false;             ///< a natural place to stop (link policy FINISH_STEP)
   std::string phase;
   std::string activity;
@@ -98,12 +98,12 @@ class Behaviour {
   /// Of an exploration by topology: places it has been at and still means to go to, and the goal it drives to.
   [[nodiscard]] virtual const Topology* topology() const { return nullptr; }
   [[nodiscard]] virtual std::optional<Point2> target_map() const { return std::nullopt; }
-  /// What it goes on from when the program is cut off, and what it is told then before its first step.
+  /// What it goes on from when the program is cut off, and is given back before its first step.
   [[nodiscard]] virtual std::optional<TopologyMemory> memory() const { return std::nullopt; }
   virtual void remember(const TopologyMemory& /*memory*/) {}
   /// Where the mission began, when that is not where the robot makes its first step. Before that.
   virtual void remember_start(const Point2& /*start_map*/) {}
-  /// What it has searched itself, within a square of so many cells around a point, as other robots are told.
+  /// What it has searched itself, within a square of so many cells around a point, as it is reported to other robots.
   [[nodiscard]] virtual std::optional<SearchedFloor> searched(const Point2& /*middle_map*/, int /*side_cells*/) const {
     return std::nullopt;
   }

@@ -46,7 +46,7 @@ Result<std::unique_ptr<Behaviour>> LocaliseBehaviour::create(const LocaliseSetti
                                                           places_robot ? "" : map, situation));
 }
 
-LocaliseBehaviour::LocaliseBehaviour(const TurnAndLookParams& params, api::LocaliseMission mission,
+LocaliseBehaviour::LocaliseBehaviour(const RotateAndLookParams& params, api::LocaliseMission mission,
                                      localize::StereoLocaliser localiser, bool places_robot, std::string other_map,
                                      const Situation& situation)
     : mission_(std::move(mission)),

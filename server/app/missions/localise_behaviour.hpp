@@ -7,13 +7,13 @@
 
 #include "common/core/rng.hpp"
 #include "server/app/landmarks/landmark_library.hpp"
-#include "server/app/missions/turn_and_look.hpp"
+#include "server/app/missions/rotate_and_look.hpp"
 #include "server/localize/stereo_localiser.hpp"
 
 namespace seeker::app {
 
 struct LocaliseSettings {
-  TurnAndLookParams look;
+  RotateAndLookParams look;
   StereoGeometry geometry;
   localize::LocaliserParams localiser;
   std::string estimator_database;  ///< the one that the robot's estimator goes by; empty: it does not
@@ -33,8 +33,9 @@ class LocaliseBehaviour final : public Behaviour {
   [[nodiscard]] bool needs_pose() const override { return false; }
 
  private:
-  LocaliseBehaviour(const TurnAndLookParams& params, api::LocaliseMission mission, localize::StereoLocaliser localiser,
-                    bool places_robot, std::string other_map, const Situation& situation);
+  LocaliseBehaviour(const RotateAndLookParams& params, api::LocaliseMission mission,
+                    localize::StereoLocaliser localiser, bool places_robot, std::string other_map,
+                    const Situation& situation);
   void follow_odometry(const Situation& situation);
   void found(const Situation& situation, Decision& decision);
 
@@ -42,7 +43,7 @@ class LocaliseBehaviour final : public Behaviour {
   localize::StereoLocaliser localiser_;
   bool places_robot_;      ///< the pose found is one of the frame that the estimator works in
   std::string other_map_;  ///< that the landmarks were surveyed in, where it is known to be another than the robot's
-  TurnAndLook sweep_;
+  RotateAndLook sweep_;
   Rng rng_;
   std::optional<RobotTime> moved_at_;
   Pose2 odom_T_base_;

@@ -12,12 +12,12 @@
 
 namespace seeker::app {
 
-/// Remembers what was looked at in vain, as an exploration does.
+/// Remembers openings that were observed in vain, as an exploration does.
 class MapViewFinder {
  public:
   MapViewFinder(const explore::ExploreParams& params, nav::ForbiddenAreas areas);
 
-  /// Frame `map`, cheapest way first. Costs a plan of the whole map: for when a goal is chosen.
+  /// Frame `map`, the cheapest path first. Costs a plan of the whole map: for when a goal is chosen.
   [[nodiscard]] std::vector<Pose2> find(const Situation& situation);
   void transform(const MapMove& move);
 

@@ -116,7 +116,7 @@ api::MissionEnd MissionExecutor::as_it_counts(api::MissionEnd end) const {
     return end;
   }
   const auto why = active_->end_after ? active_->end_after : active_->behaviour->pending_end();
-  return why ? after_way_home(*why, end) : end;
+  return why ? after_return(*why, end) : end;
 }
 
 void MissionExecutor::finish(const api::MissionEnd& end, RobotTime now) {
@@ -191,7 +191,7 @@ void MissionExecutor::apply_link_policy(const Situation& situation, WallTime wal
     case api::LinkPolicy::kFinishStep: active_->finish_step = true; return;
     case api::LinkPolicy::kReturn: break;
   }
-  Result<std::unique_ptr<Behaviour>> way_back = factory_(way_home_of(active_->request.task), situation);
+  Result<std::unique_ptr<Behaviour>> way_back = factory_(return_of(active_->request.task), situation);
   if (!way_back) {
     end(api::Outcome::kLinkLost, cause + "; no way back: " + way_back.error().message, remedy, situation.now);
     return;
@@ -265,7 +265,7 @@ void MissionExecutor::take(const Decision& decision, const Situation& situation)
   status.planned_path = decision.planned_path;
   if (decision.exploration) {
     status.decision = decision.exploration;
-    active_->decision_told = false;
+    active_->decision_reported = false;
   }
   for (const BehaviourEvent& event : decision.events) {
     log(situation.now, event.kind, event.text, event.severity);
@@ -274,7 +274,7 @@ void MissionExecutor::take(const Decision& decision, const Situation& situation)
     collect();
   }
   if (decision.end) {
-    finish(active_->end_after ? after_way_home(*active_->end_after, *decision.end) : *decision.end, situation.now);
+    finish(active_->end_after ? after_return(*active_->end_after, *decision.end) : *decision.end, situation.now);
   } else if (active_->finish_step && decision.step_done) {
     end(api::Outcome::kLinkLost, "the client that started the mission is gone; the step was finished",
         "check the network", situation.now);
@@ -358,14 +358,14 @@ void MissionExecutor::report(RobotTime now) {
   active_->last_report = now;
   active_->status.updated = now;
   last_ = active_->status;
-  if (active_->decision_told) {
+  if (active_->decision_reported) {
     // Told once: the candidates of one decision are many times the rest of a report.
     api::MissionStatus status = active_->status;
     status.decision.reset();
     outputs_.status(status);
   } else {
     outputs_.status(active_->status);
-    active_->decision_told = true;
+    active_->decision_reported = true;
   }
 }
 

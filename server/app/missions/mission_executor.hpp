@@ -64,7 +64,7 @@ class MissionExecutor {
   void on_recognition(const Recognition& recognition);
   void on_look(const Result<StereoLook>& look);
   /// What a running mission knows of places moves with the map, and so does what ended ones have found and searched in
-  /// it: others are told of it as long as the map lives. Only the grid of an ended mission keeps its epoch.
+  /// it: it is reported to other robots as long as the map lives. Only the grid of an ended mission keeps its epoch.
   void map_moved(const MapCorrection& correction, RobotTime now);
 
   /// What the behaviour knew when the program was cut off; before its first step.
@@ -102,8 +102,8 @@ class MissionExecutor {
     std::optional<api::MissionEnd> end_after;  ///< the outcome once the robot is back (link policy RETURN)
     std::optional<RobotTime> blocked_since;
     std::optional<RobotTime> unlocalised_since;
-    bool decision_told = true;       ///< the status' decision was in a report
-    std::optional<Pose2> last_pose;  ///< that the way is measured from; none after the map has moved
+    bool decision_reported = true;   ///< the status' decision was in a report
+    std::optional<Pose2> last_pose;  ///< from which the path length is counted on; none after the map has moved
     Pose2 pose;                      ///< where it was last, frame `map`
     RobotTime last_report;
     std::uint32_t map_epoch = 0;  ///< that results belong to

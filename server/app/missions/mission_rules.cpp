@@ -7,7 +7,7 @@
 
 namespace seeker::app {
 
-api::ReturnMission way_home_of(const api::MissionTask& task) {
+api::ReturnMission return_of(const api::MissionTask& task) {
   api::ReturnMission home;
   const auto take_areas = [&home](const auto& mission) {
     if constexpr (requires { mission.bound; }) {
@@ -23,7 +23,7 @@ api::ReturnMission way_home_of(const api::MissionTask& task) {
 
 Status check_start(const api::MissionTask& task, const PoseEstimate& pose) {
   constexpr double kNear_m = 1.0;  // so near it is led in by the first plan
-  const std::optional<Polygon> bound = way_home_of(task).bound;
+  const std::optional<Polygon> bound = return_of(task).bound;
   const Point2 here_map = pose.map_T_base.translation();
   if (!bound || !is_placed(pose.quality) || contains(*bound, here_map)) {
     return {};
@@ -54,14 +54,14 @@ bool is_done(api::Outcome outcome) {
   return false;
 }
 
-api::MissionEnd after_way_home(api::MissionEnd why, const api::MissionEnd& way_home) {
-  if (way_home.outcome == api::Outcome::kComplete) {
+api::MissionEnd after_return(api::MissionEnd why, const api::MissionEnd& end_of_return) {
+  if (end_of_return.outcome == api::Outcome::kComplete) {
     why.cause += "; the robot is back where it was started";
     return why;
   }
-  why.cause += "; the robot is not back at its start: " + way_home.cause;
-  why.remedy += way_home.remedy.empty() ? "" : "; " + way_home.remedy;
-  why.unreachable.insert(why.unreachable.end(), way_home.unreachable.begin(), way_home.unreachable.end());
+  why.cause += "; the robot is not back at its start: " + end_of_return.cause;
+  why.remedy += end_of_return.remedy.empty() ? "" : "; " + end_of_return.remedy;
+  why.unreachable.insert(why.unreachable.end(), end_of_return.unreachable.begin(), end_of_return.unreachable.end());
   return why;
 }
 

@@ -8,8 +8,8 @@
 
 namespace seeker::app {
 
-/// The way home of a mission keeps to the ground that the mission may use.
-[[nodiscard]] api::ReturnMission way_home_of(const api::MissionTask& task);
+/// The return to the start keeps to the ground that the mission may use.
+[[nodiscard]] api::ReturnMission return_of(const api::MissionTask& task);
 
 /// kRefused: the robot stands outside the mission's bound, where it would find no floor at all or drive outside it. One
 /// whose place is not known is let in.
@@ -19,6 +19,6 @@ namespace seeker::app {
 [[nodiscard]] bool is_done(api::Outcome outcome);
 
 /// Why the robot was sent home, and how that went.
-[[nodiscard]] api::MissionEnd after_way_home(api::MissionEnd why, const api::MissionEnd& way_home);
+[[nodiscard]] api::MissionEnd after_return(api::MissionEnd why, const api::MissionEnd& end_of_return);
 
 }  // namespace seeker::app

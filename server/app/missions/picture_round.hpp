@@ -8,14 +8,14 @@
 
 #include "common/core/map_move.hpp"
 #include "server/app/missions/behaviour.hpp"
-#include "server/app/missions/turn_and_look.hpp"
+#include "server/app/missions/rotate_and_look.hpp"
 #include "server/search/detection_tracker.hpp"
 #include "server/vision/recogniser_params.hpp"
 
 namespace seeker::app {
 
 struct RoundParams {
-  TurnAndLookParams look;
+  RotateAndLookParams look;
   double overlap_rad = deg_to_rad(18.0);  ///< of neighbouring pictures: as wide as what must not be cut by both
   double picture_timeout_s = 5.0;         ///< a picture that does not come counts as a failed look
 };
@@ -43,7 +43,7 @@ class PictureRound {
   [[nodiscard]] std::vector<Recognition> finish();
 
  private:
-  TurnAndLook sweep_;
+  RotateAndLook sweep_;
   double picture_timeout_s_;
   bool started_ = false;
   std::optional<RobotTime> asked_at_;  ///< for the picture of this heading

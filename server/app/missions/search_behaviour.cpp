@@ -29,9 +29,9 @@ search::SearchRequest to_search(const SearchBehaviourParams& params, const api::
   return request;
 }
 
-api::MissionEnd to_api(const search::SearchEnd& end, const std::vector<Point2>& unreachable) {
+api::MissionEnd to_api(const search::SearchEnd& end) {
   api::MissionEnd out{
-      .outcome = api::Outcome::kFault, .cause = end.cause, .remedy = end.remedy, .unreachable = unreachable};
+      .outcome = api::Outcome::kFault, .cause = end.cause, .remedy = end.remedy, .unreachable = end.unreachable};
   switch (end.kind) {
     case search::EndKind::kTargetFound: out.outcome = api::Outcome::kTargetFound; break;
     case search::EndKind::kNotFoundAreaCovered: out.outcome = api::Outcome::kNotFoundAreaCovered; break;
@@ -115,7 +115,7 @@ Decision SearchBehaviour::step(const Situation& situation) {
     const std::vector<Recognition> seen = round_->finish();
     mission_.on_looks(to_looks(seen));
   }
-  hear(situation.fleet);
+  receive(situation.fleet);
   const search::MapViews views =
       views_ ? search::MapViews([&] { return views_->find(situation); }) : search::MapViews();
   search::SearchStep step = mission_.step({.now = situation.now,
@@ -142,12 +142,12 @@ Decision SearchBehaviour::step(const Situation& situation) {
     round_->start(situation, pictures_around_);
   }
   if (step.end) {
-    decision.end = to_api(*step.end, mission_.lists().unreachable);
+    decision.end = to_api(*step.end);
   }
   return decision;
 }
 
-void SearchBehaviour::hear(const FleetView* fleet) {
+void SearchBehaviour::receive(const FleetView* fleet) {
   const SharedSearch others = fleet != nullptr ? fleet->searched : nullptr;
   if (others != others_) {
     others_ = others;

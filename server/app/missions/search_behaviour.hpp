@@ -59,12 +59,12 @@ class SearchBehaviour final : public Behaviour {
   SearchBehaviour(search::SearchMission mission, std::shared_ptr<const vision::Recogniser> recogniser,
                   EvidenceMemory memory, std::unique_ptr<MapViewFinder> views);
   [[nodiscard]] Decision look_around(const Situation& situation);
-  void hear(const FleetView* fleet);
+  void receive(const FleetView* fleet);
 
   search::SearchMission mission_;
   std::shared_ptr<const vision::Recogniser> recogniser_;
   EvidenceMemory memory_;
-  SharedSearch others_;  ///< what the mission was told last
+  SharedSearch others_;  ///< what the mission received last
   std::unique_ptr<MapViewFinder> views_;
   std::optional<PictureRound> round_;  ///< in place of a single picture
   int pictures_around_ = 1;

@@ -79,7 +79,7 @@ void SurveyBehaviour::begin_place() {
   api::GotoMission go;
   go.waypoints = {mission_.places[place_]};
   go.keep_out = mission_.keep_out;
-  way_ = std::make_unique<GotoBehaviour>(settings_.go, std::move(go));
+  drive_ = std::make_unique<GotoBehaviour>(settings_.go, std::move(go));
 }
 
 void SurveyBehaviour::begin_save() {
@@ -96,7 +96,7 @@ void SurveyBehaviour::begin_save() {
 
 Decision SurveyBehaviour::step(const Situation& situation) {
   Decision decision;
-  decision.events = std::exchange(told_, {});
+  decision.events = std::exchange(events_, {});
   switch (phase_) {
     case Phase::kDrive: drive(situation, decision); break;
     case Phase::kLook: look(situation, decision); break;
@@ -107,7 +107,7 @@ Decision SurveyBehaviour::step(const Situation& situation) {
 }
 
 void SurveyBehaviour::drive(const Situation& situation, Decision& decision) {
-  Decision way = way_->step(situation);
+  Decision way = drive_->step(situation);
   decision.command = way.command;
   decision.planned_path = std::move(way.planned_path);
   decision.phase = "drive";
@@ -121,10 +121,13 @@ void SurveyBehaviour::drive(const Situation& situation, Decision& decision) {
     sweep_.start(situation.pose.map_T_base, mission_.headings);
     return;
   }
-  const Point2& place = mission_.places[place_];
-  decision.events.push_back({"unreachable", text(place) + " m: no way leads there", api::Severity::kWarning});
+  for (BehaviourEvent& event : way.events) {
+    if (event.kind == "unreachable") {
+      decision.events.push_back(std::move(event));
+    }
+  }
   if (places_given_) {
-    unreachable_.push_back(place);
+    unreachable_.insert(unreachable_.end(), way.end->unreachable.begin(), way.end->unreachable.end());
   }
   ++place_;
   begin_place();
@@ -151,7 +154,7 @@ void SurveyBehaviour::on_look(const Result<StereoLook>& look) {
   if (!sure) {
     const std::string why = look ? "the pose is " + std::string(to_string(look->pose.quality)) : look.error().message;
     if (sweep_.failed()) {
-      told_.push_back({"heading-left-out", why, api::Severity::kWarning});
+      events_.push_back({"heading-left-out", why, api::Severity::kWarning});
     }
     return;
   }
@@ -161,7 +164,8 @@ void SurveyBehaviour::on_look(const Result<StereoLook>& look) {
   sighting.pose_covariance = localize::eye_covariance(look->pose.map_T_base, look->pose.covariance, settings_.arm);
   sighting.eye_height_m = settings_.eye_height_m;
   sighting.features = look->features.features;
-  told_.push_back({"looked", std::to_string(sighting.features.size()) + " points with a depth", api::Severity::kInfo});
+  events_.push_back(
+      {"looked", std::to_string(sighting.features.size()) + " points with a depth", api::Severity::kInfo});
   sightings_.push_back(std::move(sighting));
   sweep_.looked();
 }
@@ -178,10 +182,19 @@ void SurveyBehaviour::save(Decision& decision) {
     end.outcome = api::Outcome::kFault;
     end.cause = "no database was made: " + saved->error().message;
     end.remedy = "survey places with more texture, nearer to each other";
+    if (sightings_.empty() && !unreachable_.empty()) {
+      end.outcome = api::Outcome::kUnreachable;
+      end.remedy.clear();
+    }
   } else {
     end.outcome = unreachable_.empty() ? api::Outcome::kComplete : api::Outcome::kUnreachable;
     end.cause = std::to_string((*saved)->landmarks) + " landmarks from " + std::to_string(sightings_.size()) +
                 " looks are kept as '" + (*saved)->name + "'";
+  }
+  if (!unreachable_.empty()) {
+    end.cause += "; " + std::to_string(unreachable_.size()) + " of " + std::to_string(mission_.places.size()) +
+                 " places cannot be reached: " + describe(unreachable_);
+    end.remedy += (end.remedy.empty() ? "" : "; ") + remedies_of(unreachable_);
     end.unreachable = unreachable_;
   }
   decision.end = std::move(end);
@@ -197,12 +210,12 @@ void SurveyBehaviour::map_moved(const MapMove& move) {
     }
   }
   sweep_.resumed();
-  way_->map_moved(move);
+  drive_->map_moved(move);
 }
 
 void SurveyBehaviour::resumed(RobotTime now) {
   sweep_.resumed();
-  way_->resumed(now);
+  drive_->resumed(now);
 }
 
 }  // namespace seeker::app

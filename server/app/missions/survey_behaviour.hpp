@@ -10,7 +10,7 @@
 
 #include "server/app/landmarks/landmark_library.hpp"
 #include "server/app/missions/goto_behaviour.hpp"
-#include "server/app/missions/turn_and_look.hpp"
+#include "server/app/missions/rotate_and_look.hpp"
 #include "server/app/runtime/background.hpp"
 #include "server/localize/localiser_params.hpp"
 #include "server/localize/survey.hpp"
@@ -19,7 +19,7 @@ namespace seeker::app {
 
 struct SurveyParams {
   double spacing_m = 1.5;  ///< of the four places around the first, where none are given
-  TurnAndLookParams look;
+  RotateAndLookParams look;
 };
 
 /// What a survey needs to know of the camera and of the database it makes.
@@ -65,11 +65,11 @@ class SurveyBehaviour final : public Behaviour {
   bool places_given_;
   Phase phase_ = Phase::kDrive;
   std::size_t place_ = 0;
-  std::unique_ptr<GotoBehaviour> way_;
-  TurnAndLook sweep_;
+  std::unique_ptr<GotoBehaviour> drive_;
+  RotateAndLook sweep_;
   std::vector<localize::Sighting> sightings_;
-  std::vector<Point2> unreachable_;
-  std::vector<BehaviourEvent> told_;  ///< for the next step
+  std::vector<UnreachablePlace> unreachable_;
+  std::vector<BehaviourEvent> events_;  ///< for the next step
   Background<api::LandmarkSummary> saving_;
 };
 

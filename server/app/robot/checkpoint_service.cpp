@@ -67,11 +67,11 @@ void CheckpointService::set_aside(const api::MissionId& mission) {
     const std::string text = saved ? "the map that the robot was not found in is saved as '" + file->origin.name + "'"
                                    : "the map that the robot was not found in could not be saved: " +
                                          (file ? saved.error() : file.error()).message;
-    tell("map-set-aside", text, saved ? api::Severity::kInfo : api::Severity::kWarning);
+    report("map-set-aside", text, saved ? api::Severity::kInfo : api::Severity::kWarning);
   }));
 }
 
-void CheckpointService::tell(const std::string& kind, const std::string& text, api::Severity severity) {
+void CheckpointService::report(const std::string& kind, const std::string& text, api::Severity severity) {
   static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.diagnostics().log(kind, text, severity); }));
 }
 
@@ -108,8 +108,8 @@ void CheckpointService::resume_from(const api::MissionId& mission, const std::st
     std::string trouble;
     const KeptState kept = file ? read_kept(folder_, mission, file->map.epoch, trouble) : KeptState{};
     if (!trouble.empty()) {
-      tell("resume-without-memory", "the mission goes on in its map, but without all that it remembered: " + trouble,
-           api::Severity::kWarning);
+      report("resume-without-memory", "the mission goes on in its map, but without all that it remembered: " + trouble,
+             api::Severity::kWarning);
     }
     const auto map = std::make_shared<const Result<LineMap>>(
         file ? Result<LineMap>(std::move(file->map)) : Result<LineMap>(tl::unexpected<Error>(file.error())));

@@ -25,7 +25,7 @@ class CheckpointService {
 
   /// Keeps the map of a running mission; the loop gets the answer. From the loop's thread.
   void write(const api::MissionId& mission, Checkpoint checkpoint);
-  /// Keeps where the robot is in it; the loop is told when that is done.
+  /// Keeps where the robot is in it; the loop gets an answer when that is done.
   void write_place(const api::MissionId& mission, const MissionPlace& place);
   /// Saves the map of a mission that did not go on in it under a name of its own.
   void set_aside(const api::MissionId& mission);
@@ -36,7 +36,7 @@ class CheckpointService {
   void resume_mission(const std::string& client, const api::Reply<void>& reply);
 
  private:
-  void tell(const std::string& kind, const std::string& text, api::Severity severity);
+  void report(const std::string& kind, const std::string& text, api::Severity severity);
   void resume_from(const api::MissionId& mission, const std::string& client, const api::Reply<void>& reply);
 
   MapStore& store_;

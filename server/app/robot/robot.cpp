@@ -227,7 +227,7 @@ FleetHost Robot::fleet_host() {
     static_cast<void>(mailbox_.post(
         [this, view = std::move(view)]() mutable { loop_.neighbours().set_fleet(std::move(view), loop_.now()); }));
   };
-  host.tell_operator = [this](const std::string& kind, const std::string& text, api::Severity severity) {
+  host.notify_operator = [this](const std::string& kind, const std::string& text, api::Severity severity) {
     static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.diagnostics().log(kind, text, severity); }));
   };
   return host;

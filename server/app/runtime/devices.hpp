@@ -1,5 +1,5 @@
 /// \file
-/// The drivers of one robot, whatever stands behind them.
+/// The drivers of one robot: of hardware, of a simulation or of a recording.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 /// \file
-/// The only way into the robot loop for other threads: a bounded queue of short tasks.
+/// How other threads reach the robot loop, and the only means: a bounded queue of short tasks.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 /// \file
-/// How a server is told to end.
+/// The signals that end a server.
 #pragma once
 
 #include <poll.h>

@@ -26,8 +26,8 @@ class MotionAuthority {
   /// The velocity in force; nothing when none was given or the last one has expired.
   [[nodiscard]] std::optional<Twist2> drive_velocity(RobotTime now) const;
   void cancel_drive() { drive_.reset(); }
-  /// Somebody stopped the robot. The owner keeps the lease under a new epoch: the commands that are still on their way
-  /// are refused, and it moves again only after acquiring it anew.
+  /// Somebody stopped the robot. The owner keeps the lease under a new epoch: the commands that were sent before
+  /// are refused, and it moves again only after acquiring it again.
   void stop();
 
   /// Latches. Releasing leaves the robot disarmed.

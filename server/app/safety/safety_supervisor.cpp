@@ -65,7 +65,7 @@ SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params) {
   const std::vector<Point2> points_base = obstacle_points(input, params);
   const Twist2 limited = nav::limit_for_clearance(clamped, points_base, params.clearance);
   const Twist2 apart = nav::limit_for_movers(limited, input.velocity, input.movers_base, params.clearance);
-  const Twist2 allowed = nav::limit_turn_while_rolling(apart, input.velocity, points_base, params.clearance);
+  const Twist2 allowed = nav::limit_rotation_while_rolling(apart, input.velocity, points_base, params.clearance);
   if (apart != limited) {
     return {allowed, "slowed for another robot"};
   }

@@ -178,8 +178,8 @@ void Journal::work() {
     lock.unlock();
     const Status written = write(store_);
     lock.lock();
-    if (!written && !told_ && on_error_) {
-      told_ = true;
+    if (!written && !error_reported_ && on_error_) {
+      error_reported_ = true;
       on_error_(written.error());
     }
   }

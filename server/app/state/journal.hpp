@@ -19,8 +19,8 @@
 namespace seeker::app {
 
 /// Missions, their events and detections in order. When the disk cannot follow, the oldest waiting entry is dropped and
-/// counted. Only the first error is told: what could not be written is missing later, and the errors of that hide the
-/// cause.
+/// counted. Only the first error is reported: what could not be written is missing later, and the errors of that hide
+/// the cause.
 class Journal {
  public:
   /// Opens the store. Errors as Store::open().
@@ -30,7 +30,7 @@ class Journal {
   /// Writes what is waiting, then ends the thread.
   ~Journal();
 
-  /// The mission that was running when the program ended, killed or told to; nothing when none was. Its record stays
+  /// The mission that was running when the program ended, killed or on request; nothing when none was. Its record stays
   /// open until it is resumed or another mission begins, over any number of restarts.
   [[nodiscard]] const std::optional<api::MissionRequest>& unfinished() const { return unfinished_; }
   [[nodiscard]] std::uint64_t highest_detection_id() const { return highest_detection_id_; }
@@ -60,7 +60,7 @@ class Journal {
   std::condition_variable wake_;
   std::deque<Write> queue_;
   std::function<void(const Error&)> on_error_;
-  bool told_ = false;  ///< of an error
+  bool error_reported_ = false;  ///< the first one only
   std::uint64_t dropped_ = 0;
   bool quit_ = false;
   std::thread thread_;

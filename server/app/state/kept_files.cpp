@@ -84,7 +84,7 @@ Status keep_place(const fs::path& folder, const api::MissionId& mission, const M
   wire::write_detections(api::within_limits(place.so_far.found), message.mutable_found());
   // Every second: one that waited for a busy disk would be of a place the robot has left long ago.
   return store::write_sealed_file(path_of(folder, mission, kPlaceKind), kPlaceKind, message.SerializeAsString(),
-                                  store::Outlives::kItsProgram);
+                                  files::Outlives::kItsProgram);
 }
 
 Status keep_topology(const fs::path& folder, const api::MissionId& mission, const TopologyMemory& memory,

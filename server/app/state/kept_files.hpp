@@ -16,7 +16,7 @@ namespace seeker::app {
                                 const MissionPlace& place);
 [[nodiscard]] Status keep_topology(const std::filesystem::path& folder, const api::MissionId& mission,
                                    const TopologyMemory& memory, std::uint32_t map_epoch);
-/// What is there and whole; `trouble` tells what was damaged, empty where nothing was. `map_epoch` is the map's.
+/// What is there and whole; `trouble` says what was damaged, empty where nothing was. `map_epoch` is the map's.
 [[nodiscard]] KeptState read_kept(const std::filesystem::path& folder, const api::MissionId& mission,
                                   std::uint32_t map_epoch, std::string& trouble);
 /// Of all missions.

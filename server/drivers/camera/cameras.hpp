@@ -19,7 +19,7 @@ namespace seeker::drivers {
 class CaptureCamera final : public CameraDriver {
  public:
   CaptureCamera(std::unique_ptr<PictureSource> source, NowFunction now, const PictureReaderParams& params);
-  /// Begins to open the device; grab() says kNotReady until it has given a picture.
+  /// Starts opening the device; grab() fails with kNotReady until the device has given a picture.
   [[nodiscard]] Status activate() override;
   void deactivate() override;
   [[nodiscard]] Result<CameraFrame> grab() override;
@@ -31,27 +31,28 @@ class CaptureCamera final : public CameraDriver {
 
 enum class StereoSource : std::uint8_t {
   kSideBySide,  ///< one device whose pictures hold both eyes, the left one on the left
-  kTwoDevices,  ///< one device an eye
-  kFiles,       ///< a folder of pairs, played one after another
+  kTwoDevices,  ///< one device for each eye
+  kFiles,       ///< a folder of picture pairs, played one after another
 };
 
 struct StereoCameraParams {
   StereoSource source = StereoSource::kSideBySide;
-  CaptureParams left;  ///< of the only device, where both eyes come from one
+  CaptureParams left;  ///< left camera, or the only device where both eyes come from one
   CaptureParams right;
   ImageFolderParams files;
-  bool repeat_files = false;          ///< begin again after the last pair
-  std::filesystem::path calibration;  ///< empty: the pictures come rectified and have `geometry`
+  bool repeat_files = false;  ///< start again after the last pair
+  /// File of the calibration; empty: the pictures are rectified and have `geometry`.
+  std::filesystem::path calibration;
   StereoGeometry geometry;
-  Duration max_skew = std::chrono::milliseconds(15);  ///< between two devices' pictures of one moment
+  Duration max_skew = std::chrono::milliseconds(15);  ///< largest time between two devices' pictures of one moment
   PictureReaderParams reader;
 };
 
-/// Errors: those of read_stereo_calibration() and list_image_pairs(); kInvalidArgument. Devices are opened by
-/// activate().
+/// Makes a stereo camera. Errors: those of read_stereo_calibration() and list_image_pairs(); kInvalidArgument. Devices
+/// are opened by activate().
 [[nodiscard]] Result<std::unique_ptr<StereoDriver>> make_stereo_camera(const StereoCameraParams& params,
                                                                        NowFunction now);
-/// The same over sources that are there already: one for both eyes, or one an eye.
+/// The same for existing sources: one for both eyes, or one for each eye.
 [[nodiscard]] std::unique_ptr<StereoDriver> make_stereo_camera(std::vector<std::unique_ptr<PictureSource>> sources,
                                                                const StereoCameraParams& params, Rectifier rectifier,
                                                                const NowFunction& now);

@@ -11,9 +11,9 @@ namespace seeker::drivers {
 
 struct CaptureParams {
   std::string device = "/dev/video0";  ///< V4L2 device, URL (rtsp, http), video file, or pictures as `name_%03d.png`
-  int width_px = 0;                    ///< asked of a V4L2 device; 0: what it likes
+  int width_px = 0;                    ///< requested from a V4L2 device; 0: the device's default
   int height_px = 0;
-  double rate_hz = 0.0;  ///< asked of a V4L2 device; 0: what it likes
+  double rate_hz = 0.0;  ///< requested from a V4L2 device; 0: the device's default
 };
 
 [[nodiscard]] std::unique_ptr<PictureSource> make_capture_source(const CaptureParams& params);

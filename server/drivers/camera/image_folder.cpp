@@ -7,7 +7,7 @@
 #include "common/core/angle.hpp"
 #include "common/core/natural_order.hpp"
 #include "common/core/number_in.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/jpeg.hpp"
 
 namespace seeker::drivers {
@@ -32,7 +32,7 @@ std::vector<std::string> split(const std::string& line) {
 }
 
 Status read_poses(const std::filesystem::path& path, PairsByName& pairs) {
-  const Result<std::vector<std::uint8_t>> bytes = image::read_file(path, kMaxCsv_bytes);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path, kMaxCsv_bytes);
   if (!bytes) {
     return tl::unexpected<Error>(bytes.error());
   }

@@ -1,6 +1,5 @@
 /// \file
-/// Pairs of pictures in a folder, with or without the poses they were taken from: a survey or a drive recorded
-/// beforehand.
+/// Pairs of pictures in a folder, with or without the poses they were taken from: a recorded survey or drive.
 #pragma once
 
 #include <cstddef>
@@ -20,10 +19,10 @@ inline constexpr std::size_t kMaxImagePairs = 100000;
 
 /// Left and right picture of one moment.
 struct ImagePair {
-  std::string name;  ///< what the `*` of both patterns stands for
+  std::string name;  ///< the text that the `*` of both patterns matches
   std::filesystem::path left;
   std::filesystem::path right;
-  std::optional<Pose2> map_T_eye;  ///< of the left eye, from the CSV
+  std::optional<Pose2> map_T_eye;  ///< pose of the left eye, from the CSV
 };
 
 struct ImageFolderParams {
@@ -33,9 +32,9 @@ struct ImageFolderParams {
   std::string poses;  ///< CSV in the folder: `name,x_m,y_m,theta_deg` with that heading line; empty: no poses
 };
 
-/// The pairs by name, numbers in the order of their value. kNotFound: no such folder or no pair in it;
-/// kInvalidArgument: a picture without its partner, a pattern without `*`, a pose missing; kParse: a line of the CSV;
-/// kTooLarge.
+/// The pairs in the order of their names, where numbers are ordered by value. kNotFound: no such folder or no pair in
+/// it. kInvalidArgument: a picture without its partner, a pattern without `*`, a missing pose. kParse: a malformed line
+/// of the CSV. kTooLarge: too many pairs.
 [[nodiscard]] Result<std::vector<ImagePair>> list_image_pairs(const ImageFolderParams& params);
 
 /// The pictures of a pair as they are in their files.
@@ -43,10 +42,10 @@ struct PairPictures {
   Image left;
   Image right;
 };
-/// Errors of image::read_picture().
+/// Reads both pictures; errors are those of image::read_picture().
 [[nodiscard]] Result<PairPictures> read_pair(const ImagePair& pair);
 
-/// What `*` stands for when the name fits the pattern.
+/// The text that `*` matches. Nothing: the name does not fit the pattern.
 [[nodiscard]] std::optional<std::string> match_pattern(std::string_view name, std::string_view pattern);
 
 }  // namespace seeker::drivers

@@ -1,5 +1,5 @@
 /// \file
-/// A slow device read on a thread of its own: who asks gets the newest pictures at once.
+/// Reads a slow device on its own thread, so that callers get the newest pictures at once.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +17,7 @@
 
 namespace seeker::drivers {
 
-/// Something that gives pictures one after another. Used by one thread.
+/// A source of successive pictures, used by one thread.
 class PictureSource {
  public:
   PictureSource() = default;
@@ -35,29 +35,30 @@ class PictureSource {
 using NowFunction = std::function<RobotTime()>;
 
 struct PictureReaderParams {
-  Duration max_age = std::chrono::milliseconds(500);         ///< a picture older than this is no picture
+  Duration max_age = std::chrono::milliseconds(500);         ///< older pictures are not returned
   Duration first_picture = std::chrono::milliseconds(5000);  ///< time to open the device and to set its exposure
-  std::size_t kept = 4;                                      ///< newest pictures, to find those of one moment
+  std::size_t kept = 4;  ///< number of newest pictures kept, to find those of one moment
 };
 
 class PictureReader {
  public:
-  /// `name` is told in errors.
+  /// `name` appears in error messages.
   PictureReader(std::string name, std::unique_ptr<PictureSource> source, NowFunction now,
                 const PictureReaderParams& params);
   PictureReader(const PictureReader&) = delete;
   PictureReader& operator=(const PictureReader&) = delete;
   ~PictureReader();
 
-  /// Begins to open and to read; what goes wrong is told by pictures().
+  /// Starts opening and reading the device; errors are reported by pictures().
   void start();
-  /// Waits for the thread, which may be within the device.
+  /// Waits for the thread to end, which may be in a call of the device.
   void stop();
 
-  /// The newest pictures, oldest first, none too old; never empty. kNotReady: none so far, try again; kTimeout: no
-  /// picture for too long; or what the source failed with.
+  /// The newest pictures, oldest first, none older than max_age; never empty. kNotReady: there is none yet, try again.
+  /// kTimeout: no picture for too long. Otherwise the error of the source.
   [[nodiscard]] Result<std::deque<CameraFrame>> pictures() const;
-  /// Waits until a picture has come or the source has failed, for people and tests. False: neither.
+  /// Waits until a picture has come or the source has failed, for people and tests. False: neither happened within the
+  /// limit.
   [[nodiscard]] bool wait_for_picture(std::chrono::milliseconds limit) const;
 
  private:

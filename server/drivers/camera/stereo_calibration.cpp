@@ -6,7 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 
 namespace seeker::drivers {
 namespace {
@@ -163,7 +163,7 @@ std::string to_yaml(const StereoCalibration& c) {
 }
 
 Result<StereoCalibration> read_stereo_calibration(const std::filesystem::path& path) {
-  const Result<std::vector<std::uint8_t>> bytes = image::read_file(path, kMaxFile_bytes);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path, kMaxFile_bytes);
   if (!bytes) {
     return fail_with_context("stereo calibration", bytes.error());
   }
@@ -175,7 +175,7 @@ Result<StereoCalibration> read_stereo_calibration(const std::filesystem::path& p
 }
 
 Status write_stereo_calibration(const std::filesystem::path& path, const StereoCalibration& calibration) {
-  return image::write_file(path, to_yaml(calibration));
+  return files::write_file(path, to_yaml(calibration));
 }
 
 Result<Rectifier> Rectifier::create(const StereoCalibration& c) {
@@ -185,16 +185,16 @@ Result<Rectifier> Rectifier::create(const StereoCalibration& c) {
   const std::array<const EyeCalibration*, 2> eyes{&c.left, &c.right};
   const cv::Size size(c.width_px, c.height_px);
   const cv::Mat translation(cv::Vec3d(c.translation_m.data()));
-  std::array<cv::Mat, 2> turn;
+  std::array<cv::Mat, 2> rotation;
   std::array<cv::Mat, 2> projection;
   Rectifier rectifier;
   try {
     cv::Mat reprojection;
     cv::stereoRectify(matrix_of(c.left.matrix), c.left.distortion, matrix_of(c.right.matrix), c.right.distortion, size,
-                      matrix_of(c.rotation), translation, turn[0], turn[1], projection[0], projection[1], reprojection,
-                      cv::CALIB_ZERO_DISPARITY, 0.0, size);
+                      matrix_of(c.rotation), translation, rotation[0], rotation[1], projection[0], projection[1],
+                      reprojection, cv::CALIB_ZERO_DISPARITY, 0.0, size);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-      cv::initUndistortRectifyMap(matrix_of(eyes[i]->matrix), eyes[i]->distortion, turn[i], projection[i], size,
+      cv::initUndistortRectifyMap(matrix_of(eyes[i]->matrix), eyes[i]->distortion, rotation[i], projection[i], size,
                                   CV_16SC2, rectifier.eyes_[i].map, rectifier.eyes_[i].weights);
     }
   } catch (const cv::Exception&) {

@@ -1,5 +1,6 @@
 /// \file
-/// What `seeker-lab calibrate` finds out about two cameras, as an OpenCV YAML file, and the rectification it gives.
+/// The calibration of two cameras that `seeker-lab calibrate` estimates, as an OpenCV YAML file, and the resulting
+/// rectification.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@
 
 namespace seeker::drivers {
 
-/// Pinhole with distortion, as OpenCV has it.
+/// Pinhole model with distortion, as in OpenCV.
 struct EyeCalibration {
   std::array<double, 9> matrix{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};  ///< row by row
   std::vector<double> distortion;  ///< k1 k2 p1 p2 [k3 [k4 k5 k6 [...]]]: 4, 5, 8, 12 or 14 numbers
@@ -32,31 +33,33 @@ struct StereoCalibration {
   EyeCalibration right;
   std::array<double, 9> rotation{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};  ///< row by row
   std::array<double, 3> translation_m{-0.12, 0.0, 0.0};
-  double reprojection_px = 0.0;  ///< RMS over the pictures it was made from
+  double reprojection_px = 0.0;  ///< RMS over the calibration pictures
 
   friend bool operator==(const StereoCalibration&, const StereoCalibration&) = default;
 };
 
-/// kInvalidArgument with the reason: no camera, a rotation that is none, left and right exchanged, no baseline.
+/// Checks a calibration. kInvalidArgument with the cause: no camera, an invalid rotation, left and right exchanged, no
+/// baseline.
 [[nodiscard]] Status validate(const StereoCalibration& calibration);
 
-/// Text of an OpenCV YAML file. kParse: no such file format, or a field is missing; also what validate() says.
+/// Parses the text of an OpenCV YAML file. kParse: the file format is wrong or a field is missing; also the errors of
+/// validate().
 [[nodiscard]] Result<StereoCalibration> parse_stereo_calibration(std::string_view text);
 [[nodiscard]] std::string to_yaml(const StereoCalibration& calibration);
-/// The same with files; the errors name the file.
+/// The same for files; the errors name the file.
 [[nodiscard]] Result<StereoCalibration> read_stereo_calibration(const std::filesystem::path& path);
 [[nodiscard]] Status write_stereo_calibration(const std::filesystem::path& path, const StereoCalibration& calibration);
 
-/// Turns the pictures of two real cameras into those of a StereoGeometry.
+/// Transforms the pictures of two real cameras into those of a StereoGeometry.
 class Rectifier {
  public:
-  /// kInvalidArgument: an invalid calibration, or one whose eyes share no field of view.
+  /// Makes a rectifier. kInvalidArgument: the calibration is invalid, or its eyes share no field of view.
   [[nodiscard]] static Result<Rectifier> create(const StereoCalibration& calibration);
-  /// Pictures that are rectified already: only their size is checked.
+  /// A rectifier for pictures that are rectified already: only their size is checked.
   [[nodiscard]] static Result<Rectifier> none(const StereoGeometry& geometry);
 
   [[nodiscard]] const StereoGeometry& geometry() const { return geometry_; }
-  /// Grey pictures, rectified. kInvalidArgument: pictures of another size than calibrated.
+  /// The rectified pictures in grey. kInvalidArgument: pictures of another size than calibrated.
   [[nodiscard]] Result<StereoFrame> rectify(RobotTime stamp, const Image& left, const Image& right) const;
 
  private:
@@ -67,7 +70,7 @@ class Rectifier {
   [[nodiscard]] Result<Image> rectify_eye(const char* which, const Eye& eye, const Image& picture) const;
 
   StereoGeometry geometry_;
-  std::array<Eye, 2> eyes_;  ///< empty maps: nothing to do
+  std::array<Eye, 2> eyes_;  ///< empty maps: no rectification
 };
 
 }  // namespace seeker::drivers

@@ -178,7 +178,7 @@ class EmulatorClock final : public Clock {
   void hold() override {
     v1::EmulatorRequest request;
     request.set_hold(true);
-    // Without a link there is nothing to hold: the devices tell of it.
+    // Without a link there is no world to hold: the devices report the lost link.
     static_cast<void>(link_->call(std::move(request)));
   }
   void let_go() override {

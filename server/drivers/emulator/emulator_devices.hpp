@@ -1,5 +1,5 @@
 /// \file
-/// A robot in the world that seeker-emulator hosts, behind the driver interfaces: the loop cannot tell it from
+/// A robot in the world that seeker-emulator hosts, behind the driver interfaces, so that the loop uses it like
 /// hardware.
 #pragma once
 

@@ -143,7 +143,7 @@ Status EmulatorLink::take_welcome(const v1::EmulatorReply& reply) {
     return check.status();
   }
   if (world_id_ && *world_id_ != reply.welcome().world_id()) {
-    ended_ = Error{Errc::kCancelled, "the emulator was started anew and this robot's world is gone"};
+    ended_ = Error{Errc::kCancelled, "the emulator was restarted and this robot's world is gone"};
     return tl::unexpected<Error>(*ended_);
   }
   world_id_ = reply.welcome().world_id();
@@ -214,7 +214,8 @@ Result<bool> EmulatorLink::await(Duration limit) {
     }
     return ended_ || (state_ == State::kUp && advance_id_ == 0);
   };
-  // While the link is down no handler wakes this: look at the clock again after `limit`, which callers keep short.
+  // While the link is down no handler wakes this thread: it checks the clock again after `limit`, which callers keep
+  // short.
   const bool there = work_until(arrived, limit);
   if (ended_) {
     return tl::unexpected<Error>(*ended_);

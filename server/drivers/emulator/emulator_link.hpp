@@ -22,32 +22,33 @@ namespace seeker::drivers {
 struct EmulatorParams {
   std::string host = "127.0.0.1";
   std::uint16_t port = 7472;
-  std::uint32_t robot = 0;                                 ///< which robot of the world, from 0
+  std::uint32_t robot = 0;                                 ///< index of the robot in the world, from 0
   Duration connect_timeout = std::chrono::seconds(5);      ///< wall time for the first connection
-  Duration call_timeout = std::chrono::seconds(10);        ///< wall time for an answer, advance() apart
+  Duration call_timeout = std::chrono::seconds(10);        ///< wall time limit for a reply, except for advance()
   Duration retry_period = std::chrono::milliseconds(200);  ///< wall time between attempts, doubled up to ...
   Duration max_retry_period = std::chrono::seconds(2);     ///< ... this
 };
 
-/// Calls come from the loop's thread, which also does the network work while it waits for an answer: there is no thread
-/// behind it. A broken link is made anew by await(); the world goes on without the robot meanwhile.
+/// A connection used from the loop's thread, which also does the network work while it waits for a reply: there is no
+/// other thread. await() connects a broken link again; the world continues without the robot meanwhile.
 class EmulatorLink {
  public:
-  /// Errors: kLinkLost or kTimeout where nobody answers, what the emulator says, kUnsupportedVersion, kCorrupt.
+  /// Connects. Errors: kLinkLost or kTimeout where there is no reply, the emulator's own errors, kUnsupportedVersion,
+  /// kCorrupt.
   [[nodiscard]] static Result<std::shared_ptr<EmulatorLink>> connect(EmulatorParams params);
   ~EmulatorLink();
   EmulatorLink(const EmulatorLink&) = delete;
   EmulatorLink& operator=(const EmulatorLink&) = delete;
 
-  /// Sends a request and waits for its reply; the emulator's own refusals are errors.
+  /// Sends a request and waits for its reply; refusals of the emulator are errors.
   [[nodiscard]] Result<v1::EmulatorReply> call(v1::EmulatorRequest request);
-  /// Says that the tick is finished; await() tells when the next one may begin.
+  /// Reports that the tick is finished; await() returns when the next one may begin.
   void advance(Duration period);
-  /// Waits at most `limit` of wall time for the world. False: not there yet, or the link is down and is being made
-  /// anew. kCancelled: another run of the emulator has taken the place of the one this robot was in.
+  /// Waits at most `limit` of wall time for the world. False: it has not advanced yet, or the link is down and is being
+  /// connected again. kCancelled: the emulator was restarted and this robot's world is gone.
   [[nodiscard]] Result<bool> await(Duration limit);
 
-  /// Why the world cannot be reached now. kCancelled: it never comes back.
+  /// Why the world cannot be reached now. kCancelled: it will never return.
   [[nodiscard]] Status reachable() const;
   [[nodiscard]] RobotTime now() const { return now_; }
   [[nodiscard]] bool lockstep() const { return lockstep_; }
@@ -65,7 +66,7 @@ class EmulatorLink {
   [[nodiscard]] Status take_welcome(const v1::EmulatorReply& reply);
   void send(v1::EmulatorRequest& request);
   void lose(const Error& error);
-  /// Does network work until `done`, or `limit` of wall time has passed; what done() said last.
+  /// Does network work until `done` returns true or `limit` of wall time has passed; returns the last result of done().
   template <class Done>
   bool work_until(Done done, Duration limit);
 
@@ -77,12 +78,12 @@ class EmulatorLink {
   State state_ = State::kDown;
   wire::WallTime next_try_{};
   Error why_down_{Errc::kLinkLost, "not connected"};
-  std::optional<Error> ended_;  ///< the world is not the same any more
+  std::optional<Error> ended_;  ///< set when the robot's world no longer exists
   std::deque<wire::OutFrame> outgoing_;
   std::uint64_t last_id_ = 0;
-  std::optional<v1::EmulatorReply> answer_;  ///< to last_call_
+  std::optional<v1::EmulatorReply> answer_;  ///< reply to last_call_
   std::uint64_t last_call_ = 0;
-  std::uint64_t advance_id_ = 0;  ///< 0: none under way
+  std::uint64_t advance_id_ = 0;  ///< 0: no advance is in progress
   std::optional<std::uint64_t> world_id_;
   RobotTime now_;
   bool lockstep_ = true;

@@ -1,5 +1,5 @@
 /// \file
-/// What travels between seeker-emulator and the robots in its world, as values and messages.
+/// Values and messages exchanged between seeker-emulator and the robots in its world.
 #pragma once
 
 #include "common/core/stereo.hpp"
@@ -11,7 +11,7 @@ namespace seeker::drivers {
 
 inline constexpr std::uint32_t kEmulatorProtocol = 1;
 inline constexpr std::uint16_t kEmulatorPort = 7472;
-/// A robot's request is small; a larger frame is no request.
+/// A robot's request is small; a larger frame is not a valid request.
 inline constexpr std::size_t kMaxEmulatorRequestBytes = 4096;
 
 void write(const OdometrySample& from, v1::EmulatorOdometry* to);

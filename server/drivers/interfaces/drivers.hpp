@@ -1,7 +1,7 @@
 /// \file
-/// What the robot loop asks of a device. Hardware, simulator and replay implement the same; the loop cannot tell.
-/// All calls come from the loop's thread and return at once: a driver with a slow device reads it on its own thread
-/// and hands over the newest sample.
+/// Interfaces of the devices that the robot loop uses. Hardware, simulator and replay implement the same ones, so that
+/// the loop is independent of them. All calls come from the loop's thread and return at once: a driver with a slow
+/// device reads it on its own thread and returns the newest sample.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,13 @@ class Driver {
   Driver& operator=(const Driver&) = delete;
   virtual ~Driver() = default;
 
-  /// Opens the device. Called again after a fault to restart it.
+  /// Opens the device. It is called again after a fault to restart the device.
   [[nodiscard]] virtual Status activate() = 0;
   /// Closes the device; the base halts first.
   virtual void deactivate() = 0;
 };
 
-/// What the base measured about itself.
+/// The state that the base measured.
 struct OdometrySample {
   RobotTime stamp;
   Pose2 odom_T_base;  ///< dead reckoning since activation
@@ -48,18 +48,19 @@ struct OdometrySample {
 /// A differential-drive base.
 class BaseDriver : public Driver {
  public:
-  /// The newest sample since the last call; nothing when there is none.
+  /// The newest sample since the last call. Nothing: there is none.
   [[nodiscard]] virtual Result<std::optional<OdometrySample>> read() = 0;
-  /// Holds the velocity until the next call or until the driver's own time-out has passed, then halts.
+  /// Holds the velocity until the next call or until the driver's own time-out, and then halts.
   [[nodiscard]] virtual Status set_velocity(const Twist2& velocity, RobotTime now) = 0;
   [[nodiscard]] virtual Status set_motors(bool enabled) = 0;
-  /// Whether it moves as it is told. kRefused says why it never does: a recording goes its own way.
+  /// Whether the base moves as commanded. kRefused gives the reason why it never does: a recording follows its own
+  /// path.
   [[nodiscard]] virtual Status drivable() const { return {}; }
 };
 
 class LidarDriver : public Driver {
  public:
-  /// The newest sweep since the last call; nothing when there is none.
+  /// The newest sweep since the last call. Nothing: there is none.
   [[nodiscard]] virtual Result<std::optional<LaserScan>> read() = 0;
 };
 
@@ -70,7 +71,7 @@ class SonarDriver : public Driver {
 
 class CameraDriver : public Driver {
  public:
-  /// Exposes and returns one picture. In lockstep it is rendered here, inline.
+  /// Exposes and returns one picture. In lockstep it is rendered in this call.
   [[nodiscard]] virtual Result<CameraFrame> grab() = 0;
 };
 
@@ -78,11 +79,11 @@ class StereoDriver : public Driver {
  public:
   /// Exposes both eyes at one moment and returns the rectified pictures.
   [[nodiscard]] virtual Result<StereoFrame> grab() = 0;
-  /// Of the pictures that grab() returns.
+  /// Geometry of the pictures that grab() returns.
   [[nodiscard]] virtual const StereoGeometry& geometry() const = 0;
 };
 
-/// What makes robot time advance.
+/// The source of robot time.
 class Clock {
  public:
   Clock() = default;
@@ -91,25 +92,26 @@ class Clock {
   virtual ~Clock() = default;
 
   [[nodiscard]] virtual RobotTime now() const = 0;
-  /// Lockstep: the world advances by `period` and the call returns at once (or paces itself to the chosen speed).
+  /// Lockstep: the world advances by `period` and the call returns at once (or after the delay of the chosen speed).
   /// Live: sleeps until the next tick. kCancelled: the source has ended (a replay's last record).
   [[nodiscard]] virtual Status advance(Duration period) = 0;
-  /// Waits at most `limit` of wall time for where advance() leads to, so that its caller can do other things meanwhile.
-  /// False: not there yet. Clocks whose advance() itself waits are always there. kCancelled as above.
+  /// Waits at most `limit` of wall time for the tick that advance() started, so that its caller can do other work
+  /// meanwhile. False: the tick is not reached yet. Clocks whose advance() itself waits always return true. kCancelled
+  /// as above.
   [[nodiscard]] virtual Result<bool> await(Duration /*limit*/) { return true; }
-  /// Whether the world that the devices are in is there; the error says why not, and the time stands still meanwhile.
-  /// kCancelled: it never comes back. Only a world behind a link can be lost.
+  /// Whether the world of the devices can be reached. The error gives the reason, and the time stands still meanwhile.
+  /// kCancelled: it will never return. Only a world behind a link can be lost.
   [[nodiscard]] virtual Status reachable() const { return {}; }
-  /// True where the world stands still unless advance() is called.
+  /// True where the world advances in advance() only.
   [[nodiscard]] virtual bool lockstep() const = 0;
-  /// Where several robots share a world: it stands still from here until advance() or let_go(). Devices are read and
-  /// commanded in between only.
+  /// For several robots in a shared world: the world stands still from here until advance() or let_go(). Devices are
+  /// read and commanded in between only.
   virtual void hold() {}
-  /// This robot does not tick for now: the others' world goes on without it.
+  /// This robot does not tick for now: the world of the others continues without it.
   virtual void let_go() {}
   /// Robot seconds per wall second; 0: as fast as possible.
   [[nodiscard]] virtual double speed() const = 0;
-  /// How well the ticks keep to the wall clock; nothing at speed 0, or where another process paces them.
+  /// Accuracy of the ticks relative to the wall clock. Nothing: the speed is 0, or another process paces them.
   [[nodiscard]] virtual std::optional<TickTiming> timing() const { return std::nullopt; }
 };
 

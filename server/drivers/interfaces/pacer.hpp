@@ -1,5 +1,5 @@
 /// \file
-/// Lets a clock that could go faster go at a chosen speed.
+/// Slows a clock that could run faster to a chosen speed.
 #pragma once
 
 #include <chrono>
@@ -13,27 +13,28 @@ class Pacer {
  public:
   using WallTime = std::chrono::steady_clock::time_point;
 
-  /// Robot seconds per wall second; 0: as fast as possible, nothing is waited for or counted. Not negative.
+  /// Robot seconds per wall second, not negative; 0: as fast as possible, without waiting or timing.
   explicit Pacer(double speed);
 
-  /// Sleeps until a tick of `period` robot time after the one before has its turn. A loop that is a little late hurries
-  /// to catch up, one that is more than kMaxLag late goes on from now.
+  /// Sleeps until the tick that is `period` of robot time after the previous one is due. A loop that is a little late
+  /// catches up; one that is more than kMaxLag late continues from now.
   void wait(Duration period);
-  /// What wait() does, as values: when a tick of `period` is due for a caller that comes at `now`, and that it began.
+  /// The two parts of wait() as values: when a tick of `period` is due for a caller that comes at `now`, and the record
+  /// that it began.
   [[nodiscard]] WallTime due(Duration period, WallTime now);
   void begun(WallTime now);
-  /// The loop rests: the next tick begins whenever it comes.
+  /// The loop rests: the next tick is due when it comes.
   void rest() { due_.reset(); }
 
   [[nodiscard]] double speed() const { return speed_; }
-  /// Nothing at speed 0.
+  /// Timing of the ticks. Nothing: the speed is 0.
   [[nodiscard]] std::optional<TickTiming> timing() const;
 
   static constexpr Duration kMaxLag = std::chrono::milliseconds(250);
 
  private:
   double speed_;
-  std::optional<WallTime> due_;  ///< of the last tick
+  std::optional<WallTime> due_;  ///< when the last tick was due
   TickTiming timing_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 bool is_scan(const CarmenRecord& record) { return std::holds_alternative<CarmenScan>(record); }
 
-/// What the records at the start of a file tell.
+/// Properties found from the records at the start of a file.
 Result<LogTraits> survey(const std::filesystem::path& path) {
   Result<LineFile> file = LineFile::open(path);
   if (!file) {
@@ -173,7 +173,7 @@ std::string describe(const ReplaySummary& summary) {
             summary.examples.front().reason + ")";
   }
   if (summary.invented_period_s) {
-    text += "; its stamps are too coarse to tell when anything was recorded: scans are taken to be " +
+    text += "; its stamps are too coarse to show when records were made: scans are assumed to be " +
             std::to_string(static_cast<int>(std::lround(1e3 * *summary.invented_period_s))) +
             " ms apart, and more where the robot moved far, so no time or speed of it is real";
   }

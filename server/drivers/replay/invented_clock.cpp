@@ -24,8 +24,8 @@ std::optional<Pose2> odometry_of(const CarmenRecord& record) {
 }
 
 double least_time_s(const Pose2& from, const Pose2& to) {
-  const double turned_rad = std::abs(wrap_angle(to.theta_rad - from.theta_rad));
-  return std::max(distance_m(from, to) / kFast_m_s, turned_rad / kFast_rad_s);
+  const double rotated_rad = std::abs(wrap_angle(to.theta_rad - from.theta_rad));
+  return std::max(distance_m(from, to) / kFast_m_s, rotated_rad / kFast_rad_s);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ LineFile::Line LineFile::read(std::string& line) {
     if (gzgets(file_->handle, buffer.data(), static_cast<int>(buffer.size())) == nullptr) {
       return line.empty() && !too_long ? Line::kEnd : (too_long ? Line::kTooLong : Line::kGood);
     }
-    // A zero byte ends the text early; what follows it in the buffer is lost, and the line turns out malformed.
+    // A zero byte ends the text early; what follows it in the buffer is lost, and the line is malformed.
     const std::string_view piece(buffer.data());
     too_long = too_long || line.size() + piece.size() > kMaxLine_bytes;
     if (!too_long) {

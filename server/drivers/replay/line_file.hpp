@@ -18,7 +18,7 @@ struct BadLine {
   std::string reason;
 };
 
-/// What was skipped while a file was read: counted, and the first few kept.
+/// Skipped lines of a file: their number, and the first few of them.
 struct BadLines {
   static constexpr std::size_t kMaxExamples = 20;
 
@@ -34,24 +34,25 @@ class LineFile {
   static constexpr std::size_t kMaxLine_bytes = 256 * 1024;
   enum class Line : std::uint8_t { kGood, kTooLong, kEnd };
 
-  /// kNotFound or kIo with the file named; kParse for text in UTF-16. A byte order mark of UTF-8 is passed over.
+  /// Opens a file. Errors: kNotFound or kIo, which name the file; kParse for text in UTF-16. A byte order mark of UTF-8
+  /// is skipped.
   [[nodiscard]] static Result<LineFile> open(const std::filesystem::path& path);
   LineFile(LineFile&&) noexcept;
   LineFile& operator=(LineFile&&) noexcept;
   ~LineFile();
 
-  /// The next line without its end into `line`. kTooLong: it was skipped.
+  /// Reads the next line without its end into `line`. kTooLong: the line was skipped.
   [[nodiscard]] Line next(std::string& line);
   /// Why the file ended early (cut or damaged compression); empty otherwise.
   [[nodiscard]] std::string damage() const;
-  /// Of the line that next() read last; first line = 1.
+  /// Number of the line that next() read last; first line = 1.
   [[nodiscard]] std::uint64_t number() const { return number_; }
 
  private:
   struct File;
   explicit LineFile(std::unique_ptr<File> file);
   [[nodiscard]] Line read(std::string& line);
-  /// False where the mark says UTF-16.
+  /// False where the mark states UTF-16.
   [[nodiscard]] bool skip_byte_order_mark();
 
   std::unique_ptr<File> file_;

@@ -20,7 +20,7 @@ constexpr int kPlaces = 4;
 /// often.
 constexpr double kLeastShare = 0.05;
 
-/// Enough scans to tell what the recorder wrote; far more where the robot stands until the end of them.
+/// Enough scans to show what the recorder wrote; many more where the robot stands until the end of them.
 constexpr std::uint64_t kScans = 500;
 constexpr std::uint64_t kMostScans = 5000;
 
@@ -28,7 +28,7 @@ constexpr std::uint64_t kMostScans = 5000;
 constexpr std::uint64_t kChanges = 3;
 constexpr std::uint64_t kFewScans = 20;
 
-/// How fast a robot that maps a building usually drives and turns at the most, and how often scanners scan.
+/// Speed and rotation speed that a mapping robot usually does not exceed, and the usual scan rate.
 constexpr double kUsual_m_s = 0.5;
 constexpr double kUsual_rad_s = 0.8;
 constexpr double kShortestScan_s = 0.05;
@@ -100,8 +100,8 @@ void LogSurvey::watch_reach(double farthest_m) {
 
 void LogSurvey::watch_motion() {
   if (robot_ && robot_at_scan_) {
-    const double turned_rad = std::abs(wrap_angle(robot_->theta_rad - robot_at_scan_->theta_rad));
-    least_s_.push_back(std::max(distance_m(*robot_at_scan_, *robot_) / kUsual_m_s, turned_rad / kUsual_rad_s));
+    const double rotated_rad = std::abs(wrap_angle(robot_->theta_rad - robot_at_scan_->theta_rad));
+    least_s_.push_back(std::max(distance_m(*robot_at_scan_, *robot_) / kUsual_m_s, rotated_rad / kUsual_rad_s));
   }
   robot_at_scan_ = robot_;
 }

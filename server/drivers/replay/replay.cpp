@@ -96,7 +96,7 @@ void ReplaySource::advance_to(RobotTime now) {
     std::visit([this](const auto& record) { deliver(record); }, *pending_);
     fetch();
     if (is_scan && !scans_have_odometry_) {
-      return;  // what the wheels tell after the scan comes after it
+      return;  // odometry measured after the scan is delivered after it
     }
   }
   now_ = std::max(now_, now);

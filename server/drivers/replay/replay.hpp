@@ -1,5 +1,5 @@
 /// \file
-/// A recorded log in place of hardware: clock, base and lidar over one source.
+/// A recorded log in place of hardware: clock, base and lidar of one source.
 #pragma once
 
 #include <memory>
@@ -13,28 +13,28 @@
 
 namespace seeker::drivers {
 
-/// How the laser of the log was mounted; CARMEN does not say.
+/// Mount of the log's laser, which CARMEN logs do not state.
 struct ReplayParams {
   double angle_min_rad = -kPi / 2.0;
-  double angle_step_rad = 0.0;  ///< 0: as stated in the line, else 180 degrees over the number of beams
-  double range_min_m = 0.02;    ///< below it a beam is unusable (quality 0)
-  double range_max_m = 80.0;    ///< at or above it nothing came back (81 m and more is CARMEN's code)
+  double angle_step_rad = 0.0;  ///< 0: as stated in the line, otherwise 180 degrees over the number of beams
+  double range_min_m = 0.02;    ///< a beam below it is unusable (quality 0)
+  double range_max_m = 80.0;    ///< a beam at or above it has no return (81 m and more is CARMEN's code)
   Pose2 base_T_laser;
 };
 
-/// Plays records in the order of their stamps: robot time 0 is the log's first stamp. Shared by the drivers below, all
-/// in the loop's thread. The log's corrected poses never leave it.
+/// Plays records in the order of their stamps; robot time 0 is the log's first stamp. It is shared by the drivers
+/// below, all in the loop's thread. The log's corrected poses are not passed on.
 class ReplaySource {
  public:
-  /// Errors of CarmenReader::open; kParse when the file holds no record at all.
+  /// Opens a log. Errors of CarmenReader::open; kParse when the file holds no record at all.
   [[nodiscard]] static Result<std::shared_ptr<ReplaySource>> open(const std::filesystem::path& path,
                                                                   const ReplayParams& params = {});
 
-  /// Takes records stamped up to `now`; the newest of each kind waits for its reader. Stops before a second scan, so
-  /// that none is lost where two fall into one tick, and behind a scan that does not state its own odometry, so that it
-  /// meets the odometry of before: now() is then the time of the last record taken.
+  /// Takes the records stamped up to `now`; the newest of each kind waits for its reader. It stops before a second
+  /// scan, so that none is lost where two fall into one tick, and after a scan that does not state its own odometry, so
+  /// that the scan is used with the odometry before it: now() is then the time of the last record taken.
   void advance_to(RobotTime now);
-  /// Takes exactly the next record, so that none is overtaken; false at the end.
+  /// Takes exactly the next record, so that no record is replaced unread; false at the end.
   bool advance_one();
   [[nodiscard]] RobotTime now() const { return now_; }
   /// The log's clock at robot time 0.
@@ -62,10 +62,10 @@ class ReplaySource {
   std::optional<OdometrySample> odometry_;
   std::optional<OdometrySample> last_odometry_;
   std::optional<LaserScan> scan_;
-  bool scans_have_odometry_ = false;  ///< then ODOM lines are not used: pose and scan belong together
+  bool scans_have_odometry_ = false;  ///< then ODOM lines are not used, because pose and scan belong together
 };
 
-/// Robot time follows the log. Lockstep at speed 0 (as fast as possible), else paced by the wall clock.
+/// Robot time follows the log. Lockstep: at speed 0 as fast as possible, otherwise paced by the wall clock.
 class ReplayClock final : public Clock {
  public:
   ReplayClock(std::shared_ptr<ReplaySource> source, double speed);
@@ -83,7 +83,7 @@ class ReplayClock final : public Clock {
   Pacer pacer_;
 };
 
-/// The recorded odometry. It cannot be driven: kRefused for any motion; standing still is fine.
+/// The recorded odometry. It cannot be driven: kRefused for any motion; a zero velocity is accepted.
 class ReplayBase final : public BaseDriver {
  public:
   explicit ReplayBase(std::shared_ptr<ReplaySource> source) : source_(std::move(source)) {}
@@ -111,7 +111,7 @@ class ReplayLidar final : public LidarDriver {
   std::shared_ptr<ReplaySource> source_;
 };
 
-/// A logged scan as the rest of the program knows scans: codes for "none" and the mount filled in.
+/// A logged scan in the program's form, with the codes for "none" replaced and the mount filled in.
 [[nodiscard]] LaserScan to_laser_scan(const CarmenScan& scan, const ReplayParams& params, RobotTime stamp);
 
 }  // namespace seeker::drivers

@@ -1,5 +1,5 @@
 /// \file
-/// One line of a scanner log with commas: `t,odom_x,odom_y,odom_theta,r0,r1,...`. Pure text in, value out.
+/// One line of a comma-separated scanner log: `t,odom_x,odom_y,odom_theta,r0,r1,...`. The functions have no state.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace seeker::drivers {
 
-/// True for a line of numbers with commas between them: no CARMEN record looks like that.
+/// Whether the line consists of comma-separated numbers, as no CARMEN record does.
 [[nodiscard]] bool is_scan_csv(std::string_view line);
 
-/// Parses one line. `inf`, `nan` and an empty field mean that nothing came back (range 0). kParse: malformed, cut off
-/// or without a range; kTooLarge: more beams than kMaxScanBeams.
+/// Parses one line. `inf`, `nan` and an empty field mean a beam without return (range 0). kParse: malformed, cut off or
+/// without a range; kTooLarge: more beams than kMaxScanBeams.
 [[nodiscard]] Result<CarmenScan> parse_scan_csv_line(std::string_view line);
 
-/// A line of a log of either kind, told apart by its content; otherwise as parse_carmen_line().
+/// Parses a line of either kind of log, which it recognises by the content; otherwise as parse_carmen_line().
 [[nodiscard]] Result<std::optional<CarmenRecord>> parse_log_line(std::string_view line);
 
 }  // namespace seeker::drivers

@@ -9,7 +9,7 @@ namespace {
 /// A stamp farther ahead of the last one than this is damage, or a clock that was set, not a pause.
 constexpr double kLongestPause_s = 6.0 * 3600.0;
 
-/// Records that are stamped on their way may swap places within this; more is another time.
+/// Records that are stamped while in transit may swap places within this time; a larger step is another time.
 constexpr double kDisorder_s = 2.0;
 
 /// No clock says so much; beyond it sums of stamps lose their digits.

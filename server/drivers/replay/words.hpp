@@ -13,7 +13,7 @@
 
 namespace seeker::drivers {
 
-/// Words between separators. The first failure sticks, so that a parser checks once at its end.
+/// The words between separators. The first failure is kept, so that a parser checks once at its end.
 class Words {
  public:
   static constexpr std::string_view kBlank = " \t\r\n";
@@ -33,7 +33,7 @@ class Words {
     rest_.remove_prefix(last);
     return found;
   }
-  /// The next word as a number; 0 and good() == false where it is none, or not finite.
+  /// The next word as a number; 0 and good() == false where it is no number or not finite.
   double number() {
     const double value = any_number();
     if (!std::isfinite(value)) {
@@ -42,7 +42,7 @@ class Words {
     }
     return value;
   }
-  /// A reading of a scanner. "inf" is one too, and says that nothing is there; "nan" and "-inf" say nothing: 0.
+  /// A reading of a scanner. "inf" is valid and means no return; "nan" and "-inf" give no information and become 0.
   double range() {
     const double value = any_number();
     return std::isnan(value) || value < 0.0 ? 0.0 : value;
@@ -63,7 +63,7 @@ class Words {
   [[nodiscard]] bool at_end() const { return rest_.find_first_not_of(separators_) == std::string_view::npos; }
 
  private:
-  /// The next word as a number, or as "inf" or "nan"; 0 and good() == false where it is none.
+  /// The next word as a number, or as "inf" or "nan"; 0 and good() == false where it is none of these.
   double any_number() {
     const std::optional<double> value = number_in<double>(word());
     good_ = good_ && value;

@@ -1,5 +1,5 @@
 /// \file
-/// The simulated robot behind the driver interfaces: the loop cannot tell it from hardware.
+/// The simulated robot behind the driver interfaces, so that the loop uses it like hardware.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@
 
 namespace seeker::drivers {
 
-/// What can be wrong with a stereo pair that still arrives.
+/// Faults of a stereo pair that still arrives.
 enum class StereoFault : std::uint8_t {
   kNone,
-  kSwapped,    ///< left is right
+  kSwapped,    ///< left and right pictures are exchanged
   kBlack,      ///< the left eye is covered
-  kSaturated,  ///< the right eye looks into a lamp
+  kSaturated,  ///< the right eye faces a lamp
   kBlurred,    ///< the left lens is fogged
   kHalfSize,   ///< pictures of another size
-  kStale,      ///< the right picture is that of the pair before
+  kStale,      ///< the right picture belongs to the previous pair
 };
 
-/// Faults that can be switched on and off while the robot runs, to test what it does about them.
+/// Faults that can be switched on and off while the robot runs, to test its response.
 struct SimFaults {
   bool base_silent = false;
   bool lidar_silent = false;
-  bool sonar_silent = false;  ///< no sonar scan any more
+  bool sonar_silent = false;  ///< there are no sonar scans
   int sonar_nan = -1;         ///< this transducer reads NaN; -1: none
   bool camera_dead = false;   ///< grab() fails
   bool stereo_dead = false;   ///< the stereo camera's grab() fails
@@ -41,7 +41,8 @@ struct SimDeviceParams {
   Duration base_period = std::chrono::milliseconds(100);
   Duration lidar_period = std::chrono::milliseconds(100);
   Duration sonar_period = std::chrono::milliseconds(100);
-  Duration command_timeout = std::chrono::milliseconds(500);  ///< the base halts when no newer command came
+  /// The base halts when it received no newer command for this time.
+  Duration command_timeout = std::chrono::milliseconds(500);
 };
 
 /// Wheels, encoders and battery. Motors are off until set_motors(true).
@@ -55,7 +56,7 @@ class SimBase final : public BaseDriver {
   [[nodiscard]] Status set_velocity(const Twist2& velocity, RobotTime now) override;
   [[nodiscard]] Status set_motors(bool enabled) override;
 
-  /// The clock calls this before the world advances by `period`: halts where the last command becomes too old.
+  /// Called by the clock before the world advances by `period`: halts the base where the last command becomes too old.
   void before_advance(Duration period);
 
  private:
@@ -132,13 +133,13 @@ class SimStereo final : public StereoDriver {
   Image last_right_;
 };
 
-/// Which robot of which shared world.
+/// A robot of a shared world.
 struct WorldSeat {
   std::shared_ptr<TickBarrier> barrier;
   std::size_t robot = 0;
 };
 
-/// Robot time of the simulated world. Speed 0: as fast as the machine can; otherwise paced by the wall clock.
+/// Robot time of the simulated world. Speed 0: as fast as possible; otherwise paced by the wall clock.
 class LockstepClock final : public Clock {
  public:
   /// `base` must outlive the clock.
@@ -159,10 +160,10 @@ class LockstepClock final : public Clock {
   Pacer pacer_;
 };
 
-/// A whole simulated robot. The clock refers to the base: destroy or keep them together.
+/// A complete simulated robot. The clock refers to the base: destroy or keep them together.
 struct SimDevices {
   std::shared_ptr<sim::Simulation> simulation;
-  std::shared_ptr<SimFaults> faults;  ///< set at run time from the loop's thread
+  std::shared_ptr<SimFaults> faults;  ///< changed at run time from the loop's thread
   std::unique_ptr<SimBase> base;
   std::unique_ptr<SimLidar> lidar;
   std::unique_ptr<SimSonar> sonar;
@@ -176,7 +177,7 @@ struct SimDevices {
                                                   double speed, const SimDeviceParams& params = {},
                                                   std::size_t start = 0);
 
-/// Devices of every robot of a world, in their order, on one tick barrier.
+/// The devices of all robots of a world, in their order, on one tick barrier.
 struct SharedDevices {
   std::shared_ptr<sim::SharedWorld> world;
   std::shared_ptr<TickBarrier> barrier;

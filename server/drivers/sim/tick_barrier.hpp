@@ -1,5 +1,5 @@
 /// \file
-/// Several robot loops of one process in one simulated world, each on a thread of its own.
+/// Runs several robot loops of one process in one simulated world, each on its own thread.
 #pragma once
 
 #include <condition_variable>
@@ -12,7 +12,8 @@
 
 namespace seeker::drivers {
 
-/// Thread-safe. The world is touched by the thread that finishes a tick last, while all others wait.
+/// A barrier for the ticks of several loops; it is thread-safe. The thread that finishes a tick last advances the world
+/// while all others wait.
 class TickBarrier {
  public:
   explicit TickBarrier(std::shared_ptr<sim::SharedWorld> world);
@@ -20,11 +21,11 @@ class TickBarrier {
   /// See Clock::hold() and Clock::let_go().
   void hold(std::size_t robot);
   void let_go(std::size_t robot);
-  /// Blocks until the world has gone on by `period`, above zero, for this robot.
+  /// Blocks until the world has advanced by `period`, which is above zero, for this robot.
   void advance(std::size_t robot, Duration period);
 
-  /// Called whenever the world has gone on, while every robot stands still: where loops exchange what they have, so
-  /// that it does not depend on their threads. Set it before the first tick; it must not call this object.
+  /// Called whenever the world has advanced, while all robots stand still. Loops exchange data here, so that the result
+  /// does not depend on the timing of their threads. Set it before the first tick; it must not call this object.
   std::function<void(RobotTime now)> between;
 
  private:

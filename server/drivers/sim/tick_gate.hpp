@@ -1,5 +1,5 @@
 /// \file
-/// When a world that several robots share may go on: nobody's tick begins before all have finished theirs.
+/// Decides when a world that several robots share may advance: no tick begins before all robots have finished theirs.
 #pragma once
 
 #include <cstddef>
@@ -10,22 +10,23 @@
 
 namespace seeker::drivers {
 
-/// Bookkeeping only: no threads, no clocks. Every robot holds the world at first, so that the order in which they come
-/// does not matter.
+/// Holds the states of the robots, without threads or clocks. Every robot holds the world at first, so that the order
+/// in which they come does not matter.
 class TickGate {
  public:
   explicit TickGate(std::size_t robots) : robots_(robots) {}
 
   /// The robot is within its tick: the world waits for it.
   void hold(std::size_t robot) { robots_[robot] = {State::kHolding, {}}; }
-  /// The robot is gone or does not tick for now: nobody waits for it.
+  /// The robot is absent or does not tick for now: the world does not wait for it.
   void let_go(std::size_t robot) { robots_[robot] = {State::kAway, {}}; }
-  /// The robot has finished its tick and goes on at `until`.
+  /// The robot has finished its tick and continues at `until`.
   void wait(std::size_t robot, RobotTime until) { robots_[robot] = {State::kWaiting, until}; }
 
-  /// Where the world may go on to: the first moment that a robot waits for. Nothing while one holds it, or none waits.
+  /// The time to which the world may advance: the earliest one that a robot waits for. Nothing: a robot holds the
+  /// world, or none waits.
   [[nodiscard]] std::optional<RobotTime> next() const;
-  /// The world has come to `now`: those that waited for it hold it again.
+  /// The world has advanced to `now`: the robots that waited for it hold it again.
   void reached(RobotTime now);
 
   [[nodiscard]] bool waiting(std::size_t robot) const { return robots_[robot].state == State::kWaiting; }

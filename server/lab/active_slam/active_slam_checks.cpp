@@ -145,8 +145,9 @@ void check_contacts(const WorldRuns& world, Report& report) {
                           {"runs", std::to_string(world.runs.size())}}});
 }
 
-/// Path of the horizon planner until its map holds as much as the best baseline's at its end (to within a per cent),
-/// over that baseline's path. The planner then goes on to walls that the baselines leave: the whole path, too, is told.
+/// Path length of the horizon planner until its map holds as much as the best baseline's at its end (to within a per
+/// cent), divided by that baseline's path length. The planner then continues to walls that the baselines leave; the
+/// whole path length is reported too.
 void check_horizon(const WorldRuns& world, Report& report) {
   constexpr double kSameShare = 0.01;
   double horizon_m = 0.0;

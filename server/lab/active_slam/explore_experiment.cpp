@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "common/config/yaml.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/active_slam/explore_picture.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/resumable.hpp"
 #include "server/lab/experiments/seeds.hpp"
 
@@ -23,10 +25,10 @@ std::string title_of(const ExploreResult& result) {
 Status keep(const ExploreSpec& spec, const ExploreRecord& record, const std::filesystem::path& out) {
   std::error_code error;
   std::filesystem::create_directories(explore_file(out, spec, ".json").parent_path(), error);
-  if (Status ok = image::write_file(explore_file(out, spec, ".log"), log_text(record.events)); !ok) {
+  if (Status ok = files::write_file(explore_file(out, spec, ".log"), log_text(record.events)); !ok) {
     return ok;
   }
-  if (Status ok = image::write_file(explore_file(out, spec, ".csv"), curves_csv(record.samples)); !ok) {
+  if (Status ok = files::write_file(explore_file(out, spec, ".csv"), curves_csv(record.samples)); !ok) {
     return ok;
   }
   const Image picture = draw_exploration(record, title_of(record.result));
@@ -126,7 +128,7 @@ Result<std::vector<ExploreResult>> explore_missing(const std::vector<ExploreSpec
     }
     return record->result;
   };
-  kind.tell = [](const ExploreResult& result) {
+  kind.progress_line = [](const ExploreResult& result) {
     return result.world + " " + result.strategy + " seed " + std::to_string(result.seed) + ": " + result.outcome +
            ", " + fixed(result.wall_share, 3) + " of the walls after " + fixed(result.robot_time_s, 0) + " s (" +
            fixed(result.speed(), 0) + "x)";
@@ -223,11 +225,11 @@ Table explore_runs_table(const std::vector<ExploreResult>& results) {
 }
 
 std::string explore_json(const std::vector<ExploreResult>& results) {
-  std::string text = "[";
-  for (const ExploreResult& result : results) {
-    text += (text.size() > 1 ? ",\n" : "\n") + to_json(result);
+  auto list = nlohmann::ordered_json::array();
+  for (ExploreResult result : results) {
+    list.push_back(described([&](config::Fields& fields) { describe(fields, result); }));
   }
-  return text + "]\n";
+  return json_lines(list);
 }
 
 Table explore_summary_table(const std::vector<ExploreResult>& results) {

@@ -1,5 +1,6 @@
 /// \file
-/// Many explorations: each leaves numbers, curves, log and a picture, and only those without are made; tables of them.
+/// Runs many explorations and makes tables of them. Each run leaves numbers, curves, a log and a picture, and only runs
+/// without these files are made.
 #pragma once
 
 #include <filesystem>
@@ -15,26 +16,27 @@ namespace seeker::lab {
 [[nodiscard]] std::filesystem::path explore_file(const std::filesystem::path& out, const ExploreSpec& spec,
                                                  const std::string& extension);
 
-/// The results in the order of `specs`. Errors as of resume_runs().
+/// The results in the order of `specs`. Errors: those of resume_runs().
 [[nodiscard]] Result<std::vector<ExploreResult>> explore_missing(const std::vector<ExploreSpec>& specs,
                                                                  const std::filesystem::path& out, int jobs,
                                                                  bool show_progress);
 
-/// The curves of a run that was made. Errors: kNotFound, kParse.
+/// Loads the curves of a finished run. Errors: kNotFound, kParse.
 [[nodiscard]] Result<std::vector<ExploreSample>> load_curves(const std::filesystem::path& out, const ExploreSpec& spec);
 
-/// A mean and what the runs spread around it.
+/// The mean of several runs and their spread around it.
 struct MeanSpread {
   double mean = 0.0;
-  double sigma = 0.0;  ///< of the sample; 0 for one run
+  double sigma = 0.0;  ///< standard deviation of the sample; 0 for one run
 };
 [[nodiscard]] MeanSpread mean_spread(const std::vector<double>& values);
 
-/// A row per run.
+/// Table with one row for each run.
 [[nodiscard]] Table explore_runs_table(const std::vector<ExploreResult>& results);
-/// A list of them.
+/// JSON list of the results.
 [[nodiscard]] std::string explore_json(const std::vector<ExploreResult>& results);
-/// A row per world and strategy, in the order in which they first occur: means and spreads, sums of contacts.
+/// Table with one row for each world and strategy, in the order in which they first occur: means and spreads, sums of
+/// contacts.
 [[nodiscard]] Table explore_summary_table(const std::vector<ExploreResult>& results);
 
 }  // namespace seeker::lab

@@ -48,7 +48,7 @@ void draw_map(WorldSheet& sheet, const ExploreRecord& record) {
   }
 }
 
-/// Nodes, the ways between them, and goals that were left.
+/// Draws the nodes, the paths between them, and goals that were left.
 void draw_topology(WorldSheet& sheet, const ExploreRecord& record) {
   std::map<std::uint64_t, Point2> nodes;
   for (const TopologyNode& node : record.topology.nodes) {
@@ -65,7 +65,7 @@ void draw_topology(WorldSheet& sheet, const ExploreRecord& record) {
   }
 }
 
-/// Stretch by stretch, since a dash pattern must not start anew at every step.
+/// Draws the path in long pieces, because a dash pattern must not start again at every step.
 void draw_path(WorldSheet& sheet, const ExploreRecord& record) {
   const std::vector<PathPlace>& path = record.true_path;
   for (std::size_t begin = 0; begin < path.size();) {

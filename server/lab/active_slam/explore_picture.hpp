@@ -23,7 +23,8 @@ struct NamedCurve {
 
 /// Fig 6: localisation error over time.
 [[nodiscard]] Image error_figure(const std::string& title, const std::vector<NamedCurve>& curves);
-/// Fig 7: trace of the covariance over time: of robot and segments, of the robot alone, of a segment on average.
+/// Fig 7: trace of the covariance over time: of robot and segments together, of the robot alone, and the mean over
+/// segments.
 [[nodiscard]] Image trace_figure(const std::string& title, const std::vector<NamedCurve>& curves);
 
 }  // namespace seeker::lab

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "server/drivers/replay/words.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -21,6 +22,13 @@ constexpr double kRounding = 1e-9;
 
 std::size_t whole_per_cents(double share) {
   return static_cast<std::size_t>(std::max(0.0, share) / kPerCent + kRounding);
+}
+
+/// The shortest text that reads back as the same number.
+std::string text_of(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
 }
 
 }  // namespace
@@ -75,14 +83,14 @@ void note_share(ExploreResult& result, double share, double path_m) {
 }
 
 Status save(const std::filesystem::path& path, const ExploreResult& result) {
-  return image::write_file(path, to_json(result));
+  return files::write_file(path, to_json(result));
 }
 
 std::string curves_csv(const std::vector<ExploreSample>& samples) {
   std::string text(kHeader);
   for (const ExploreSample& sample : samples) {
     for (std::size_t n = 0; n < kCurves.size(); ++n) {
-      text += (n == 0 ? "" : ",") + json_number(sample.*kCurves[n]);
+      text += (n == 0 ? "" : ",") + text_of(sample.*kCurves[n]);
     }
     text += '\n';
   }

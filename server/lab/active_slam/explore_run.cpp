@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/config/yaml.hpp"
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/app/runtime/update_hub.hpp"
 
 namespace seeker::lab {
@@ -120,10 +120,10 @@ void fill_map(ExploreRecord& record, const app::RobotLoop& loop) {
   result.outcome = to_string(end.outcome);
   result.cause = end.cause;
   result.unreachable = static_cast<int>(end.unreachable.size());
-  record.unreachable = end.unreachable;
+  record.unreachable = positions_of(end.unreachable);
 }
 
-/// Of the last look at the walls.
+/// Scores the walls mapped at the end.
 void score(ExploreRecord& record) {
   ExploreResult& result = record.result;
   result.reachable_wall_m = record.walls.reachable_m;

@@ -1,6 +1,6 @@
 /// \file
-/// One exploration in the simulator, in this process and without network: the same loop as seekerd's, scored against
-/// the truth that the loop never sees.
+/// One exploration in the simulator, in this process and without network: the loop of seekerd, scored against the true
+/// state that the loop has no access to.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace seeker::lab {
 
 struct ExploreSpec : SimSpec {
   api::ExploreStrategy strategy = api::ExploreStrategy::kActive;
-  std::optional<Polygon> bound;  ///< explore inside only; frame `map`: the start is its origin
+  std::optional<Polygon> bound;  ///< explore only inside it; frame `map`, whose origin is the start
   bool return_to_start = false;
   double wall_near_m = 0.25;  ///< see WallShareParams::near_m
 };
@@ -28,13 +28,13 @@ struct PathPlace {
   bool along_wall = false;
 };
 
-/// A run with what pictures need.
+/// A run with the data for pictures.
 struct ExploreRecord {
   ExploreResult result;
-  std::vector<ExploreSample> samples;  ///< one a second
+  std::vector<ExploreSample> samples;  ///< one for each second
   std::vector<api::Event> events;
   std::vector<PathPlace> true_path;
-  std::vector<Pose2> believed_path;  ///< frame `map`
+  std::vector<Pose2> believed_path;  ///< estimated path, frame `map`
   std::vector<MapSegment> segments;  ///< frame `map`
   std::vector<Point2> unreachable;   ///< frame `map`
   Topology topology;                 ///< frame `map`; empty where the strategy keeps none
@@ -45,13 +45,13 @@ struct ExploreRecord {
   double robot_radius_m = 0.26;
 };
 
-/// Hash of everything that shapes a run, seed excepted.
+/// Hash of everything that affects a run except the seed.
 [[nodiscard]] Result<std::string> settings_of(const ExploreSpec& spec);
 
 /// Called before every pass of the loop.
 using ExploreWatcher = std::function<void(const app::RobotLoop&, sim::Simulation&)>;
 
-/// Runs to the mission's end. Errors: those of the files, and a refused mission.
+/// Runs until the mission's end. Errors: those of the files, and a refused mission.
 [[nodiscard]] Result<ExploreRecord> run_explore(const ExploreSpec& spec, const ExploreWatcher& watcher = {});
 
 }  // namespace seeker::lab

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/active_slam/explore_picture.hpp"
 
@@ -35,7 +35,7 @@ std::vector<ExploreSpec> specs_of(const ReproduceParams& params, const ExploreWo
   return specs;
 }
 
-/// Everything of one world, and the specs that led to it.
+/// All runs of one world, and their specs.
 struct WorldExperiment {
   WorldRuns runs;
   std::vector<ExploreSpec> specs;
@@ -111,13 +111,13 @@ Status draw_curves(const ReproduceParams& params, const WorldExperiment& experim
 
 Status write_tables(const std::filesystem::path& out, const std::vector<ExploreResult>& all) {
   const Table summary = explore_summary_table(all);
-  if (Status ok = image::write_file(out / "table.csv", summary.csv()); !ok) {
+  if (Status ok = files::write_file(out / "table.csv", summary.csv()); !ok) {
     return ok;
   }
-  if (Status ok = image::write_file(out / "table.md", summary.markdown()); !ok) {
+  if (Status ok = files::write_file(out / "table.md", summary.markdown()); !ok) {
     return ok;
   }
-  return image::write_file(out / "runs.csv", explore_runs_table(all).csv());
+  return files::write_file(out / "runs.csv", explore_runs_table(all).csv());
 }
 
 }  // namespace

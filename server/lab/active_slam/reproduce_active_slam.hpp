@@ -1,5 +1,5 @@
 /// \file
-/// Regenerates the figures of the active-SLAM paper in the simulator and checks what it claims (spec S1.13, S7: R1).
+/// Regenerates the figures of the active-SLAM paper in the simulator and checks its claims (spec S1.13, S7: R1).
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace seeker::lab {
 
-/// One world of the experiment and what is asked of a map of it.
+/// One world of the experiment and the requirements on a map of it.
 struct ExploreWorld {
   std::string name;
   std::string robot;  ///< robot file, without folder and extension
   double wall_near_m = 0.25;
   double error_limit_m = 0.20;
-  double time_limit_s = 3600.0;  ///< of runs that end by themselves
+  double time_limit_s = 3600.0;  ///< time limit of runs that end by themselves
 };
 [[nodiscard]] const std::vector<ExploreWorld>& explore_worlds();
 
@@ -33,13 +33,13 @@ struct WorldRuns {
   [[nodiscard]] const ExploreResult* find(api::ExploreStrategy strategy, std::uint64_t seed) const;
 };
 
-/// R1 and the numbers that an exploration is held to, one line each. Conditions whose strategies were not run are left
-/// out.
+/// Checks R1 and the further limits of an exploration, with one line for each. Conditions whose strategies were not run
+/// are left out.
 void check_explorations(const WorldRuns& world, Report& report);
 
-/// Fig 4 (roaming map), Fig 5 (active map), Fig 6 (error over time), Fig 7 (trace over time) of every world for the
-/// first seed; table.csv, table.md, runs.csv; PASS and FAIL lines. Roaming never ends by itself: it gets the time of
-/// the active run of the same seed.
+/// Makes Fig 4 (roaming map), Fig 5 (active map), Fig 6 (error over time) and Fig 7 (trace over time) of every world
+/// for the first seed; table.csv, table.md, runs.csv; PASS and FAIL lines. Roaming never ends by itself: its time limit
+/// is the duration of the active run of the same seed.
 [[nodiscard]] Status reproduce_active_slam(const ReproduceParams& params, Report& report);
 
 }  // namespace seeker::lab

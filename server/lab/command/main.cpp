@@ -1,4 +1,4 @@
-// seeker-lab: offline experiments. Everything is in libraries.
+// seeker-lab: offline experiments. All code is in libraries.
 
 #include "server/lab/command/commands.hpp"
 

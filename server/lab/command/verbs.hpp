@@ -16,31 +16,31 @@ namespace seeker::lab {
 /// What a verb returns as the program's exit code.
 enum ExitCode : int { kExitDone = 0, kExitFailed = 1, kExitUsage = 2 };
 
-/// Options that every verb with runs has.
+/// Options common to all verbs with runs.
 struct CommonOptions {
   std::filesystem::path out;
   std::string seeds = "1-20";
   std::vector<std::string> overrides;
-  std::string config;  ///< folder; empty: ./config, else near the program
+  std::string config;  ///< folder of the configuration; empty: ./config, otherwise near the program
   std::string robot;   ///< robot file; empty: config/robots/sim.yaml
   int jobs = 1;
   bool json = false;
 };
 void add_common(CLI::App& verb, CommonOptions& options);
 
-/// A file named on the command line: as it is, else NAME.yaml in a folder of the configuration.
+/// The path of a file named on the command line: as it is, or NAME.yaml in a folder of the configuration.
 [[nodiscard]] std::filesystem::path config_folder(const CommonOptions& options);
 [[nodiscard]] std::filesystem::path robot_file(const CommonOptions& options);
 [[nodiscard]] std::filesystem::path world_file(const CommonOptions& options, const std::string& name);
-/// Progress is for people: only where stderr is a terminal.
+/// Whether to show progress: only where stderr is a terminal.
 [[nodiscard]] bool show_progress();
-/// Prints the error; kExitFailed.
+/// Prints the error and returns kExitFailed.
 [[nodiscard]] int report_error(const std::string& message);
 
 /// Names of the strategies of exploration.
 [[nodiscard]] std::vector<std::string> explore_strategies();
 
-/// Set up a verb; the returned function runs it.
+/// Each function sets up a verb; the returned function runs it.
 using Verb = std::function<int()>;
 [[nodiscard]] Verb add_reproduce(CLI::App& app);
 [[nodiscard]] Verb add_search(CLI::App& app);

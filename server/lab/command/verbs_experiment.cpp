@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/config/number_text.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/active_slam/reproduce_active_slam.hpp"
 #include "server/lab/command/verbs.hpp"
@@ -151,10 +151,10 @@ Result<std::vector<GroupSummary>> run_and_tabulate(const SearchOptions& o) {
     return tl::unexpected<Error>(results.error());
   }
   const std::vector<GroupSummary> groups = summarise(*results);
-  if (const Status ok = image::write_file(o.common.out / "runs.csv", runs_csv(*results)); !ok) {
+  if (const Status ok = files::write_file(o.common.out / "runs.csv", runs_csv(*results)); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
-  if (const Status ok = image::write_file(o.common.out / "summary.csv", summary_csv(groups)); !ok) {
+  if (const Status ok = files::write_file(o.common.out / "summary.csv", summary_csv(groups)); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   std::cout << (o.common.json ? summary_json(groups) : summary_text(groups)) << std::flush;

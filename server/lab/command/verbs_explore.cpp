@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/config/number_text.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "server/lab/active_slam/explore_experiment.hpp"
 #include "server/lab/command/verbs.hpp"
 #include "server/lab/experiments/seeds.hpp"
@@ -36,7 +36,7 @@ struct ExploreOptions {
 void add_options(CLI::App& verb, ExploreOptions& o) {
   add_common(verb, o.common);
   verb.add_option("--world", o.worlds, "World file, or the name of one in worlds/ (repeatable)")->capture_default_str();
-  verb.add_option("--strategy", o.strategies, "How the robot chooses its way (repeatable)")
+  verb.add_option("--strategy", o.strategies, "How the robot chooses its path (repeatable)")
       ->check(CLI::IsMember(explore_strategies()))
       ->capture_default_str();
   verb.add_option("--time-limit", o.time_limit_s, "Longest robot time of a run, s")
@@ -110,10 +110,10 @@ Status run(const ExploreOptions& o) {
   }
   const Table runs = explore_runs_table(*results);
   const Table summary = explore_summary_table(*results);
-  if (Status ok = image::write_file(o.common.out / "runs.csv", runs.csv()); !ok) {
+  if (Status ok = files::write_file(o.common.out / "runs.csv", runs.csv()); !ok) {
     return ok;
   }
-  if (Status ok = image::write_file(o.common.out / "summary.csv", summary.csv()); !ok) {
+  if (Status ok = files::write_file(o.common.out / "summary.csv", summary.csv()); !ok) {
     return ok;
   }
   std::cout << (o.common.json ? explore_json(*results) : summary.text()) << std::flush;

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/command/verbs.hpp"
 #include "server/lab/experiments/seeds.hpp"
@@ -25,10 +25,10 @@ Status save_study(const std::filesystem::path& out, const std::vector<HitRateBin
                   const search::HitRate& fit, const search::HitRate& before) {
   std::error_code error;
   std::filesystem::create_directories(out, error);
-  if (Status ok = image::write_file(out / "hit-rate.csv", hit_rate_csv(bins, size_m, fit)); !ok) {
+  if (Status ok = files::write_file(out / "hit-rate.csv", hit_rate_csv(bins, size_m, fit)); !ok) {
     return ok;
   }
-  if (Status ok = image::write_file(out / "hit-rate.yaml", hit_rate_yaml(fit)); !ok) {
+  if (Status ok = files::write_file(out / "hit-rate.yaml", hit_rate_yaml(fit)); !ok) {
     return ok;
   }
   return image::write_png(out / "hit-rate.png", hit_rate_chart(bins, size_m, fit, before));

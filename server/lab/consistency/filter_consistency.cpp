@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kShareWanted = 0.9;
 constexpr double kReached_m = 0.2;
-constexpr double kTurnGain = 2.0;       ///< 1/s
-constexpr double kTurnFirst_rad = 0.5;  ///< a goal farther off to the side: turn on the spot
+constexpr double kRotationGain = 2.0;     ///< 1/s
+constexpr double kRotateFirst_rad = 0.5;  ///< a goal farther off to the side: rotate on the spot
 constexpr int kTicksPerSecond = 20;
 
 /// Drives to one place after the other by the true pose.
@@ -33,8 +33,8 @@ class Tour {
       return {};
     }
     const double bearing_rad = bearing_to(world_T_base, params_->tour[next_]);
-    const double turn = std::clamp(kTurnGain * bearing_rad, -params_->turn_rad_s, params_->turn_rad_s);
-    return {std::abs(bearing_rad) > kTurnFirst_rad ? 0.0 : params_->speed_m_s, turn};
+    const double rotation = std::clamp(kRotationGain * bearing_rad, -params_->rotation_rad_s, params_->rotation_rad_s);
+    return {std::abs(bearing_rad) > kRotateFirst_rad ? 0.0 : params_->speed_m_s, rotation};
   }
 
  private:
@@ -154,17 +154,17 @@ sim::RobotModel without_systematic_errors(sim::RobotModel model, double odometry
   m.right_wheel_scale = 1.0;
   m.wheel_base_scale = 1.0;
   m.sigma_distance *= odometry_factor;
-  m.sigma_turn *= odometry_factor;
-  m.sigma_turn_per_distance *= odometry_factor;
+  m.sigma_rotation *= odometry_factor;
+  m.sigma_rotation_per_distance *= odometry_factor;
   return model;
 }
 
 sim::RobotModel with_uneven_wheels(sim::RobotModel model, const UnevenWheels& wheels, Rng& rng) {
   sim::OdometryModel& m = model.odometry;
-  const double way = rng.normal(wheels.way_sigma);
-  const double half_difference = 0.5 * model.wheel_base_m * rng.normal(wheels.bend_sigma_rad_per_m);
-  m.left_wheel_scale *= 1.0 + way - half_difference;
-  m.right_wheel_scale *= 1.0 + way + half_difference;
+  const double scale = rng.normal(wheels.scale_sigma);
+  const double half_difference = 0.5 * model.wheel_base_m * rng.normal(wheels.drift_sigma_rad_per_m);
+  m.left_wheel_scale *= 1.0 + scale - half_difference;
+  m.right_wheel_scale *= 1.0 + scale + half_difference;
   m.wheel_base_scale *= 1.0 + rng.normal(wheels.base_sigma);
   return model;
 }

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/consistency/sp_tracker.hpp"
 #include "server/options/world_options.hpp"
@@ -20,7 +20,7 @@ struct Case {
   const char* file;
 };
 /// What wheels that nobody has calibrated are commonly off by.
-constexpr UnevenWheels kUneven{.way_sigma = 0.02, .bend_sigma_rad_per_m = 0.02, .base_sigma = 0.02};
+constexpr UnevenWheels kUneven{.scale_sigma = 0.02, .drift_sigma_rad_per_m = 0.02, .base_sigma = 0.02};
 const std::array<Case, 4> kCases = {Case{"odometry", 1.0, {}, &sp_tracker, "r2.csv"},
                                     Case{"odometry-doubled", 2.0, {}, &sp_tracker, "r2-double.csv"},
                                     Case{"local-maps", 1.0, {}, &local_maps_tracker, "r2-local-maps.csv"},
@@ -31,8 +31,8 @@ slam::LineSlamParams line_slam_params(const sim::RobotModel& model) {
   params.extractor.bearing_sigma_rad = model.lidar.sigma_bearing_rad;
   params.odometry.along_sigma_m_per_sqrt_m = model.odometry.sigma_distance;
   params.odometry.across_sigma_m_per_sqrt_m = 0.0;
-  params.odometry.theta_sigma_rad_per_sqrt_m = model.odometry.sigma_turn_per_distance;
-  params.odometry.theta_sigma_rad_per_sqrt_rad = model.odometry.sigma_turn;
+  params.odometry.theta_sigma_rad_per_sqrt_m = model.odometry.sigma_rotation_per_distance;
+  params.odometry.theta_sigma_rad_per_sqrt_rad = model.odometry.sigma_rotation;
   params.odometry_scale.max = 1.0;
   // Walls of the simulator are straight and its scanner is level: what real ones add would hide the filter's own.
   params.observation = {};
@@ -89,7 +89,7 @@ Status reproduce_consistency(const ReproduceParams& params, Report& report) {
     if (!study) {
       return tl::unexpected<Error>(study.error());
     }
-    if (Status ok = image::write_file(params.out / one.file, nees_table(*study).csv()); !ok) {
+    if (Status ok = files::write_file(params.out / one.file, nees_table(*study).csv()); !ok) {
       return ok;
     }
     report.add(nees_check(one.name, *study));

@@ -8,18 +8,18 @@
 
 namespace seeker::lab {
 
-/// r2.csv, r2-double.csv (twice the odometry noise), r2-local-maps.csv (across joins), r2-uneven.csv (wheels that
-/// nobody has calibrated, across joins), r2-nees.png; a line per case to the report.
+/// Writes r2.csv, r2-double.csv (twice the odometry noise), r2-local-maps.csv (across joins), r2-uneven.csv (wheels
+/// without calibration, across joins), r2-nees.png, and a line for each case to the report.
 [[nodiscard]] Status reproduce_consistency(const ReproduceParams& params, Report& report);
 
 /// The tour of R2 through the world `office-no-target`: corridor, three rooms and back.
 [[nodiscard]] std::vector<Point2> office_tour();
-/// The SPmap alone, told what the robot's sensors are like.
+/// Makes the SPmap alone, with the true parameters of the robot's sensors.
 [[nodiscard]] MakeTracker sp_tracker();
-/// Line SLAM told the same: a new local map every 10 m, loops not closed, so that the covariance goes through the
-/// joins.
+/// Makes line SLAM with the same parameters: a new local map every 10 m and no loop closures, so that the covariance
+/// passes through the joins.
 [[nodiscard]] MakeTracker local_maps_tracker();
-/// The same, and it learns what the wheels are off by all the time.
+/// Makes the same with estimation of the systematic errors of the wheels.
 [[nodiscard]] MakeTracker learning_tracker();
 
 }  // namespace seeker::lab

@@ -8,18 +8,18 @@ SpTracker::SpTracker(const SpTrackerParams& params)
     : params_(params), extractor_(params.lines), map_({}, Matrix3::Zero(), params.map) {}
 
 Matrix3 SpTracker::increment_covariance(const Pose2& increment) const {
-  const double way_m = std::hypot(increment.x_m, increment.y_m);
+  const double distance_m = std::hypot(increment.x_m, increment.y_m);
   const sim::OdometryModel& m = params_.odometry;
-  const double along = m.sigma_distance * m.sigma_distance * way_m;
-  const double turn = m.sigma_turn * m.sigma_turn * std::abs(increment.theta_rad) +
-                      m.sigma_turn_per_distance * m.sigma_turn_per_distance * way_m;
+  const double along = m.sigma_distance * m.sigma_distance * distance_m;
+  const double rotation = m.sigma_rotation * m.sigma_rotation * std::abs(increment.theta_rad) +
+                          m.sigma_rotation_per_distance * m.sigma_rotation_per_distance * distance_m;
   const double slip = params_.slip_sigma_m * params_.slip_sigma_m;
-  // The heading walks at random on the way: its integral is the error across.
+  // The heading error is a random walk along the path: its integral is the lateral error.
   Matrix3 c = Matrix3::Zero();
   c(0, 0) = along + slip;
-  c(1, 1) = turn * way_m * way_m / 3.0 + slip;
-  c(1, 2) = c(2, 1) = turn * way_m / 2.0;
-  c(2, 2) = turn;
+  c(1, 1) = rotation * distance_m * distance_m / 3.0 + slip;
+  c(1, 2) = c(2, 1) = rotation * distance_m / 2.0;
+  c(2, 2) = rotation;
   return c;
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// The SPmap alone as a pose tracker, for experiment R2: lines of each scan into one map that is never cut.
+/// The SPmap alone as a pose tracker, for experiment R2: lines of each scan are added to one map that is never divided.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,9 @@ struct SpTrackerParams {
   lines::FastParams lines;
   lines::ObservationParams observation;
   slam::SpMapParams map;
-  sim::OdometryModel odometry;    ///< its random part is what the increments are believed to be off by
-  double slip_sigma_m = 0.00002;  ///< of every increment, across and along: keeps its covariance positive definite
+  sim::OdometryModel odometry;  ///< its random part is the noise model of the increments
+  /// Standard deviation of the slip of every increment, along and lateral; keeps its covariance positive definite.
+  double slip_sigma_m = 0.00002;
 };
 
 class SpTracker final : public slam::PoseTracker {

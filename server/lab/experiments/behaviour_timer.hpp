@@ -1,5 +1,5 @@
 /// \file
-/// What deciding costs and what is decided, gathered around the behaviours that a loop makes.
+/// Cost and number of decisions, recorded around the behaviours that a loop makes.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@
 namespace seeker::lab {
 
 struct DecisionLog {
-  int decisions = 0;         ///< of explorations
-  double processor_s = 0.0;  ///< of the thread, in all steps of behaviours
-  std::string phase;         ///< of the newest step
+  int decisions = 0;         ///< number of decisions of explorations
+  double processor_s = 0.0;  ///< processor time of the thread in all steps of behaviours
+  std::string phase;         ///< phase of the newest step
 };
 
-/// A factory of the same behaviours that write into `log`.
+/// A factory of the same behaviours that also write into `log`.
 [[nodiscard]] app::BehaviourFactory watched(app::BehaviourFactory factory, std::shared_ptr<DecisionLog> log);
 
 }  // namespace seeker::lab

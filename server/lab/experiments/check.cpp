@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-#include "server/lab/experiments/json_printer.hpp"
+#include <nlohmann/json.hpp>
+
+#include "server/lab/experiments/described_json.hpp"
 
 namespace seeker::lab {
 
@@ -26,16 +28,16 @@ bool Report::passed() const {
 }
 
 std::string Report::json() const {
-  std::string text = "[";
+  auto list = nlohmann::ordered_json::array();
   for (const Check& check : checks_) {
-    text += text.size() > 1 ? ",\n " : "\n ";
-    text += "{\"id\": " + json_string(check.id) + ", \"passed\": " + (check.passed ? "true" : "false");
+    nlohmann::ordered_json& row = list.emplace_back();
+    row["id"] = check.id;
+    row["passed"] = check.passed;
     for (const auto& [name, value] : check.figures) {
-      text += ", " + json_string(name) + ": " + json_string(value);
+      row[name] = value;
     }
-    text += "}";
   }
-  return text + "\n]\n";
+  return json_lines(list);
 }
 
 }  // namespace seeker::lab

@@ -9,16 +9,16 @@
 
 namespace seeker::lab {
 
-/// One condition and the figures it rests on.
+/// One condition and the figures that it is based on.
 struct Check {
-  std::string id;  ///< of spec S7, e.g. "R5"
+  std::string id;  ///< number in spec S7, e.g. "R5"
   bool passed = false;
   std::vector<std::pair<std::string, std::string>> figures;  ///< name and value, neither with spaces
 };
 
 [[nodiscard]] std::string line_of(const Check& check);
 
-/// Collects checks and prints each as it comes.
+/// Collects checks and prints each one when it is added.
 class Report {
  public:
   explicit Report(std::ostream* out) : out_(out) {}

@@ -17,7 +17,8 @@ namespace seeker::lab {
 /// Ends its child (SIGTERM, then SIGKILL) when it is destroyed.
 class ChildProcess {
  public:
-  /// `arguments` begin behind the program's name; stdout and stderr go to the file `log`. Error: kIo.
+  /// Starts a program. `arguments` do not include the program's name; stdout and stderr go to the file `log`. Error:
+  /// kIo.
   [[nodiscard]] static Result<ChildProcess> start(const std::filesystem::path& program,
                                                   const std::vector<std::string>& arguments,
                                                   const std::filesystem::path& log);
@@ -27,9 +28,9 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();
 
-  /// The exit code (128 + signal where a signal ended it); nothing when it still runs after `limit`.
+  /// The exit code (128 + signal where a signal ended the child). Nothing: it still runs after `limit`.
   [[nodiscard]] std::optional<int> wait(std::chrono::milliseconds limit);
-  /// SIGTERM; the exit code as of wait().
+  /// Sends SIGTERM; the exit code is that of wait().
   [[nodiscard]] std::optional<int> terminate(std::chrono::milliseconds limit);
   [[nodiscard]] bool running() { return !wait(std::chrono::milliseconds(0)).has_value(); }
 
@@ -40,7 +41,7 @@ class ChildProcess {
   std::optional<int> exit_code_;
 };
 
-/// The folder of this program's own executable; empty when the system does not tell.
+/// The folder of this program's own executable; empty when the system does not report it.
 [[nodiscard]] std::filesystem::path own_folder();
 
 }  // namespace seeker::lab

@@ -1,5 +1,5 @@
 /// \file
-/// Reading back what a run left.
+/// Reads the results of finished runs.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 
 namespace seeker::lab {
 
-/// A run's numbers as save() left them. Errors: kNotFound, those of the strict reader, kUnsupportedVersion for another
-/// schema than this program's.
+/// The numbers of a run that save() wrote. Errors: kNotFound, those of the strict reader, and kUnsupportedVersion for a
+/// schema that differs from this program's.
 template <class Run>
 [[nodiscard]] Result<Run> load_run(const std::filesystem::path& path) {
   Run run;

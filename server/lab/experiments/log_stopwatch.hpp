@@ -1,6 +1,5 @@
 /// \file
-/// What a scan costs: by the clock on the wall, and by the processor time of the thread, which is not lengthened by
-/// whatever else the machine does.
+/// Cost of a scan: wall time, and processor time of the thread, which does not depend on other load of the machine.
 #pragma once
 
 #include <chrono>
@@ -8,7 +7,7 @@
 
 namespace seeker::lab {
 
-/// Of all scans of a log, in ms.
+/// Times of all scans of a log, in ms.
 struct TimeFigures {
   double mean_ms = 0.0;
   double median_ms = 0.0;
@@ -16,16 +15,16 @@ struct TimeFigures {
   double max_ms = 0.0;
 };
 
-/// Figures of a list; zeros for an empty one. Quantiles are entries of the list (the smallest that has so large a
-/// share of it at or below).
+/// Figures of a list; zeros for an empty one. Quantiles are entries of the list (the smallest entry with at least that
+/// share of the list at or below it).
 [[nodiscard]] TimeFigures time_figures(std::vector<double> times_s);
 
-/// Adds up what passes between start() and stop().
+/// Adds up the time between start() and stop().
 class Stopwatch {
  public:
   void start();
   void stop();
-  /// Ends a scan: its times join the lists, and the next one begins at zero.
+  /// Ends a scan: its times are added to the lists, and the next scan begins at zero.
   void lap();
 
   [[nodiscard]] TimeFigures wall() const { return time_figures(wall_s_); }
@@ -44,7 +43,7 @@ class Stopwatch {
 [[nodiscard]] double thread_seconds();
 /// Processor time of the whole process so far, s.
 [[nodiscard]] double process_seconds();
-/// The largest memory this process has had so far.
+/// Peak memory of this process so far, in MB.
 [[nodiscard]] double peak_memory_mb();
 
 }  // namespace seeker::lab

@@ -1,5 +1,5 @@
 /// \file
-/// What every reproduction of a paper is given.
+/// Parameters of every reproduction of a paper.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct ReproduceParams {
   std::vector<std::string> overrides;
   int jobs = 1;
   bool show_progress = false;
-  std::vector<std::string> worlds;      ///< of active-slam: only these; empty: all
-  std::vector<std::string> strategies;  ///< of active-slam: only these; empty: all
-  /// The smallest form of everything that is regenerated: the smallest world, the fewest pictures. For tests.
+  std::vector<std::string> worlds;      ///< for active-slam: the worlds to run; empty: all
+  std::vector<std::string> strategies;  ///< for active-slam: the strategies to run; empty: all
+  /// For tests: regenerates the smallest form of everything, with the smallest world and the fewest pictures.
   bool smallest = false;
-  bool sockets = true;  ///< false: leave out R12, the only part with processes and network
+  bool sockets = true;  ///< false: leave out R12, the only part with processes and a network
 };
 
 }  // namespace seeker::lab

@@ -23,7 +23,7 @@ void run_in_threads(int jobs, const std::function<void()>& work) {
   cv::setNumThreads(threads_before);
 }
 
-void tell_progress(const std::string& text) {
+void print_progress(const std::string& text) {
   if (text.empty()) {
     std::fputs("\n", stderr);
   } else {

@@ -1,5 +1,5 @@
 /// \file
-/// Many runs of one kind: each leaves a file, and only those without one are made.
+/// Runs many experiments of one kind: each leaves a file, and only those without a file are made.
 #pragma once
 
 #include <atomic>
@@ -15,23 +15,25 @@
 
 namespace seeker::lab {
 
-/// One kind of run: how it is named, known again, made. `Run` has a member `settings`.
+/// One kind of run: its file name, its settings, and the functions that load and make it. `Run` has a member
+/// `settings`.
 template <class Spec, class Run>
 struct RunKind {
-  std::function<std::filesystem::path(const Spec&)> file;    ///< where its numbers are kept
-  std::function<Result<std::string>(const Spec&)> settings;  ///< hash of everything that shapes it but the seed
+  std::function<std::filesystem::path(const Spec&)> file;    ///< file of its results
+  std::function<Result<std::string>(const Spec&)> settings;  ///< hash of everything that affects it except the seed
   std::function<Result<Run>(const std::filesystem::path&)> load;
-  std::function<Result<Run>(const Spec&, const std::string& settings)> make;  ///< and keeps its files
-  std::function<std::string(const Run&)> tell;                                ///< one line of progress
+  std::function<Result<Run>(const Spec&, const std::string& settings)> make;  ///< makes the run and writes its files
+  std::function<std::string(const Run&)> progress_line;                       ///< one line of progress
 };
 
-/// Calls `work` in so many threads at once, this one among them, with OpenCV's own threads switched off meanwhile.
+/// Calls `work` in this number of threads at once, including the calling one, with OpenCV's own threads switched off
+/// meanwhile.
 void run_in_threads(int jobs, const std::function<void()>& work);
-/// Overwrites the line of progress on stderr; an empty text ends it.
-void tell_progress(const std::string& text);
+/// Overwrites the progress line on stderr; an empty text ends it.
+void print_progress(const std::string& text);
 
-/// The runs of all specs, in their order: read where a file with the same settings is there, made where not. A run that
-/// cannot be made does not stop the others; then the error names the first of them.
+/// The runs of all specs, in their order: read where a file with the same settings exists, otherwise made. A run that
+/// cannot be made does not stop the others; the error then names the first of them.
 template <class Spec, class Run>
 [[nodiscard]] Result<std::vector<Run>> resume_runs(const std::vector<Spec>& specs, const RunKind<Spec, Run>& kind,
                                                    int jobs, bool show_progress) {
@@ -51,7 +53,8 @@ template <class Spec, class Run>
     Result<Run> run = kind.make(spec, *settings);
     if (run && show_progress) {
       const std::scoped_lock lock(mutex);
-      tell_progress(std::to_string(++made) + " new of " + std::to_string(specs.size()) + " runs: " + kind.tell(*run));
+      print_progress(std::to_string(++made) + " new of " + std::to_string(specs.size()) +
+                     " runs: " + kind.progress_line(*run));
     }
     return run;
   };
@@ -67,7 +70,7 @@ template <class Spec, class Run>
     }
   });
   if (made > 0) {
-    tell_progress("");
+    print_progress("");
   }
   if (error) {
     return tl::unexpected<Error>(*error);

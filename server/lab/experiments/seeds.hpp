@@ -1,5 +1,5 @@
 /// \file
-/// Lists of seeds as people write them.
+/// Lists of seeds in the form that people write.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace seeker::lab {
 
-/// "3" or "1-20" or "1-3,7". kInvalidArgument: no number, a range that runs backwards, more than 10000 seeds.
+/// Parses "3" or "1-20" or "1-3,7". kInvalidArgument: no number, a descending range, more than 10000 seeds.
 [[nodiscard]] Result<std::vector<std::uint64_t>> parse_seeds(const std::string& text);
-/// The shortest text parse_seeds() reads as these seeds; they need not be in order.
+/// The shortest text that parse_seeds() reads as these seeds; they may be in any order.
 [[nodiscard]] std::string print_seeds(std::vector<std::uint64_t> seeds);
 
 }  // namespace seeker::lab

@@ -1,5 +1,5 @@
 /// \file
-/// What every experiment with a simulated robot shares: what to run, in which world, and who watches it.
+/// Common parts of all experiments with a simulated robot: robot and world of a run, and the observation of it.
 #pragma once
 
 #include <cstdint>
@@ -26,35 +26,36 @@ struct SimSpec {
   std::vector<std::string> overrides;  ///< "key.path=value" of the robot file
 };
 
-/// The robot file with the run's world, seed and overrides; as fast as the machine can.
+/// The robot file with the run's world, seed and overrides, at the highest speed.
 [[nodiscard]] Result<app::RobotOptions> sim_options(const SimSpec& spec);
 
-/// Of what shapes every run: the options (world by name, seed left out), the world's file and its base, the time limit.
-/// A kind of run adds what else shapes it. Errors: those of the options, and of the world's files.
+/// Hash of what affects every run: the options (world by name, without seed), the world's file and its base, the time
+/// limit. A kind of run adds its further parameters. Errors: those of the options and of the world's files.
 [[nodiscard]] Result<TextHash> settings_hash(Result<app::RobotOptions> options, const SimSpec& spec);
 
-/// Where the robot really was at one step.
+/// The true pose of the robot at one step.
 struct TrueStep {
   RobotTime stamp;
   Pose2 world_T_base;
 };
 
-/// Watches a loop and the truth behind it from outside while it runs. Both must outlive it.
+/// Observes a loop and the true state of its robot from outside while it runs. Both must outlive it.
 class RunWatch {
  public:
   RunWatch(app::RobotLoop& loop, const sim::Simulation& simulation);
 
-  /// Before every pass of the loop.
+  /// Call before every pass of the loop.
   void look();
 
-  /// At the moment of a stamp; of the last step for later ones. There must have been one.
+  /// The true pose at a stamp; for later stamps that of the last step. At least one step must be recorded.
   [[nodiscard]] const Pose2& world_T_base_at(RobotTime stamp) const;
   [[nodiscard]] sim::GroundTruth truth() const { return simulation_.truth(); }
   [[nodiscard]] const std::vector<TrueStep>& steps() const { return steps_; }
   [[nodiscard]] std::vector<Pose2> true_path() const;  ///< in the frame `world`, thinned out
   [[nodiscard]] const std::vector<api::Event>& events() const { return events_; }
-  [[nodiscard]] std::string event_hash() const { return hash_.hex(); }  ///< kinds, texts, severities, mission times
-  [[nodiscard]] double error_m() const { return error_m_; }             ///< believed against true pose, last look
+  /// Over kinds, texts, severities and mission times.
+  [[nodiscard]] std::string event_hash() const { return hash_.hex(); }
+  [[nodiscard]] double error_m() const { return error_m_; }  ///< estimated against true pose at the last look()
   [[nodiscard]] double error_rad() const { return error_rad_; }
   [[nodiscard]] double max_error_m() const { return max_error_m_; }
 
@@ -71,12 +72,12 @@ class RunWatch {
   double max_error_m_ = 0.0;
 };
 
-/// Starts the loop and the mission and goes on until it has ended, as fast as the machine can; `look` is called before
-/// every pass of the loop. The wall time it took, in seconds; the robot's own error where it refuses the mission.
+/// Starts the loop and the mission and steps until the mission has ended, at the highest speed; `look` is called before
+/// every pass of the loop. Returns the wall time in seconds, or the robot's own error where it refuses the mission.
 [[nodiscard]] Result<double> run_mission(app::RobotLoop& loop, const api::MissionRequest& request,
                                          const std::function<void()>& look);
 
-/// A mission's log for people: robot time of the mission, kind and text of every event.
+/// The log of a mission for people: robot time of the mission, kind and text of every event.
 [[nodiscard]] std::string log_text(const std::vector<api::Event>& events);
 
 }  // namespace seeker::lab

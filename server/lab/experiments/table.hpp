@@ -12,18 +12,18 @@ class Table {
   explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
 
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  /// RFC 4180, lines end in \n.
+  /// The table as CSV (RFC 4180); lines end in \n.
   [[nodiscard]] std::string csv() const;
-  /// A table of Markdown, as it is.
+  /// The table in Markdown.
   [[nodiscard]] std::string markdown() const;
-  /// Columns padded to their width, the first two to the left, numbers to the right.
+  /// The table with columns padded to their width, the first two aligned left, numbers right.
   [[nodiscard]] std::string text() const;
 
  private:
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// A number with so many digits behind the point.
+/// A number with this many digits after the decimal point.
 [[nodiscard]] std::string fixed(double value, int digits);
 
 }  // namespace seeker::lab

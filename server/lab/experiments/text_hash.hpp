@@ -1,5 +1,5 @@
 /// \file
-/// A hash that names texts: of settings, of logs.
+/// A hash that identifies texts: of settings, of logs.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace seeker::lab {
 
-/// FNV-1a, 64 bits, as 16 hexadecimal digits: names a text, protects nothing.
+/// FNV-1a, 64 bits, as 16 hexadecimal digits. It identifies a text but gives no protection against manipulation.
 class TextHash {
  public:
   void add(std::string_view text);

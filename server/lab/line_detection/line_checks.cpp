@@ -128,7 +128,7 @@ void join(Sensitivity& all, const Sensitivity& one) {
 
 lines::PaperParams scaled_paper(double scale) {
   lines::PaperParams params = printed_line_params();
-  params.start = {scale * params.start.gap_m, scale * params.start.turn_m};
+  params.start = {scale * params.start.gap_m, scale * params.start.corner_m};
   return params;
 }
 

@@ -5,7 +5,7 @@
 
 #include "common/image/png.hpp"
 #include "server/app/composition/robot_options.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/slam/plot_trajectories.hpp"
 #include "server/lab/slam/slam_command.hpp"

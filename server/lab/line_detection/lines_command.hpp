@@ -1,5 +1,5 @@
 /// \file
-/// seeker-lab lines: the line extractor over a recorded log.
+/// Command `seeker-lab lines`: the line extractor on a recorded log.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@
 
 namespace seeker::lab {
 
-/// What the extractor found in a log, and what it cost.
+/// Results of the extractor on a log, and its cost.
 struct LineStatistics {
   std::uint64_t scans = 0;
-  std::uint64_t beams = 0;  ///< of the first scan
+  std::uint64_t beams = 0;  ///< number of beams of the first scan
   std::uint64_t lines = 0;
   double lines_per_scan = 0.0;
   std::uint64_t most_lines = 0;
   double points_on_lines = 0.0;  ///< share of the returns
-  double range_sigma_m = 0.0;    ///< noise the extractor worked with, median over the scans
-  TimeFigures scan;              ///< on the wall
+  double range_sigma_m = 0.0;    ///< noise that the extractor used, median over the scans
+  TimeFigures scan;              ///< wall time
   TimeFigures scan_processor;    ///< processor time of the thread
-  std::uint64_t bad_lines = 0;   ///< of the log's text
+  std::uint64_t bad_lines = 0;   ///< malformed lines of the log's text
 };
 
 /// Extracts the lines of every scan. Errors of ReplaySource::open(); kParse when the log has no scan.
@@ -38,7 +38,7 @@ struct LinesOptions {
   std::filesystem::path robot;
   std::filesystem::path config;
   std::vector<std::string> overrides;
-  std::optional<std::uint64_t> scan;  ///< draw this one, the first being 0
+  std::optional<std::uint64_t> scan;  ///< index of the scan to draw, the first being 0
   std::filesystem::path out;          ///< PNG of that scan
   bool json = false;
 };

@@ -1,7 +1,7 @@
 #include "server/lab/line_detection/reproduce_line_detection.hpp"
 
 #include "common/core/angle.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/line_detection/line_scene.hpp"
@@ -40,7 +40,7 @@ std::string table1_csv(const LaserScan& scan, const lines::ScanLines& found) {
 lines::PaperParams printed_line_params() {
   lines::PaperParams params;
   params.fit_error_sigmas = 0.0;
-  params.turn_sigmas = 0.0;
+  params.corner_sigmas = 0.0;
   params.noise.sigma_m = kTable1Sigma_m;
   return params;
 }
@@ -60,11 +60,11 @@ Status reproduce_line_detection(const ReproduceParams& params, Report& report) {
   if (Status ok = image::write_png(params.out / "fig4-fits.png", table1_fit_figure(scan, found)); !ok) {
     return ok;
   }
-  if (Status ok = image::write_file(params.out / "table1.csv", table1_csv(scan, found)); !ok) {
+  if (Status ok = files::write_file(params.out / "table1.csv", table1_csv(scan, found)); !ok) {
     return ok;
   }
   check_table1(params.seeds, report);
-  return image::write_file(params.out / "thresholds.csv", check_thresholds(params.seeds, report));
+  return files::write_file(params.out / "thresholds.csv", check_thresholds(params.seeds, report));
 }
 
 }  // namespace seeker::lab

@@ -9,20 +9,21 @@
 
 namespace seeker::lab {
 
-/// fig3-lines.png, fig4-fits.png, table1.csv, thresholds.csv and one line per condition to the report.
+/// Writes fig3-lines.png, fig4-fits.png, table1.csv, thresholds.csv, and one line for each condition to the report.
 [[nodiscard]] Status reproduce_line_detection(const ReproduceParams& params, Report& report);
 
-/// The paper's detector as printed: the error limit is 5 mm whatever the noise.
+/// The paper's detector as printed: the error limit is 5 mm for any noise.
 [[nodiscard]] lines::PaperParams printed_line_params();
 
 /// Fig 3: the scan with its lines.
 [[nodiscard]] Image table1_figure(const LaserScan& scan, const lines::ScanLines& found);
-/// Fig 4: distances of the points of each line from it.
+/// Fig 4: distances of the points of each line from the line.
 [[nodiscard]] Image table1_fit_figure(const LaserScan& scan, const lines::ScanLines& found);
 
-/// R10 over the seeds.
+/// Checks R10 for the seeds.
 void check_table1(const std::vector<std::uint64_t>& seeds, Report& report);
-/// R10: initial thresholds times 0.5 to 2 against split-and-merge with the same thresholds. The table is a CSV.
+/// Checks R10: initial thresholds times 0.5 to 2 against split-and-merge with the same thresholds. Returns the table as
+/// CSV.
 [[nodiscard]] std::string check_thresholds(const std::vector<std::uint64_t>& seeds, Report& report);
 
 }  // namespace seeker::lab

@@ -9,12 +9,12 @@
 
 #include "common/config/yaml.hpp"
 #include "common/core/angle.hpp"
-#include "common/image/files.hpp"
-#include "server/app/composition/device_factory.hpp"
+#include "common/files/files.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/app/runtime/update_hub.hpp"
 #include "server/fleet/map_merger.hpp"
 #include "server/fleet/topology_map.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/resumable.hpp"
 #include "server/lab/experiments/seeds.hpp"
 #include "server/lab/experiments/table.hpp"
@@ -26,7 +26,7 @@
 namespace seeker::lab {
 namespace {
 
-/// One robot: its loop, what its behaviour tells, its map ready for being merged.
+/// One robot: its loop, the reports of its behaviour, its map ready for being merged.
 struct Member {
   std::string id;
   app::UpdateHub hub;
@@ -59,7 +59,7 @@ double seen_m2(const std::optional<Grid<std::uint8_t>>& map) {
   return static_cast<double>(free) * map->frame().resolution_m * map->frame().resolution_m;
 }
 
-/// What the robots tell each other between two ticks.
+/// The data that the robots exchange between two ticks.
 class Exchange {
  public:
   Exchange(Members& members, const FleetSpec& spec)
@@ -84,7 +84,7 @@ class Exchange {
       carry_floors();
     }
     for (std::size_t k = 0; k < members_.size(); ++k) {
-      tell(k);
+      deliver(k);
     }
     if (now >= next_share_) {
       next_share_ = now + kSharePeriod;
@@ -142,7 +142,7 @@ class Exchange {
     return {distance_m(truth, *relation.a_T_b), std::abs(wrap_angle(truth.theta_rad - relation.a_T_b->theta_rad))};
   }
 
-  void tell(std::size_t to) {
+  void deliver(std::size_t to) {
     FleetView view{members_[to]->id, {}, floors_[to]};
     for (const Relation& relation : relations_) {
       if (relation.a_T_b && (relation.a == to || relation.b == to)) {
@@ -360,16 +360,16 @@ Result<std::vector<FleetResult>> fleet_missing(const std::vector<FleetSpec>& spe
     result->settings = settings;
     std::error_code error;
     std::filesystem::create_directories(kind.file(spec).parent_path(), error);
-    if (const Status kept = image::write_file(kind.file(spec), to_json(*result)); !kept) {
+    if (const Status kept = files::write_file(kind.file(spec), to_json(*result)); !kept) {
       return tl::unexpected<Error>(kept.error());
     }
     const std::filesystem::path log = std::filesystem::path(kind.file(spec)).replace_extension(".log");
-    if (const Status kept = image::write_file(log, result->log); !kept) {
+    if (const Status kept = files::write_file(log, result->log); !kept) {
       return tl::unexpected<Error>(kept.error());
     }
     return result;
   };
-  kind.tell = [](const FleetResult& result) {
+  kind.progress_line = [](const FleetResult& result) {
     return std::to_string(result.robots) + " robots, seed " + std::to_string(result.seed) + ": " +
            std::to_string(result.merged) + " of " + std::to_string(result.pairs) + " merged, " +
            fixed(result.world_time_s, 0) + " s";

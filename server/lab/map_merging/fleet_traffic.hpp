@@ -1,5 +1,5 @@
 /// \file
-/// What a robot that joins a fleet sends to the main one (app::FleetFollower), counted without a network.
+/// Amount of data that a robot of a fleet sends to the main one (app::FleetFollower), counted without a network.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace seeker::lab {
 
-/// Payloads of all messages of one robot so far; frames and what the network adds are left out.
+/// Counts the payloads of all messages of one robot so far; frames and the overhead of the network are left out.
 class FleetTraffic {
  public:
   explicit FleetTraffic(std::string robot_id) : robot_id_(std::move(robot_id)) {}
 
-  /// The manifest, and the pieces that were not sent yet. A map that cannot be packed sends nothing.
+  /// Counts the manifest and the pieces that were not sent yet. A map that cannot be packed sends nothing.
   void announce(const LineMap& map);
   void share(const RobotTopology& topology);
   void floor(const std::vector<OccupancyTile>& tiles);

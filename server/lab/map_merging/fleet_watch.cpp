@@ -32,8 +32,8 @@ void FleetWatch::add(std::string id, const app::RobotLoop& loop, const sim::Simu
 
 void FleetWatch::look(RobotTime now) {
   for (std::size_t k = 0; k < robots_.size(); ++k) {
-    look_at_touches(k, now);
-    look_at_activity(robots_[k], now);
+    check_contacts(k, now);
+    check_activity(robots_[k], now);
   }
   for (Watched& robot : robots_) {
     robot.velocity = robot.simulation->truth().velocity;
@@ -41,14 +41,14 @@ void FleetWatch::look(RobotTime now) {
   last_ = now;
 }
 
-void FleetWatch::look_at_touches(std::size_t index, RobotTime now) {
+void FleetWatch::check_contacts(std::size_t index, RobotTime now) {
   Watched& robot = robots_[index];
   const sim::GroundTruth truth = robot.simulation->truth();
   if (std::exchange(robot.contacts, truth.contacts) == truth.contacts) {
     return;
   }
   const double radius_m = robot.simulation->model().radius_m;
-  std::string what = "a thing of the building";
+  std::string what = "an object of the building";
   bool is_robot = false;
   for (std::size_t k = 0; k < robots_.size(); ++k) {
     const Watched& other = robots_[k];
@@ -66,7 +66,7 @@ void FleetWatch::look_at_touches(std::size_t index, RobotTime now) {
        "touched at " + text(truth.world_T_base.translation()) + " with " + speed_of(robot.velocity) + ": " + what);
 }
 
-void FleetWatch::look_at_activity(Watched& robot, RobotTime now) {
+void FleetWatch::check_activity(Watched& robot, RobotTime now) {
   const std::optional<api::MissionStatus>& mission = robot.loop->missions().last();
   if (!mission || robot.ended) {
     return;

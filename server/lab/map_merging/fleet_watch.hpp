@@ -1,5 +1,5 @@
 /// \file
-/// Watches the robots of a fleet run against the truth: what each touches, and what it spends its time on.
+/// Compares the robots of a fleet run with the true state: their contacts, and the use of their time.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@ namespace seeker::lab {
 
 class FleetWatch {
  public:
-  /// Both must outlive the watch.
+  /// Adds a robot. Both objects must outlive the watch.
   void add(std::string id, const app::RobotLoop& loop, const sim::Simulation& simulation);
-  /// Between two ticks, while no robot's loop runs.
+  /// Call between two ticks, while no robot's loop runs.
   void look(RobotTime now);
 
-  /// Touches of another robot; one of two robots counts for each of them that drove when it happened.
+  /// Number of contacts with another robot; a contact of two robots counts for each of them that drove at the time.
   [[nodiscard]] int robot_touches() const { return robot_touches_; }
-  /// Robot time that all robots together stood and waited for others, seconds.
+  /// Robot time that all robots together waited for others, in seconds.
   [[nodiscard]] double waited_s() const { return waited_s_; }
-  /// When the first robot had ended; 0 when none has.
+  /// When the first robot had ended; 0 while none has.
   [[nodiscard]] double first_end_s() const { return first_end_s_; }
-  /// One line for every touch, and for whatever a robot began to do: robot time, robot, what.
+  /// One line for every contact and for every activity that a robot began: robot time, robot, text.
   [[nodiscard]] std::string log() const { return log_; }
 
  private:
@@ -33,13 +33,13 @@ class FleetWatch {
     const app::RobotLoop* loop = nullptr;
     const sim::Simulation* simulation = nullptr;
     int contacts = 0;
-    Twist2 velocity;  ///< at the look before: a touch ends motion
+    Twist2 velocity;  ///< velocity at the previous check, because a contact ends motion
     std::string activity;
     bool ended = false;
   };
 
-  void look_at_touches(std::size_t index, RobotTime now);
-  void look_at_activity(Watched& robot, RobotTime now);
+  void check_contacts(std::size_t index, RobotTime now);
+  void check_activity(Watched& robot, RobotTime now);
   void note(RobotTime now, const Watched& robot, const std::string& what);
 
   std::vector<Watched> robots_;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "common/core/angle.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/app/composition/robot_options.hpp"
 #include "server/fleet/joint_map.hpp"
@@ -115,7 +115,7 @@ Status write_results(const MergeOptions& o, const MergeRun& run) {
   if (error) {
     return fail(Errc::kIo, "cannot make the folder " + o.out.string() + ": " + error.message());
   }
-  if (Status ok = image::write_file(o.out / "report.json", std::string_view(merge_json(run))); !ok) {
+  if (Status ok = files::write_file(o.out / "report.json", std::string_view(merge_json(run))); !ok) {
     return ok;
   }
   const Result<Image> picture = merge_picture(run);

@@ -5,7 +5,7 @@
 #include "common/image/canvas.hpp"
 #include "common/image/map_layers.hpp"
 #include "common/image/map_view.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/map_merging/merge_command.hpp"
 #include "server/nav/occupancy_map.hpp"
@@ -177,12 +177,12 @@ Result<Image> merge_picture(const MergeRun& run) {
   for (const MapNode& node : run.joint.map.nodes) {
     nodes[node.id] = node.map_T_node;
   }
-  std::map<std::uint8_t, std::vector<Point2>> ways;
+  std::map<std::uint8_t, std::vector<Point2>> paths;
   for (const MapKeyframe& keyframe : run.joint.map.keyframes) {
     const Pose2 joint_T_base = nodes.at(keyframe.node) * keyframe.node_T_base;
     // A map that is full still takes what lies inside it; the picture shows that.
     (void)occupancy.integrate(unpack_scan(keyframe), joint_T_base);
-    ways[fleet::origin_of_node(keyframe.node).slot].push_back(joint_T_base.translation());
+    paths[fleet::origin_of_node(keyframe.node).slot].push_back(joint_T_base.translation());
   }
   image::MapScene scene;
   scene.occupancy = occupancy.snapshot();
@@ -197,12 +197,12 @@ Result<Image> merge_picture(const MergeRun& run) {
   constexpr double kText_px = 10.0;
   constexpr double kRow_px = 18.0;
   Point2 legend(kRow_px, kRow_px);
-  for (auto& [slot, way] : ways) {
-    for (Point2& p : way) {
+  for (auto& [slot, path] : paths) {
+    for (Point2& p : path) {
       p = view->to_px(p);
     }
     const image::Colour colour = image::series_colour(slot);
-    canvas.polyline(way, {colour, 2.0, image::LineStyle::kSolid, 0.9});
+    canvas.polyline(path, {colour, 2.0, image::LineStyle::kSolid, 0.9});
     canvas.text(legend, run.logs[slot].name, {.colour = colour, .size_px = kText_px, .halo = image::kWhite});
     legend.y() += kRow_px;
   }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/lab/active_slam/explore_experiment.hpp"
 #include "server/lab/active_slam/explore_picture.hpp"
 #include "server/lab/experiments/log_stopwatch.hpp"
@@ -139,10 +139,10 @@ Result<std::vector<ExploreResult>> run_single(const ReproduceParams& params, Rep
     return runs;
   }
   report.add(check_single(*runs));
-  if (Status ok = image::write_file(params.out / "runs.csv", explore_runs_table(*runs).csv()); !ok) {
+  if (Status ok = files::write_file(params.out / "runs.csv", explore_runs_table(*runs).csv()); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
-  if (Status ok = image::write_file(params.out / "table.csv", explore_summary_table(*runs).csv()); !ok) {
+  if (Status ok = files::write_file(params.out / "table.csv", explore_summary_table(*runs).csv()); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   return runs;
@@ -166,7 +166,7 @@ Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
   }
   report.add(check_merges(*fleets));
   report.add(check_sharing(*fleets, *runs));
-  if (Status ok = image::write_file(params.out / "fleet.csv", fleet_table(*fleets).csv()); !ok) {
+  if (Status ok = files::write_file(params.out / "fleet.csv", fleet_table(*fleets).csv()); !ok) {
     return ok;
   }
   if (params.smallest) {
@@ -177,7 +177,7 @@ Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
     return tl::unexpected<Error>(trapped.error());
   }
   report.add(check_trap(*trapped));
-  return image::write_file(params.out / "trap.csv", fleet_table(*trapped).csv());
+  return files::write_file(params.out / "trap.csv", fleet_table(*trapped).csv());
 }
 
 }  // namespace seeker::lab

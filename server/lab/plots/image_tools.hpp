@@ -1,5 +1,5 @@
 /// \file
-/// Putting pictures together on a sheet.
+/// Arranges pictures on a sheet.
 #pragma once
 
 #include <string>
@@ -10,11 +10,12 @@
 namespace seeker::lab {
 
 struct CaptionedImage {
-  std::string caption;  ///< empty: none
+  std::string caption;  ///< empty: no caption
   Image image;
 };
 
-/// Pictures row by row in `columns` columns on white, each with its caption above; grey ones become colour.
+/// Pictures row by row in `columns` columns on white, each with its caption above; grey pictures are converted to
+/// colour.
 [[nodiscard]] Image contact_sheet(const std::vector<CaptionedImage>& pictures, int columns);
 
 }  // namespace seeker::lab

@@ -1,6 +1,6 @@
 /// \file
-/// A simulated world from above on a sheet: a header of text, the world to scale, and below it a legend and a scale
-/// bar.
+/// A sheet with a simulated world seen from above: a header of text, the world to scale, and below it a legend and a
+/// scale bar.
 #pragma once
 
 #include <string>
@@ -34,9 +34,9 @@ class WorldSheet {
   void line(const Point2& a_world, const Point2& b_world, const image::Stroke& stroke) {
     canvas_.line(px(a_world), px(b_world), stroke);
   }
-  /// The title, and the lines below it; as many as the header has room for (its height is the caller's).
+  /// Draws the title and the lines below it; the caller makes the header high enough.
   void head(const std::string& title, const std::vector<std::string>& facts);
-  /// What the strokes mean, in one row below the world, and a bar of a round length below that.
+  /// Draws the meanings of the strokes in one row below the world, and a scale bar of a round length below that.
   void foot(const std::vector<LegendEntry>& legend);
 
  private:

@@ -1,5 +1,6 @@
 /// \file
-/// The poses that a recorded log holds: the odometry that estimators may use, and a mapper's poses for scoring.
+/// The poses that a recorded log holds: the odometry, which estimators may use, and a mapper's poses, which are for
+/// scoring.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +13,10 @@
 namespace seeker::lab {
 
 struct LogPoses {
-  Trajectory odometry;   ///< at the scans; of the odometry records where scans carry none
-  Trajectory corrected;  ///< a mapper's poses of the laser at the scans, where the log has them
+  Trajectory odometry;   ///< odometry at the scans, or of the odometry records where scans carry none
+  Trajectory corrected;  ///< poses of the laser at the scans by a mapper, where the log has them
   std::vector<double> scan_stamps_s;
-  std::vector<double> exact_stamps_s;  ///< of the scans whose host field says `exact`
+  std::vector<double> exact_stamps_s;  ///< stamps of the scans whose host field is `exact`
   drivers::ReplaySummary summary;
 };
 

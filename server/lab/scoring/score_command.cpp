@@ -1,6 +1,6 @@
 #include "server/lab/scoring/score_command.hpp"
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "server/lab/scoring/log_poses.hpp"
 #include "server/lab/scoring/score_report.hpp"
 
@@ -109,7 +109,7 @@ Status write_log_trajectory(const std::filesystem::path& log, LogPoseSource sour
   if (chosen.empty()) {
     return fail(Errc::kNotReady, log.string() + " holds no poses of this kind; choose another --source");
   }
-  return image::write_file(out, tum_text(chosen));
+  return files::write_file(out, tum_text(chosen));
 }
 
 }  // namespace seeker::lab

@@ -1,5 +1,5 @@
 /// \file
-/// seeker-lab score and trajectory: files in, figures out.
+/// Commands `seeker-lab score` and `seeker-lab trajectory`, which read files and print figures.
 #pragma once
 
 #include <filesystem>
@@ -13,23 +13,23 @@ namespace seeker::lab {
 
 struct ScoreOptions {
   std::filesystem::path trajectory;
-  std::filesystem::path relations;    ///< either these,
-  std::filesystem::path reference;    ///< or poses of the base,
-  std::filesystem::path corrections;  ///< or a localiser's poses of the odometry's frame, which need `odometry`
-  std::filesystem::path odometry;     ///< log whose odometry carries poses between scans; empty: interpolated
+  std::filesystem::path relations;    ///< true relations; or
+  std::filesystem::path reference;    ///< true poses of the base; or
+  std::filesystem::path corrections;  ///< a localiser's poses of the odometry's frame, which need `odometry`
+  std::filesystem::path odometry;  ///< log whose odometry gives the motion between scans; empty: poses are interpolated
   RelationParams params;
-  bool exact_only = false;  ///< print only the subset between exactly stamped scans
+  bool exact_only = false;  ///< print only the subset of exactly stamped scans
   bool json = false;
 };
 
 /// Prints figures to `out` and what was skipped in the files to `notes`. Errors of the files, and kInvalidArgument
-/// where options or clocks do not go together.
+/// where options or clocks do not fit each other.
 [[nodiscard]] Status run_score(const ScoreOptions& options, std::ostream& out, std::ostream& notes);
 
-/// Which poses of a log `trajectory` writes.
+/// The poses of a log that `trajectory` writes.
 enum class LogPoseSource : std::uint8_t { kOdometry, kCorrected };
 
-/// Writes the log's poses as a TUM file. kNotReady where the log has none of the kind.
+/// Writes the log's poses as a TUM file. kNotReady: the log has no poses of the kind.
 [[nodiscard]] Status write_log_trajectory(const std::filesystem::path& log, LogPoseSource source,
                                           const std::filesystem::path& out, std::ostream& notes);
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/core/angle.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/scoring/score_report.hpp"
 #include "server/lab/scoring/score_walls.hpp"
@@ -101,15 +101,15 @@ class Search {
     Best best(params_.candidates);
     const std::vector<Point2> few = thinned();
     for (double t = theta.low; t <= theta.high; t += params_.coarse_step_rad) {
-      std::vector<Point2> turned;
-      turned.reserve(few.size());
+      std::vector<Point2> rotated;
+      rotated.reserve(few.size());
       for (const Point2& point : few) {
-        turned.push_back(Pose2{0.0, 0.0, t} * point);
+        rotated.push_back(Pose2{0.0, 0.0, t} * point);
       }
       Candidate best_here;  // one place a heading keeps the candidates apart
       for (double px = x.low; px <= x.high; px += params_.coarse_step_m) {
         for (double py = y.low; py <= y.high; py += params_.coarse_step_m) {
-          const double cost_m = coarse_cost(turned, {px, py}, best_here.cost_m);
+          const double cost_m = coarse_cost(rotated, {px, py}, best_here.cost_m);
           if (cost_m < best_here.cost_m) {
             best_here = {{px, py, t}, cost_m};
           }
@@ -144,16 +144,16 @@ class Search {
     return few;
   }
   /// Mean of the capped distances; stops as soon as it is over the limit.
-  [[nodiscard]] double coarse_cost(const std::vector<Point2>& turned, const Point2& shift, double limit_m) const {
-    const double stop = limit_m * static_cast<double>(turned.size());
+  [[nodiscard]] double coarse_cost(const std::vector<Point2>& rotated, const Point2& shift, double limit_m) const {
+    const double stop = limit_m * static_cast<double>(rotated.size());
     double sum = 0.0;
-    for (const Point2& point : turned) {
+    for (const Point2& point : rotated) {
       sum += std::min(field_.coarse_m(point + shift), params_.coarse_cap_m);
       if (sum > stop) {
         return std::numeric_limits<double>::infinity();
       }
     }
-    return sum / static_cast<double>(turned.size());
+    return sum / static_cast<double>(rotated.size());
   }
   [[nodiscard]] double fine_cost(const Pose2& pose) const {
     double sum = 0.0;
@@ -192,9 +192,9 @@ std::array<Span, 3> spans_of(const Grid<float>& cells, const Point2& centre_map,
   }
   const Point2 centre = *params.initial * centre_map;
   const double r = params.initial_range_m;
-  const double turn = params.initial_range_rad;
+  const double range_rad = params.initial_range_rad;
   return {Span{centre.x() - r, centre.x() + r}, Span{centre.y() - r, centre.y() + r},
-          Span{params.initial->theta_rad - turn, params.initial->theta_rad + turn}};
+          Span{params.initial->theta_rad - range_rad, params.initial->theta_rad + range_rad}};
 }
 
 MapScore score_of(const std::vector<Point2>& points, const Field& field, const RosMap& reference, const Pose2& pose,
@@ -231,7 +231,7 @@ Result<MapScore> score_map(const std::vector<Point2>& points_map, const RosMap& 
   if (points_map.empty()) {
     return fail(Errc::kInvalidArgument, "the map has no walls to measure");
   }
-  // Turning about the middle of the points keeps the steps of the search independent.
+  // Rotation about the middle of the points keeps the steps of the search independent.
   Point2 centre = Point2::Zero();
   for (const Point2& point : points_map) {
     centre += point / static_cast<double>(points_map.size());

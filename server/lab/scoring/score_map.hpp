@@ -1,5 +1,5 @@
 /// \file
-/// Walls of one map against the occupied cells of another: distance after the rigid motion that fits them best.
+/// Compares the walls of one map with the occupied cells of another: distances after the best rigid motion.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@
 namespace seeker::lab {
 
 struct MapScoreParams {
-  double sample_m = 0.05;            ///< walls are measured at points this far apart
-  double coarse_step_m = 0.25;       ///< of the search over the whole map
+  double sample_m = 0.05;            ///< distance of the points at which walls are measured
+  double coarse_step_m = 0.25;       ///< step of the search over the whole map
   double coarse_step_rad = 0.04363;  ///< 2.5 degrees
-  std::size_t coarse_points = 150;   ///< points looked at in that search
-  double coarse_cap_m = 0.8;    ///< a point farther off than this counts as this far, so that clutter does not pull
-  std::size_t candidates = 40;  ///< places that are refined
+  std::size_t coarse_points = 150;   ///< number of points used in that search
+  double coarse_cap_m = 0.8;         ///< larger distances count as this, so that clutter has little effect
+  std::size_t candidates = 40;       ///< number of places that are refined
   double fine_cap_m = 0.3;
-  double fine_step_m = 0.002;  ///< refined to this
+  double fine_step_m = 0.002;  ///< final step of the refinement
   double fine_step_rad = 0.0005;
-  double near_m = 0.1;           ///< for the share of near points
-  std::optional<Pose2> initial;  ///< look here only: reference_T_map, to within the next two
+  double near_m = 0.1;           ///< distance of points that count as near
+  std::optional<Pose2> initial;  ///< search only near this reference_T_map, within the next two ranges
   double initial_range_m = 1.0;
   double initial_range_rad = 0.35;
 };
@@ -34,21 +34,21 @@ struct MapScoreParams {
 struct MapScore {
   std::uint64_t points = 0;
   double median_m = 0.0;
-  double mean_m = 0.0;  ///< of the points within fine_cap_m
+  double mean_m = 0.0;  ///< mean over the points within fine_cap_m
   double p90_m = 0.0;
-  double near_share = 0.0;   ///< points within near_m of an occupied cell
-  double known_share = 0.0;  ///< points that fall on known cells: few of them, and the fit means little
+  double near_share = 0.0;   ///< share of points within near_m of an occupied cell
+  double known_share = 0.0;  ///< share of points on known cells; where it is small, the fit means little
   Pose2 reference_T_map;
 };
 
 /// Distance of each point to the nearest occupied cell, after the best motion found by search and refinement.
-/// kInvalidArgument: no points.
+/// kInvalidArgument: there are no points.
 [[nodiscard]] Result<MapScore> score_map(const std::vector<Point2>& points_map, const RosMap& reference,
                                          const MapScoreParams& params = {});
 
 struct ScoreMapOptions {
   std::filesystem::path walls;     ///< GeoJSON, or lines of points or segments
-  std::filesystem::path map_yaml;  ///< of a ROS map
+  std::filesystem::path map_yaml;  ///< YAML file of a ROS map
   MapScoreParams params;
   bool json = false;
 };

@@ -24,7 +24,7 @@ struct Relation {
   Pose2 from_T_to;
 };
 
-/// `t1 t2 dx dy dz roll pitch yaw`. Nothing for an empty line or a comment; kParse: malformed.
+/// Parses `t1 t2 dx dy dz roll pitch yaw`. Nothing: an empty line or a comment. kParse: malformed.
 [[nodiscard]] Result<std::optional<Relation>> parse_relation_line(std::string_view line);
 
 struct RelationFile {
@@ -37,12 +37,13 @@ struct RelationFile {
 [[nodiscard]] Result<RelationFile> read_relations(const std::filesystem::path& path);
 
 struct RelationParams {
-  double offset_s = 0.0;         ///< relations' clock minus log's clock
-  double max_gap_s = 0.5;        ///< a relation with no pose within this of either time is missed
-  double exact_within_s = 0.12;  ///< both times this near to an exactly stamped scan: the subset `exact`
+  double offset_s = 0.0;   ///< relations' clock minus log's clock
+  double max_gap_s = 0.5;  ///< a relation is missed when one of its times has no pose within this time
+  /// Relations with both times this near to an exactly stamped scan form the subset `exact`.
+  double exact_within_s = 0.12;
 };
 
-/// Mean, spread and so on of one error.
+/// Mean, spread and maximum of one error.
 struct ErrorFigures {
   double mean = 0.0;
   double standard_deviation = 0.0;
@@ -58,13 +59,13 @@ struct RelationScore {
 
 struct RelationReport {
   RelationScore all;
-  std::optional<RelationScore> exact;  ///< where the log tells which of its stamps are exact
-  std::uint64_t missed = 0;            ///< outside the trajectory, or no pose near enough
+  std::optional<RelationScore> exact;  ///< set where the log states which of its stamps are exact
+  std::uint64_t missed = 0;            ///< number of relations outside the trajectory, or with no pose near enough
 };
 
-/// Scores the trajectory. Poses at times between its own are carried from the last one by `odometry` (empty:
-/// interpolated). `exact_stamps_s`: of the scans whose stamps are exact, rising; may be empty.
-/// kInvalidArgument when not one relation falls into the trajectory: the clocks do not fit.
+/// Scores the trajectory. Poses at times between its own are computed from the last one by `odometry` (empty:
+/// interpolated). `exact_stamps_s`: rising stamps of the scans with exact stamps; may be empty. kInvalidArgument: no
+/// relation falls into the trajectory, because the clocks do not fit.
 [[nodiscard]] Result<RelationReport> score_relations(const Trajectory& trajectory, const Trajectory& odometry,
                                                      const std::vector<Relation>& relations,
                                                      const std::vector<double>& exact_stamps_s,

@@ -1,6 +1,6 @@
 #include "server/lab/scoring/score_report.hpp"
 
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/table.hpp"
 
 namespace seeker::lab {

@@ -14,7 +14,7 @@ namespace seeker::lab {
 [[nodiscard]] std::string reference_text(const ReferenceReport& report);
 [[nodiscard]] std::string reference_json(const ReferenceReport& report);
 
-/// One sentence about what was skipped in a file; empty where nothing was.
+/// One sentence about what was skipped in a file; empty where all of it was used.
 [[nodiscard]] std::string complaints(const std::string& file, const drivers::BadLines& bad, const std::string& damage);
 
 }  // namespace seeker::lab

@@ -1,5 +1,5 @@
 /// \file
-/// Reading maps of ROS map_server: a YAML file and a picture.
+/// Reader of maps of ROS map_server: a YAML file and a picture.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ struct RosMap {
   Grid<std::uint8_t> known;     ///< 1 where a cell is a wall or free
 };
 
-/// Reads NAME.yaml (map_server's format, yaw 0) and the PGM or PNG it names, or that with `.gz` behind its name.
-/// Errors of the files; kParse for what is no such map; kNotReady where no cell is occupied.
+/// Reads NAME.yaml (map_server's format, yaw 0) and the PGM or PNG that it names, or that file with `.gz` appended.
+/// Errors of the files; kParse: the file is no such map; kNotReady: no cell is occupied.
 [[nodiscard]] Result<RosMap> read_ros_map(const std::filesystem::path& yaml);
 
 }  // namespace seeker::lab

@@ -3,41 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 
-#include <google/protobuf/struct.pb.h>
-#include <google/protobuf/util/json_util.h>
+#include <nlohmann/json.hpp>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "server/drivers/replay/words.hpp"
 
 namespace seeker::lab {
 namespace {
 
-using google::protobuf::ListValue;
-using google::protobuf::Struct;
-using google::protobuf::Value;
+using nlohmann::json;
 
 /// Coordinates beyond this are damage, not a building.
 constexpr double kLargest_m = 1e4;
 /// Collections within collections.
 constexpr int kMaxDepth = 8;
 
-const Value* member(const Struct& object, const std::string& name) {
-  const auto found = object.fields().find(name);
-  return found == object.fields().end() ? nullptr : &found->second;
+/// Null where the object has no such member.
+const json* member(const json& object, const char* name) {
+  const auto found = object.find(name);
+  return found == object.end() ? nullptr : &*found;
 }
 
-std::optional<Point2> point_of(const Value& value) {
-  if (!value.has_list_value() || value.list_value().values_size() < 2) {
+std::optional<Point2> point_of(const json& value) {
+  if (!value.is_array() || value.size() < 2 || !value[0].is_number() || !value[1].is_number()) {
     return std::nullopt;
   }
-  const ListValue& list = value.list_value();
-  const Point2 point(list.values(0).number_value(), list.values(1).number_value());
-  const bool numbers = list.values(0).kind_case() == Value::kNumberValue &&
-                       list.values(1).kind_case() == Value::kNumberValue && point.allFinite() &&
-                       point.cwiseAbs().maxCoeff() < kLargest_m;
-  return numbers ? std::optional<Point2>(point) : std::nullopt;
+  const Point2 point(value[0].get<double>(), value[1].get<double>());
+  return point.cwiseAbs().maxCoeff() < kLargest_m ? std::optional<Point2>(point) : std::nullopt;
 }
 
 /// Walks the objects of a document and gathers their geometries.
@@ -46,12 +39,12 @@ class Gatherer {
   Walls walls;
 
   /// Features, collections and geometries; false where it is none of these.
-  bool take(const Struct& object, int depth) {
-    const Value* type = member(object, "type");
-    if (type == nullptr || type->kind_case() != Value::kStringValue || depth > kMaxDepth) {
+  bool take(const json& object, int depth) {
+    const json* type = member(object, "type");
+    if (type == nullptr || !type->is_string() || depth > kMaxDepth) {
       return false;
     }
-    const std::string& name = type->string_value();
+    const auto& name = type->get_ref<const std::string&>();
     if (name == "FeatureCollection") {
       return take_all(member(object, "features"), depth);
     }
@@ -59,62 +52,57 @@ class Gatherer {
       return take_all(member(object, "geometries"), depth);
     }
     if (name == "Feature") {
-      const Value* geometry = member(object, "geometry");
+      const json* geometry = member(object, "geometry");
       // A feature may have no geometry: RFC 7946, 3.2.
-      return geometry != nullptr && (!geometry->has_struct_value() || take(geometry->struct_value(), depth + 1));
+      return geometry != nullptr && (!geometry->is_object() || take(*geometry, depth + 1));
     }
-    const Value* coordinates = member(object, "coordinates");
+    const json* coordinates = member(object, "coordinates");
     return coordinates != nullptr && take_geometry(name, *coordinates);
   }
 
  private:
-  bool take_all(const Value* list, int depth) {
-    if (list == nullptr || !list->has_list_value()) {
+  bool take_all(const json* list, int depth) {
+    if (list == nullptr || !list->is_array()) {
       return false;
     }
     std::uint64_t number = 0;
-    for (const Value& item : list->list_value().values()) {
+    for (const json& item : *list) {
       ++number;
-      if (!item.has_struct_value() || !take(item.struct_value(), depth + 1)) {
+      if (!item.is_object() || !take(item, depth + 1)) {
         walls.bad.add(number, "it is no feature or geometry with finite coordinates");
       }
     }
     return true;
   }
 
-  bool take_geometry(const std::string& type, const Value& coordinates) {
+  bool take_geometry(const std::string& type, const json& coordinates) {
     if (type == "Point") {
-      return take_points({&coordinates, 1});
+      return take_point(coordinates);
     }
-    if (!coordinates.has_list_value()) {
+    if (!coordinates.is_array()) {
       return false;
     }
-    const auto& values = coordinates.list_value().values();
     if (type == "LineString") {
-      return take_line(coordinates.list_value());
+      return take_line(coordinates);
     }
     bool good = type == "MultiPoint" || type == "MultiLineString" || type == "Polygon";
-    for (const Value& value : values) {
-      good = good && (type == "MultiPoint" ? take_points({&value, 1})
-                                           : value.has_list_value() && take_line(value.list_value()));
+    for (const json& value : coordinates) {
+      good = good && (type == "MultiPoint" ? take_point(value) : value.is_array() && take_line(value));
     }
     return good;
   }
 
-  bool take_points(std::span<const Value> values) {
-    for (const Value& value : values) {
-      const std::optional<Point2> point = point_of(value);
-      if (!point) {
-        return false;
-      }
+  bool take_point(const json& value) {
+    const std::optional<Point2> point = point_of(value);
+    if (point) {
       walls.points.push_back(*point);
     }
-    return true;
+    return point.has_value();
   }
 
-  bool take_line(const ListValue& list) {
+  bool take_line(const json& list) {
     std::vector<Point2> corners;
-    for (const Value& value : list.values()) {
+    for (const json& value : list) {
       const std::optional<Point2> point = point_of(value);
       if (!point) {
         return false;
@@ -131,9 +119,8 @@ class Gatherer {
 }  // namespace
 
 Result<Walls> parse_geojson_walls(std::string_view text) {
-  Struct document;
-  const auto parsed = google::protobuf::util::JsonStringToMessage(std::string(text), &document);
-  if (!parsed.ok()) {
+  const json document = json::parse(text, nullptr, false);
+  if (!document.is_object()) {
     return fail(Errc::kParse, "the text is no JSON object");
   }
   Gatherer gatherer;
@@ -173,7 +160,7 @@ Walls parse_csv_walls(std::string_view text) {
 }
 
 Result<Walls> read_walls(const std::filesystem::path& path) {
-  const Result<std::vector<std::uint8_t>> bytes = image::read_file(path);
+  const Result<std::vector<std::uint8_t>> bytes = files::read_file(path);
   if (!bytes) {
     return tl::unexpected<Error>(bytes.error());
   }

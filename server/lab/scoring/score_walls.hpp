@@ -1,5 +1,5 @@
 /// \file
-/// Walls of a map as pieces of line and points, read from files.
+/// Walls of a map as line segments and points, read from files.
 #pragma once
 
 #include <filesystem>
@@ -14,21 +14,22 @@
 
 namespace seeker::lab {
 
-/// In one frame, metres.
+/// Walls in one frame, in metres.
 struct Walls {
   std::vector<std::pair<Point2, Point2>> segments;
   std::vector<Point2> points;
   drivers::BadLines bad;  ///< lines of a CSV file, or geometries, that were skipped
 };
 
-/// GeoJSON (RFC 7946) with plane coordinates in metres: LineString, MultiLineString and Polygon become segments, Point
-/// and MultiPoint points, wherever they stand in features and collections. kParse: no JSON, or no GeoJSON object.
+/// Parses GeoJSON (RFC 7946) with plane coordinates in metres: LineString, MultiLineString and Polygon become segments,
+/// Point and MultiPoint become points, at any depth of features and collections. kParse: no JSON, or no GeoJSON object.
 [[nodiscard]] Result<Walls> parse_geojson_walls(std::string_view text);
 
-/// Lines `x,y` (a point) and `x1,y1,x2,y2` (a segment).
+/// Parses lines `x,y` (a point) and `x1,y1,x2,y2` (a segment).
 [[nodiscard]] Walls parse_csv_walls(std::string_view text);
 
-/// Reads either, told apart by the first character. kNotFound, kIo, kTooLarge; kParse when it holds no wall.
+/// Reads a file of either format, which is recognised by the first character. kNotFound, kIo, kTooLarge; kParse when it
+/// holds no wall.
 [[nodiscard]] Result<Walls> read_walls(const std::filesystem::path& path);
 
 /// The points, and the segments cut into points at most `step_m` apart, both ends included.

@@ -1,5 +1,5 @@
 /// \file
-/// Poses over time: what estimators leave, what recordings hold, and how they are put into files.
+/// Poses over time: output of estimators, contents of recordings, and their files.
 #pragma once
 
 #include <filesystem>
@@ -21,30 +21,30 @@ struct StampedPose {
   friend bool operator==(const StampedPose&, const StampedPose&) = default;
 };
 
-/// Stamps rise strictly.
+/// Poses with strictly rising stamps.
 using Trajectory = std::vector<StampedPose>;
 
-/// What a file held.
+/// Contents of a trajectory file.
 struct TrajectoryFile {
   Trajectory poses;
   drivers::BadLines bad;  ///< malformed, or with a stamp that does not rise
   std::string damage;     ///< why the file ended early; empty otherwise
 };
 
-/// One line of a TUM file, `t x y z qx qy qz qw`, or of `t,x,y,theta`. Nothing for an empty line, a comment and a
+/// Parses one line of a TUM file, `t x y z qx qy qz qw`, or of `t,x,y,theta`. Nothing: an empty line, a comment or a
 /// line of column names. kParse: malformed, or a rotation that is not about the vertical.
 [[nodiscard]] Result<std::optional<StampedPose>> parse_pose_line(std::string_view line);
 
 /// Reads a file of such lines, plain or .gz. kNotFound, kIo; kParse when it holds no pose.
 [[nodiscard]] Result<TrajectoryFile> read_trajectory(const std::filesystem::path& path);
 
-/// TUM lines: microseconds, nanometres.
+/// TUM lines with times in microseconds and lengths in nanometres.
 [[nodiscard]] std::string tum_text(const Trajectory& trajectory);
 
-/// The pose between its neighbours, at even speed; nothing outside the trajectory.
+/// The pose interpolated between its neighbours at constant speed. Nothing: the stamp lies outside the trajectory.
 [[nodiscard]] std::optional<Pose2> pose_at(const Trajectory& trajectory, double stamp_s);
 
-/// The last entry that is not after the stamp; nothing before the first.
+/// The last entry that is not after the stamp. Nothing: the stamp is before the first.
 [[nodiscard]] std::optional<std::size_t> index_before(const Trajectory& trajectory, double stamp_s);
 
 /// Distance in time to the nearest entry; infinite for an empty trajectory.

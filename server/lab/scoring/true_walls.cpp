@@ -55,13 +55,13 @@ class Sight {
     return std::all_of(pieces.begin(), pieces.end(), [&](const WallPiece& piece) { return sees_piece(place, piece); });
   }
   [[nodiscard]] bool sees_piece(const Point2& place, const WallPiece& piece) const {
-    const Point2 way = piece.p_world - place;
-    const double distance_m = way.norm();
+    const Point2 ray = piece.p_world - place;
+    const double distance_m = ray.norm();
     if (distance_m > lidar_.range_max_m || distance_m < lidar_.range_min_m ||
-        -way.dot(piece.normal) < least_cosine_ * distance_m) {
+        -ray.dot(piece.normal) < least_cosine_ * distance_m) {
       return false;
     }
-    const auto hit = scene_.nearest(place, way / distance_m, distance_m, lidar_.height_m);
+    const auto hit = scene_.nearest(place, ray / distance_m, distance_m, lidar_.height_m);
     return !hit || hit->distance_m >= distance_m - kSightSlack_m;
   }
 

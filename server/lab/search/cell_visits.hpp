@@ -1,5 +1,5 @@
 /// \file
-/// Which cells of a fixed grid a path entered, and how often it came back: the same measure for every strategy.
+/// Counts the cells of a fixed grid that a path entered, and returns to them: the same measure for every strategy.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace seeker::lab {
 
-/// A cell counts as entered when the path is at least `margin_m` inside it, so that driving along a border does not
-/// count as coming and going.
+/// Counts entries. A cell counts as entered when the path is at least `margin_m` inside it, so that driving along a
+/// border adds no entries.
 class CellVisits {
  public:
   explicit CellVisits(double cell_m = 0.8, double margin_m = 0.1)

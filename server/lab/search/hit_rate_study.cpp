@@ -31,7 +31,7 @@ bool in_view(const LaserScan& scan, double bearing_rad, double range_m) {
   return std::isfinite(seen_m) && std::abs(seen_m - range_m) < kTargetRadius_m;
 }
 
-/// What is looked at, and how far from straight ahead.
+/// The world with the target, and the largest angle between the target and straight ahead.
 struct Subject {
   sim::World world;
   Point2 place = Point2::Zero();

@@ -1,5 +1,5 @@
 /// \file
-/// R12 of spec S7: the shipped mission scripts over real TCP, server and client as two processes.
+/// R12 of spec S7: the shipped mission scripts over real TCP, with server and client as two processes.
 #pragma once
 
 #include <chrono>
@@ -14,12 +14,12 @@ struct ScriptParams {
   std::filesystem::path programs;           ///< folder of seekerd and seeker
   std::filesystem::path config = "config";  ///< folder with robots/, worlds/, missions/
   std::filesystem::path out;                ///< logs go to out/r12
-  std::chrono::seconds start_limit{60};     ///< wall time until the server can be reached
-  std::chrono::seconds script_limit{600};   ///< wall time of one script
+  std::chrono::seconds start_limit{60};     ///< wall time limit until the server can be reached
+  std::chrono::seconds script_limit{600};   ///< wall time limit of one script
 };
 
-/// One check per script in config/missions: a server of its own is started, `seeker run` plays the script and must exit
-/// with 0, and the server must end with 0 when asked to. Errors: no programs or no scripts.
+/// One check for each script in config/missions: a separate server is started, `seeker run` plays the script and must
+/// exit with 0, and the server must end with 0 on request. Errors: no programs or no scripts.
 [[nodiscard]] Status check_mission_scripts(const ScriptParams& params, Report& report);
 
 }  // namespace seeker::lab

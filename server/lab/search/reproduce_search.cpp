@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/experiments/child_process.hpp"
 #include "server/lab/experiments/table.hpp"
@@ -118,10 +118,10 @@ Status check_layouts(const ReproduceParams& params, Report& report) {
   }
   report.add(check_empty(*empty));
   all.insert(all.end(), empty->begin(), empty->end());
-  if (Status ok = image::write_file(params.out / "runs.csv", runs_csv(all)); !ok) {
+  if (Status ok = files::write_file(params.out / "runs.csv", runs_csv(all)); !ok) {
     return ok;
   }
-  return image::write_file(params.out / "summary.csv", summary_csv(summarise(all)));
+  return files::write_file(params.out / "summary.csv", summary_csv(summarise(all)));
 }
 
 }  // namespace

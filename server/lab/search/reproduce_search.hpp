@@ -15,14 +15,14 @@ namespace seeker::lab {
 inline constexpr double kBearingLimit_deg = 5.0;
 inline constexpr double kPositionLimit_m = 0.3;
 
-/// Figures 3, 4 and 6 as PNG, every run as a row of a CSV, one line per condition to the report.
+/// Makes figures 3, 4 and 6 as PNG, a CSV with a row for each run, and one line for each condition in the report.
 [[nodiscard]] Status reproduce_search(const ReproduceParams& params, Report& report);
 
-/// R6: eqs (4) and (5) on the printed pixels and headings.
+/// Checks R6: eqs (4) and (5) with the printed pixels and headings.
 void check_bearings(Report& report);
-/// R7: the rule base, and that the shipped FLL file is the generated one.
+/// Checks R7: the rule base, and that the shipped FLL file equals the generated one.
 void check_rules(const std::filesystem::path& config, Report& report);
-/// R5 for the runs of one layout; `paper_cells` is the number the paper prints.
+/// Checks R5 for the runs of one layout; `paper_cells` is the number printed in the paper.
 [[nodiscard]] Check check_layout(const std::vector<RunResult>& runs, int paper_cells);
 
 }  // namespace seeker::lab

@@ -6,10 +6,11 @@
 
 namespace seeker::lab {
 
-/// What the robot knows at the end: its map, lists, evidence, path and finds. Error: kNotReady when there is no map.
+/// Picture of the robot's knowledge at the end: its map, lists, evidence, path and finds. Error: kNotReady when there
+/// is no map.
 [[nodiscard]] Result<Image> draw_run(const RunRecord& record);
 
-/// What really happened, as Fig 6 of the search paper: the world from above with the true path, the cells of both
+/// Picture of the true run, as Fig 6 of the search paper: the world from above with the true path, the cells of both
 /// lists, the ray of the first find and the target.
 [[nodiscard]] Image draw_in_world(const RunRecord& record, const std::string& title);
 

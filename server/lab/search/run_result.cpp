@@ -1,7 +1,7 @@
 #include "server/lab/search/run_result.hpp"
 
-#include "common/image/files.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "common/files/files.hpp"
+#include "server/lab/experiments/described_json.hpp"
 
 namespace seeker::lab {
 
@@ -58,7 +58,7 @@ void describe(config::Fields& f, RunResult& result) {
 }
 
 Status save(const std::filesystem::path& path, const RunResult& result) {
-  return image::write_file(path, to_json(result));
+  return files::write_file(path, to_json(result));
 }
 
 }  // namespace seeker::lab

@@ -1,7 +1,7 @@
 #include "server/lab/search/search_experiment.hpp"
 #include "server/lab/experiments/load_run.hpp"
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/experiments/resumable.hpp"
 #include "server/lab/experiments/table.hpp"
@@ -17,7 +17,7 @@ Status keep(const RunSpec& spec, const RunRecord& record, const ExperimentParams
   std::filesystem::create_directories(file.parent_path(), error);
   std::filesystem::path log = file;
   log.replace_extension(".log");
-  if (Status ok = image::write_file(log, log_text(record.events)); !ok) {
+  if (Status ok = files::write_file(log, log_text(record.events)); !ok) {
     return ok;
   }
   if (params.pictures) {
@@ -69,7 +69,7 @@ Result<std::vector<RunResult>> run_missing(const std::vector<RunSpec>& specs, co
     }
     return record->result;
   };
-  kind.tell = [](const RunResult& result) {
+  kind.progress_line = [](const RunResult& result) {
     return result.world + " " + result.strategy + " seed " + std::to_string(result.seed) + ": " + result.outcome +
            " after " + fixed(result.robot_time_s, 0) + " s (" + fixed(result.speed(), 0) + "x)";
   };
@@ -84,7 +84,7 @@ Result<std::filesystem::path> without_targets(const std::filesystem::path& world
   const std::string text = "# The same world without anything to be found.\nbase: \"" +
                            std::filesystem::absolute(world_file).string() + "\"\nname: \"" +
                            world_file.stem().string() + "-no-target\"\ntargets: []\n";
-  if (const Status ok = image::write_file(written, text); !ok) {
+  if (const Status ok = files::write_file(written, text); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   return written;

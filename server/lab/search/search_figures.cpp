@@ -47,7 +47,7 @@ Image panel(const std::string& title, const std::string& x_label, image::AxisRan
 }
 
 constexpr std::array<const char*, search::kLevels> kTargetSets{"NB", "NS", "Z", "PS", "PB"};
-constexpr std::array<const char*, search::kLevels> kTurnSets{"TNB", "TNS", "TZ", "TPS", "TPB"};
+constexpr std::array<const char*, search::kLevels> kHeadingChangeSets{"TNB", "TNS", "TZ", "TPS", "TPB"};
 
 }  // namespace
 
@@ -56,19 +56,21 @@ Image membership_figure() {
       sampled("NEAR", 0.0, search::kMaxDistance_m, search::near_membership),
       sampled("FAR", 0.0, search::kMaxDistance_m, [](double d) { return 1.0 - search::near_membership(d); })};
   std::vector<image::Series> target;
-  std::vector<image::Series> turn;
+  std::vector<image::Series> heading_change;
   for (std::size_t n = 0; n < search::kLevels; ++n) {
     const int level = static_cast<int>(n) - 2;
     target.push_back(sampled(kTargetSets[n], -180.0, 180.0,
                              [level](double deg) { return search::target_membership(level, deg_to_rad(deg)); }));
-    turn.push_back(sampled(kTurnSets[n], -180.0, 180.0,
-                           [level](double deg) { return search::turn_membership(level, deg_to_rad(deg)); }));
+    heading_change.push_back(sampled(kHeadingChangeSets[n], -180.0, 180.0, [level](double deg) {
+      return search::heading_change_membership(level, deg_to_rad(deg));
+    }));
   }
-  return contact_sheet({{"", panel("Distance of an obstacle (L, LF, F, RF, R)", "m", {0.0, search::kMaxDistance_m},
-                                   std::move(distance))},
-                        {"", panel("Bearing of the target", "deg, left positive", {-180.0, 180.0}, std::move(target))},
-                        {"", panel("Change of heading", "deg, left positive", {-180.0, 180.0}, std::move(turn))}},
-                       1);
+  return contact_sheet(
+      {{"",
+        panel("Distance of an obstacle (L, LF, F, RF, R)", "m", {0.0, search::kMaxDistance_m}, std::move(distance))},
+       {"", panel("Bearing of the target", "deg, left positive", {-180.0, 180.0}, std::move(target))},
+       {"", panel("Change of heading", "deg, left positive", {-180.0, 180.0}, std::move(heading_change))}},
+      1);
 }
 
 Result<Image> picture_of_target(const RunSpec& spec, double range_m, double bearing_rad) {

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/core/angle.hpp"
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/app/loop/robot_loop.hpp"
 #include "server/app/runtime/update_hub.hpp"
 #include "server/lab/scoring/wall_share.hpp"
@@ -40,10 +40,10 @@ FindScore score_of(const api::Detection& detection, const RunWatch& watch) {
       continue;
     }
     const Point2 p_map = inverse(truth.world_T_start) * target.world_T_target.translation();
-    const Point2 way = p_map - map_T_base.translation();
-    score.range_m = way.norm();
+    const Point2 offset = p_map - map_T_base.translation();
+    score.range_m = offset.norm();
     score.bearing_error_deg =
-        rad_to_deg(std::abs(wrap_angle(detection.bearing_map_rad - std::atan2(way.y(), way.x()))));
+        rad_to_deg(std::abs(wrap_angle(detection.bearing_map_rad - std::atan2(offset.y(), offset.x()))));
     if (detection.position) {
       score.position_error_m = (*detection.position - p_map).norm();
     }

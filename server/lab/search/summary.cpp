@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include <nlohmann/json.hpp>
+
 #include "common/image/plot.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/plots/image_tools.hpp"
 #include "server/lab/search/search_experiment.hpp"
@@ -250,18 +252,17 @@ std::string summary_csv(const std::vector<GroupSummary>& groups) { return summar
 std::string summary_text(const std::vector<GroupSummary>& groups) { return summary_table(groups).text(); }
 
 std::string summary_json(const std::vector<GroupSummary>& groups) {
-  std::string text = "[";
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
   for (const GroupSummary& group : groups) {
-    text += text.size() > 1 ? ",\n {" : "\n {";
     constexpr std::size_t kTextColumns = 3;
+    Json& row = list.emplace_back();
     for (std::size_t i = 0; i < columns().size(); ++i) {
       const std::string value = columns()[i].value(group);
-      text += (i == 0 ? "" : ", ") + json_string(columns()[i].name) + ": ";
-      text += i < kTextColumns ? json_string(value) : (value.empty() ? "null" : value);
+      row[columns()[i].name] = i < kTextColumns ? Json(value) : (value.empty() ? Json() : Json::parse(value));
     }
-    text += "}";
   }
-  return text + "\n]\n";
+  return json_lines(list);
 }
 
 Image comparison_chart(const std::vector<GroupSummary>& groups) {

@@ -1,5 +1,5 @@
 /// \file
-/// Pictures of trajectories over each other, and of one scan with its lines.
+/// Pictures of several trajectories together, and of one scan with its lines.
 #pragma once
 
 #include <cstdint>
@@ -23,25 +23,25 @@ struct NamedTrajectory {
   Trajectory poses;
 };
 
-/// The trajectories in the frame of the first, with a scale and the length of each; `walls` lies under them.
-/// kNotReady: there is nothing to draw; kTooLarge beyond 5 km.
+/// Draws the trajectories in the frame of the first, with a scale and the length of each, above `walls`. kNotReady:
+/// there is nothing to draw; kTooLarge: the picture would exceed 5 km.
 [[nodiscard]] Result<Image> draw_trajectories(const std::vector<NamedTrajectory>& trajectories,
                                               const std::optional<Grid<std::uint8_t>>& walls);
 
-/// Returns of the scan as points and its lines with their ends, in the frame `laser`. kNotReady: no returns.
+/// Draws the returns of the scan as points and its lines with their ends, in the frame `laser`. kNotReady: no returns.
 [[nodiscard]] Result<Image> draw_scan(const LaserScan& scan, const lines::ScanLines& found, const std::string& title);
 
 struct PlotOptions {
   std::vector<std::filesystem::path> trajectories;
-  std::filesystem::path log;  ///< its scans at the poses of the first trajectory are the walls; may be empty
+  std::filesystem::path log;  ///< log whose scans at the poses of the first trajectory are drawn as walls; may be empty
   std::filesystem::path robot;
   std::filesystem::path config;
   std::vector<std::string> overrides;
   std::filesystem::path out;
-  bool align = false;  ///< each is moved onto the first by the best rigid motion
+  bool align = false;  ///< whether each trajectory is moved onto the first by the best rigid motion
 };
 
-/// Draws what the options name into a PNG file and says which. Errors of the files.
+/// Draws what the options name into a PNG file and prints its name. Errors of the files.
 [[nodiscard]] Status run_plot(const PlotOptions& options, std::ostream& out);
 
 }  // namespace seeker::lab

@@ -1,5 +1,5 @@
 /// \file
-/// seeker-lab slam: an estimator over a log, from the command line.
+/// Command `seeker-lab slam`: an estimator on a recorded log.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,19 @@ namespace seeker::lab {
 
 struct SlamOptions {
   std::filesystem::path log;
-  std::filesystem::path out;    ///< folder; empty: nothing is written
+  std::filesystem::path out;    ///< folder; empty: no file is written
   std::filesystem::path robot;  ///< robot file, or the name of one in `config`/robots; empty: chosen by the log
   std::filesystem::path config;
-  std::string estimator;  ///< empty: the robot file's
+  std::string estimator;  ///< empty: the one of the robot file
   std::vector<std::string> overrides;
   bool json = false;
   bool show_progress = false;
 };
 
-/// Runs, saves, and prints the figures to `out`. Errors of the files and options.
+/// Runs the estimator, saves the results, and prints the figures to `out`. Errors of the files and options.
 [[nodiscard]] Status run_slam_command(const SlamOptions& options, std::ostream& out);
 
-/// The robot file that options name or the log asks for. Errors of the log.
+/// The robot file that the options name or that the log requires. Errors of the log.
 [[nodiscard]] Result<std::filesystem::path> find_robot_file(const std::filesystem::path& robot,
                                                             const std::filesystem::path& config,
                                                             const std::filesystem::path& log);

@@ -16,8 +16,8 @@ namespace seeker::lab {
 [[nodiscard]] std::vector<std::string> estimator_names();
 [[nodiscard]] std::string name_of(app::EstimatorType type);
 
-/// An estimator with the parameters of the robot file, at the origin of `map`. kNotFound: no such name.
-/// One that is a slam::MapTracker also has its segments and loops reported, and its final poses smoothed.
+/// An estimator with the parameters of the robot file, at the origin of `map`. For a slam::MapTracker, segments and
+/// loop closures are also reported, and its final poses are smoothed. kNotFound: no such name.
 [[nodiscard]] Result<std::unique_ptr<slam::PoseTracker>> make_tracker(const std::string& name,
                                                                       const app::RobotOptions& options);
 

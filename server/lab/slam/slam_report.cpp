@@ -4,10 +4,10 @@
 #include <array>
 
 #include "common/core/occupancy_tile.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/map_picture.hpp"
 #include "common/image/png.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/table.hpp"
 
 namespace seeker::lab {
@@ -237,7 +237,7 @@ Status save_slam(const std::filesystem::path& folder, const SlamSource& source, 
     texts.emplace_back("trajectory_online.tum", tum_text(run.online));
   }
   for (const auto& [name, text] : texts) {
-    if (Status ok = image::write_file(folder / name, std::string_view(text)); !ok) {
+    if (Status ok = files::write_file(folder / name, std::string_view(text)); !ok) {
       return ok;
     }
   }

@@ -1,5 +1,5 @@
 /// \file
-/// An estimator over a recorded log: what it said, and what it cost.
+/// Runs an estimator on a recorded log and records its estimates and its cost.
 #pragma once
 
 #include <cstdint>
@@ -19,37 +19,37 @@
 
 namespace seeker::lab {
 
-/// Scans in a row with the same quality.
+/// Consecutive scans with the same quality.
 struct QualitySpell {
   LocalisationQuality quality = LocalisationQuality::kUnknown;
-  std::string cause;  ///< of the first scan
+  std::string cause;  ///< cause at the first scan
   double from_s = 0.0;
-  double to_s = 0.0;  ///< last scan of the spell; log's clock
+  double to_s = 0.0;  ///< time of the last scan, on the log's clock
   std::uint64_t scans = 0;
 };
 
 struct SlamCost {
   double wall_s = 0.0;           ///< reading and estimating
-  double processor_s = 0.0;      ///< of this process meanwhile: not lengthened by others on the machine
-  TimeFigures scan;              ///< each scan with the odometry before it, on the wall
+  double processor_s = 0.0;      ///< processor time of this process: independent of other load of the machine
+  TimeFigures scan;              ///< wall time of each scan with the odometry before it
   TimeFigures scan_processor;    ///< the same in processor time of the calling thread
   double memory_empty_mb = 0.0;  ///< peak before the first record was taken
   double memory_peak_mb = 0.0;   ///< peak when the last scan was done
 };
 
-/// Everything about a run. Stamps are on the log's clock.
+/// All results of a run. Stamps are on the log's clock.
 struct SlamRun {
-  Trajectory online;      ///< as said at each scan
-  Trajectory trajectory;  ///< as known at the end: the same, unless the estimator moved its map
+  Trajectory online;      ///< estimate at each scan
+  Trajectory trajectory;  ///< poses known at the end: the same, unless the estimator corrected its map
   std::vector<QualitySpell> spells;
   SlamCost cost;
   drivers::ReplaySummary log;
-  std::uint64_t refused = 0;  ///< calls that the estimator answered with an error
+  std::uint64_t refused = 0;  ///< number of calls that the estimator refused with an error
   std::string first_refusal;
-  std::vector<MapSegment> segments;  ///< of an estimator that keeps a map of segments
-  LineMap map;                       ///< the same with its local maps; empty where the estimator keeps none
-  std::uint64_t keyframes = 0;       ///< scans kept with that map
-  std::uint64_t loops = 0;           ///< closed and believed
+  std::vector<MapSegment> segments;  ///< final segments of an estimator with a map of segments
+  LineMap map;                       ///< the map with its local maps; empty where the estimator keeps none
+  std::uint64_t keyframes = 0;       ///< number of keyframes in that map
+  std::uint64_t loops = 0;           ///< number of loop closures that were accepted
 };
 
 /// A part of a log as shares of its duration, 0 to 1: the first half is {0, 0.5}.
@@ -60,12 +60,13 @@ struct LogSpan {
   friend bool operator==(const LogSpan&, const LogSpan&) = default;
 };
 
-/// Called now and then with the number of scans done and the log's time since its start.
+/// Called from time to time with the number of scans processed and the log's time since its start.
 using SlamProgress = std::function<void(std::uint64_t scans, double time_s)>;
 
-/// Plays the log through the estimator, odometry before the scan it belongs to. It is given odometry and scans only:
-/// poses that a log holds for scoring do not leave the replay driver. What lies outside of the span is never shown to
-/// the estimator. Errors of ReplaySource::open(); kParse when the log, or this part of it, has no scan.
+/// Plays the log through the estimator, odometry before the scan it belongs to. The estimator is given odometry and
+/// scans only: poses that a log holds for scoring are not passed on by the replay driver, and records outside the span
+/// are never given to the estimator. Errors of ReplaySource::open(); kParse when the log, or this part of it, has no
+/// scan.
 [[nodiscard]] Result<SlamRun> run_slam(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
                                        slam::PoseTracker& tracker, const SlamProgress& progress = {},
                                        const LogSpan& span = {});
@@ -77,7 +78,7 @@ struct QualityShare {
 };
 [[nodiscard]] QualityShare share_of(const SlamRun& run, LocalisationQuality quality);
 
-/// Every scan of a log at its pose of the trajectory.
+/// Calls `visit` for every scan of a log with its pose on the trajectory.
 [[nodiscard]] Status for_each_scan(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
                                    const Trajectory& trajectory,
                                    const std::function<void(const LaserScan& scan, const Pose2& map_T_base)>& visit);

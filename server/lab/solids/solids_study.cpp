@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/core/angle.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/experiments/log_stopwatch.hpp"
 #include "server/lab/experiments/seeds.hpp"
@@ -161,7 +161,7 @@ Status run_train_solids(const TrainSolidsOptions& options, std::ostream& report)
   if (!trained) {
     return tl::unexpected<Error>(trained.error());
   }
-  if (Status ok = image::write_file(options.out, options::print_solid_model(trained->model)); !ok) {
+  if (Status ok = files::write_file(options.out, options::print_solid_model(trained->model)); !ok) {
     return ok;
   }
   report << "trained from " << options.pictures.per_class << " pictures a class, seed " << options.pictures.seed
@@ -187,7 +187,7 @@ Result<SolidsStudy> study_seed(const std::filesystem::path& out, std::uint64_t s
     return tl::unexpected<Error>(trained.error());
   }
   const std::filesystem::path file = out / ("solids-" + number + ".yaml");
-  if (Status ok = image::write_file(file, options::print_solid_model(trained->model)); !ok) {
+  if (Status ok = files::write_file(file, options::print_solid_model(trained->model)); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   // From the file, as a robot would have it.
@@ -196,7 +196,7 @@ Result<SolidsStudy> study_seed(const std::filesystem::path& out, std::uint64_t s
     return tl::unexpected<Error>(model.error());
   }
   const SolidsStudy study = test_solids(*model, test);
-  if (Status ok = image::write_file(out / ("confusion-" + number + ".csv"), confusion_csv(study)); !ok) {
+  if (Status ok = files::write_file(out / ("confusion-" + number + ".csv"), confusion_csv(study)); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   const Image sheet = examples(*model, test);

@@ -1,5 +1,5 @@
 /// \file
-/// `seeker-lab calibrate`: from a folder of chessboard pairs to a calibration file.
+/// Command `seeker-lab calibrate`: makes a calibration file from a folder of chessboard pairs.
 #pragma once
 
 #include <filesystem>
@@ -16,15 +16,16 @@ struct CalibrateOptions {
   drivers::ImageFolderParams files;
   Chessboard board;
   std::filesystem::path out;
-  std::vector<std::string> hold_out;  ///< names of pairs that only check the result
+  std::vector<std::string> hold_out;  ///< names of pairs that are used only to check the result
 };
 
-/// Columns and rows of inner corners from `9x6`. kInvalidArgument for anything else.
+/// Parses the columns and rows of inner corners from `9x6`. kInvalidArgument: any other form.
 [[nodiscard]] Status parse_board(const std::string& text, Chessboard& board);
 
-/// Writes the calibration file and a line a pair: its reprojection error and row error, and whether the calibration was
-/// made from it. Pairs that do not show the whole board are told and left out. Errors: those of list_image_pairs(), of
-/// the files and of calibrate_stereo(); kInvalidArgument: pictures of different sizes, an unknown pair held out.
+/// Writes the calibration file and a line for each pair: its reprojection error and row error, and whether it was used
+/// for the calibration. Pairs that do not show the whole board are reported and left out. Errors: those of
+/// list_image_pairs(), of the files and of calibrate_stereo(); kInvalidArgument: pictures of different sizes, an
+/// unknown pair held out.
 [[nodiscard]] Status run_calibrate(const CalibrateOptions& options, std::ostream& report);
 
 }  // namespace seeker::lab

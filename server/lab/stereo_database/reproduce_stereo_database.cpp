@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/experiments/resumable.hpp"
 #include "server/lab/experiments/table.hpp"
@@ -28,7 +28,7 @@ Status keep_figures(const fs::path& out, const StereoSpec& spec, const StereoRec
       if (plan.name != wanted.name) {
         continue;
       }
-      if (Status ok = image::write_png(file_of(out, spec, wanted.figure), plan_figure(plan, record.way)); !ok) {
+      if (Status ok = image::write_png(file_of(out, spec, wanted.figure), plan_figure(plan, record.path)); !ok) {
         return ok;
       }
     }
@@ -48,10 +48,10 @@ Status keep_figures(const fs::path& out, const StereoSpec& spec, const StereoRec
 Status keep(const fs::path& out, const StereoSpec& spec, const StereoRecord& record) {
   std::error_code error;
   fs::create_directories(file_of(out, spec, ".json").parent_path(), error);
-  if (Status ok = image::write_file(file_of(out, spec, "-table1.csv"), record.table1_csv); !ok) {
+  if (Status ok = files::write_file(file_of(out, spec, "-table1.csv"), record.table1_csv); !ok) {
     return ok;
   }
-  if (Status ok = image::write_file(file_of(out, spec, "-table2.csv"), record.table2_csv); !ok) {
+  if (Status ok = files::write_file(file_of(out, spec, "-table2.csv"), record.table2_csv); !ok) {
     return ok;
   }
   if (Status ok = keep_figures(out, spec, record); !ok) {
@@ -76,7 +76,7 @@ RunKind<StereoSpec, StereoResult> kind_of(const fs::path& out) {
     }
     return record->result;
   };
-  kind.tell = [](const StereoResult& result) {
+  kind.progress_line = [](const StereoResult& result) {
     const DatabaseScore* salient = result.find("salient");
     return result.mode + " seed " + std::to_string(result.seed) + ": " +
            (salient != nullptr ? fixed(1000.0 * salient->rms_m, 1) + " mm" : "no drive");
@@ -87,7 +87,7 @@ RunKind<StereoSpec, StereoResult> kind_of(const fs::path& out) {
 std::vector<StereoSpec> specs_of(const ReproduceParams& params, bool paper) {
   std::vector<StereoSpec> specs;
   for (const std::uint64_t seed : params.seeds) {
-    // The paper's descriptors are found all over again: one seed tells what it does.
+    // The paper's descriptors are computed again in every run: one seed shows the result.
     if (!paper || seed == params.seeds.front()) {
       specs.push_back({params.config, seed, paper, params.overrides, params.smallest});
     }
@@ -115,7 +115,7 @@ Status reproduce_stereo_database(const ReproduceParams& params, Report& report) 
     }
     check_stereo(*runs, report);
     all.insert(all.end(), runs->begin(), runs->end());
-    if (Status ok = image::write_file(params.out / "table3.csv", table3_csv(all)); !ok) {
+    if (Status ok = files::write_file(params.out / "table3.csv", table3_csv(all)); !ok) {
       return ok;
     }
   }

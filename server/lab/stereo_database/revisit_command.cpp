@@ -6,12 +6,14 @@
 #include <sstream>
 #include <system_error>
 
+#include <nlohmann/json.hpp>
+
 #include "common/core/natural_order.hpp"
+#include "common/files/files.hpp"
 #include "common/image/canvas.hpp"
-#include "common/image/files.hpp"
 #include "common/image/jpeg.hpp"
 #include "common/image/png.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/vision/picture.hpp"
 #include "server/vision/sift_features.hpp"
 
@@ -88,14 +90,15 @@ std::string to_csv(const std::vector<Revisit>& revisits) {
 }
 
 void print_json(const std::vector<Revisit>& revisits, std::ostream& text) {
-  text << "{\"revisits\": [";
-  for (std::size_t i = 0; i < revisits.size(); ++i) {
-    const Revisit& r = revisits[i];
-    text << (i == 0 ? "\n" : ",\n") << "  {\"picture\": " << json_string(r.picture)
-         << ", \"earlier\": " << json_string(r.earlier) << ", \"matches\": " << r.matches
-         << ", \"inliers\": " << r.inliers << ", \"drawing\": " << json_string(r.drawing) << "}";
+  auto list = nlohmann::ordered_json::array();
+  for (const Revisit& r : revisits) {
+    list.push_back({{"picture", r.picture},
+                    {"earlier", r.earlier},
+                    {"matches", r.matches},
+                    {"inliers", r.inliers},
+                    {"drawing", r.drawing}});
   }
-  text << "\n]}\n";
+  text << json_lines({{"revisits", list}});
 }
 
 void print_text(const std::vector<Revisit>& revisits, std::ostream& text) {
@@ -166,7 +169,7 @@ Result<std::vector<Revisit>> find_revisits(const RevisitOptions& options) {
       options.progress(seen.size(), paths->size());
     }
   }
-  if (Status written = image::write_file(options.out / "revisits.csv", to_csv(revisits)); !written) {
+  if (Status written = files::write_file(options.out / "revisits.csv", to_csv(revisits)); !written) {
     return tl::unexpected<Error>(written.error());
   }
   return revisits;

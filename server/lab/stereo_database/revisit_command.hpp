@@ -1,5 +1,5 @@
 /// \file
-/// `seeker-lab revisit`: which photographs of an ordered folder show a place again.
+/// Command `seeker-lab revisit`: finds photographs of an ordered folder that show the same place again.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,9 @@ namespace seeker::lab {
 
 struct RevisitOptions {
   std::filesystem::path folder;  ///< PNG and JPEG files, in the order of the numbers in their names
-  std::filesystem::path out;     ///< made where missing
-  int gap = 15;                  ///< photographs nearer than this in the order are no revisit
-  bool all = false;              ///< every pair; else each photograph's best earlier one
+  std::filesystem::path out;     ///< created where missing
+  int gap = 15;                  ///< photographs closer than this in the order are not revisits
+  bool all = false;              ///< true: every pair; false: only the best earlier photograph for each one
   bool json = false;
   vision::PlaceParams params = {};
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< called after each photograph; may be empty
@@ -34,15 +34,15 @@ struct Revisit {
   friend bool operator==(const Revisit&, const Revisit&) = default;
 };
 
-/// Pictures of a folder by name, numbers in names by their value: 2.jpg before 10.jpg. Errors: kNotFound where there is
-/// no such folder or no picture in it.
+/// Pictures of a folder in the order of their names, where numbers are ordered by value: 2.jpg before 10.jpg. Errors:
+/// kNotFound where there is no such folder or no picture in it.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> ordered_pictures(const std::filesystem::path& folder);
 
-/// Finds revisits and writes revisits.csv and one picture a pair, both photographs side by side with their inliers,
-/// into `out`. Errors: those of files, with their names.
+/// Finds revisits and writes into `out` the file revisits.csv and one picture for each pair, with both photographs side
+/// by side and their inliers. Errors: those of the files, with their names.
 [[nodiscard]] Result<std::vector<Revisit>> find_revisits(const RevisitOptions& options);
 
-/// find_revisits() and the list as text or JSON.
+/// Runs find_revisits() and prints the list as text or JSON.
 [[nodiscard]] Status run_revisit(const RevisitOptions& options, std::ostream& text);
 
 }  // namespace seeker::lab

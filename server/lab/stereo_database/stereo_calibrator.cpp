@@ -15,7 +15,7 @@ namespace {
 using Corners = std::vector<cv::Point2f>;
 
 constexpr std::size_t kFewestViews = 3;
-/// Few views do not tell a sixth-order term from noise.
+/// Few views do not distinguish a sixth-order term from noise.
 constexpr int kLens = cv::CALIB_FIX_K3;
 
 std::vector<cv::Point3f> board_points(const Chessboard& board) {
@@ -81,16 +81,16 @@ using BoardPose = Eigen::Matrix<double, 6, 1>;  ///< in the left eye's frame: ro
 /// Differences of all corners of both eyes for a pose of the board, in pixels.
 Eigen::VectorXd residuals(const drivers::StereoCalibration& c, const BoardView& view,
                           const std::vector<cv::Point3d>& points, const BoardPose& pose) {
-  const cv::Vec3d turn(pose[0], pose[1], pose[2]);
+  const cv::Vec3d rotation(pose[0], pose[1], pose[2]);
   const cv::Vec3d shift(pose[3], pose[4], pose[5]);
   cv::Vec3d between;
   cv::Rodrigues(cv::Matx33d(c.rotation.data()), between);
-  cv::Vec3d right_turn;
+  cv::Vec3d right_rotation;
   cv::Vec3d right_shift;
-  cv::composeRT(turn, shift, between, cv::Vec3d(c.translation_m.data()), right_turn, right_shift);
+  cv::composeRT(rotation, shift, between, cv::Vec3d(c.translation_m.data()), right_rotation, right_shift);
   std::array<std::vector<cv::Point2d>, 2> there;
-  cv::projectPoints(points, turn, shift, matrix_of(c.left.matrix), c.left.distortion, there[0]);
-  cv::projectPoints(points, right_turn, right_shift, matrix_of(c.right.matrix), c.right.distortion, there[1]);
+  cv::projectPoints(points, rotation, shift, matrix_of(c.left.matrix), c.left.distortion, there[0]);
+  cv::projectPoints(points, right_rotation, right_shift, matrix_of(c.right.matrix), c.right.distortion, there[1]);
   Eigen::VectorXd out(static_cast<Eigen::Index>(4 * points.size()));
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -162,10 +162,10 @@ Result<drivers::StereoCalibration> calibrate_stereo(const std::vector<BoardView>
   try {
     std::array<cv::Mat, 2> k;
     std::array<cv::Mat, 2> d;
-    std::vector<cv::Mat> turns;
+    std::vector<cv::Mat> rotations;
     std::vector<cv::Mat> shifts;
-    cv::calibrateCamera(points, left, size, k[0], d[0], turns, shifts, kLens);
-    cv::calibrateCamera(points, right, size, k[1], d[1], turns, shifts, kLens);
+    cv::calibrateCamera(points, left, size, k[0], d[0], rotations, shifts, kLens);
+    cv::calibrateCamera(points, right, size, k[1], d[1], rotations, shifts, kLens);
     cv::Mat rotation;
     cv::Mat translation;
     cv::Mat essential;
@@ -192,28 +192,29 @@ double reprojection_error_px(const drivers::StereoCalibration& calibration, cons
   const std::vector<cv::Point3f> flat = board_points(board);
   SEEKER_ASSERT(view.left.size() == flat.size() && view.right.size() == flat.size());
   const std::vector<cv::Point3d> points(flat.begin(), flat.end());
-  cv::Vec3d turn;
+  cv::Vec3d rotation;
   cv::Vec3d shift;
-  cv::solvePnP(flat, corners_of(view.left), matrix_of(calibration.left.matrix), calibration.left.distortion, turn,
+  cv::solvePnP(flat, corners_of(view.left), matrix_of(calibration.left.matrix), calibration.left.distortion, rotation,
                shift);
   BoardPose pose;
-  pose << turn[0], turn[1], turn[2], shift[0], shift[1], shift[2];
+  pose << rotation[0], rotation[1], rotation[2], shift[0], shift[1], shift[2];
   const Eigen::VectorXd rest = residuals(calibration, view, points, refine(calibration, view, points, pose));
   return std::sqrt(rest.squaredNorm() / static_cast<double>(2 * points.size()));
 }
 
 double row_error_px(const drivers::StereoCalibration& c, const BoardView& view) {
   const cv::Mat shift(cv::Vec3d(c.translation_m.data()));
-  std::array<cv::Mat, 2> turn;
+  std::array<cv::Mat, 2> rotation;
   std::array<cv::Mat, 2> projection;
   cv::Mat reprojection;
   cv::stereoRectify(matrix_of(c.left.matrix), c.left.distortion, matrix_of(c.right.matrix), c.right.distortion,
-                    cv::Size(c.width_px, c.height_px), matrix_of(c.rotation), shift, turn[0], turn[1], projection[0],
-                    projection[1], reprojection, cv::CALIB_ZERO_DISPARITY, 0.0);
+                    cv::Size(c.width_px, c.height_px), matrix_of(c.rotation), shift, rotation[0], rotation[1],
+                    projection[0], projection[1], reprojection, cv::CALIB_ZERO_DISPARITY, 0.0);
   Corners left;
   Corners right;
-  cv::undistortPoints(corners_of(view.left), left, matrix_of(c.left.matrix), c.left.distortion, turn[0], projection[0]);
-  cv::undistortPoints(corners_of(view.right), right, matrix_of(c.right.matrix), c.right.distortion, turn[1],
+  cv::undistortPoints(corners_of(view.left), left, matrix_of(c.left.matrix), c.left.distortion, rotation[0],
+                      projection[0]);
+  cv::undistortPoints(corners_of(view.right), right, matrix_of(c.right.matrix), c.right.distortion, rotation[1],
                       projection[1]);
   double sum = 0.0;
   for (std::size_t i = 0; i < left.size(); ++i) {

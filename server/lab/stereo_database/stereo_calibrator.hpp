@@ -19,23 +19,24 @@ struct Chessboard {
   double square_m = 0.025;
 };
 
-/// Places of the board's corners in both eyes, in the same order; pixels.
+/// Positions of the board's corners in both eyes, in the same order, in pixels.
 struct BoardView {
   std::string name;
   std::vector<std::pair<float, float>> left;
   std::vector<std::pair<float, float>> right;
 };
 
-/// kNotFound: an eye that does not see the whole board, by name; kInvalidArgument: a board of less than 3x3.
+/// Finds the corners. kNotFound: an eye that does not show the whole board, by name; kInvalidArgument: a board of less
+/// than 3x3.
 [[nodiscard]] Result<BoardView> find_board(const std::string& name, const Image& left, const Image& right,
                                            const Chessboard& board);
 
-/// kInvalidArgument: fewer than three views, or what they give is no stereo camera.
+/// Calibrates from several views. kInvalidArgument: fewer than three views, or the result is no valid stereo camera.
 [[nodiscard]] Result<drivers::StereoCalibration> calibrate_stereo(const std::vector<BoardView>& views,
                                                                   const Chessboard& board, int width_px, int height_px);
 
-/// RMS distance in pixels between the corners of both eyes and where a calibration puts them, the board's pose being
-/// the best one for both eyes: fair for views that the calibration was not made from.
+/// RMS distance in pixels between the corners of both eyes and their positions predicted by the calibration, with the
+/// board pose that fits both eyes best. It is a fair measure for views that were not used in the calibration.
 [[nodiscard]] double reprojection_error_px(const drivers::StereoCalibration& calibration, const BoardView& view,
                                            const Chessboard& board);
 

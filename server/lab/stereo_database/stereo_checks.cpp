@@ -129,7 +129,7 @@ void check_accuracy(const std::vector<StereoResult>& runs, Report& report) {
 
 std::string share_of(int part, int whole) { return std::to_string(part) + "/" + std::to_string(whole); }
 
-/// Robots that turn about are judged; what their first views told is reported with them.
+/// Judges the robots that rotate on the spot; the places found by their first views are reported too.
 void check_places(const std::vector<StereoResult>& runs, Report& report) {
   StereoResult sum;
   for (const StereoResult& run : runs) {

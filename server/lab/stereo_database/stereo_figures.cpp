@@ -51,7 +51,7 @@ std::string table3_csv(const std::vector<StereoResult>& runs) {
   return table.csv();
 }
 
-Image plan_figure(const DatabasePlan& plan, const std::vector<Point2>& way) {
+Image plan_figure(const DatabasePlan& plan, const std::vector<Point2>& path) {
   image::Chart chart;
   chart.title = "Database '" + plan.name + "', " + std::to_string(plan.landmarks.size()) + " landmarks";
   chart.x_label = "x, m";
@@ -63,7 +63,7 @@ Image plan_figure(const DatabasePlan& plan, const std::vector<Point2>& way) {
     landmarks.y.push_back(p.y());
   }
   image::Series robot{.name = "robot", .x = {}, .y = {}, .style = image::SeriesStyle::kLine};
-  for (const Point2& p : way) {
+  for (const Point2& p : path) {
     robot.x.push_back(p.x());
     robot.y.push_back(p.y());
   }

@@ -1,6 +1,6 @@
 /// \file
-/// The parts of one seed of the stereo experiment: what it is made of, the survey, a drive that is localised. For
-/// s2_run.cpp.
+/// The parts of one seed of the stereo experiment: its parameters, the survey, and a drive with localisation. Used by
+/// stereo_run.cpp.
 #pragma once
 
 #include <memory>
@@ -19,9 +19,9 @@ namespace seeker::lab::stereo {
 using Database = std::shared_ptr<const localize::LandmarkDatabase>;
 using Frames = std::vector<DriveFrame>;
 
-inline constexpr double kFramePeriod_s = 2.0;  ///< of a drive
+inline constexpr double kFramePeriod_s = 2.0;  ///< time between the frames of a drive
 
-/// What the run is made of.
+/// The parameters of a run.
 struct Bench {
   sim::RobotModel model;
   vision::StereoFeatureParams features;
@@ -30,14 +30,14 @@ struct Bench {
   localize::UpdateParams update;
 };
 
-/// Of the robot's configuration, or with the paper's own values.
+/// Parameters of the robot's configuration, or with the paper's values.
 [[nodiscard]] Bench bench_of(const StereoSpec& spec, const app::RobotOptions& options);
 
-/// The views of the survey with poses as they were noted down.
+/// The views of the survey with their recorded poses.
 [[nodiscard]] Result<std::vector<localize::Sighting>> survey_views(const Bench& bench, const sim::World& world,
                                                                    Rng& rng);
 
-/// Builds one database; its rows of Table 2 where a table is given.
+/// Builds one database, and writes its rows of Table 2 where a table is given.
 [[nodiscard]] Result<Database> build(const Bench& bench, const std::vector<localize::Sighting>& views, bool sparse,
                                      bool salient, Table* table2);
 
@@ -51,7 +51,7 @@ class Localisation {
     curve_.name = score_.name;
   }
 
-  /// `update` learns from it where one is given.
+  /// Localises the drive; `update`, where given, is fed with its observations.
   [[nodiscard]] Status run(const Frames& frames, std::uint64_t seed, localize::DatabaseUpdate* update);
   [[nodiscard]] const DatabaseScore& score() const { return score_; }
   [[nodiscard]] ErrorCurve curve() const { return curve_; }

@@ -10,9 +10,9 @@
 namespace seeker::lab::stereo {
 namespace {
 
-bool is_wrong(const Pose2& told, const Pose2& truth) {
-  return distance_m(told, truth) > kWrongPlace_m ||
-         std::abs(wrap_angle(told.theta_rad - truth.theta_rad)) > kWrongPlace_rad;
+bool is_wrong(const Pose2& reported, const Pose2& truth) {
+  return distance_m(reported, truth) > kWrongPlace_m ||
+         std::abs(wrap_angle(reported.theta_rad - truth.theta_rad)) > kWrongPlace_rad;
 }
 
 /// The whole database is asked for the place of one view.
@@ -43,7 +43,7 @@ class OneView {
   double took_ms_ = 0.0;
 };
 
-/// One look, as the mission takes it: pictures that are refused tell the localiser nothing.
+/// One observation as in the mission: rejected pictures give the localiser no information.
 Status look(SeeingRobot& robot, localize::StereoLocaliser& localiser, OneView& one_view, Awakening& out, Rng& rng) {
   Result<vision::StereoFeatures> seen = robot.look();
   ++out.looks;
@@ -88,13 +88,13 @@ Result<Awakening> wake_up(const Bench& bench, const Database& database, const si
     if (out.found || out.looks == kPlaceHeadings) {
       return out;
     }
-    for (const Twist2& velocity : robot->turn(kTwoPi / kPlaceHeadings)) {
+    for (const Twist2& velocity : robot->rotate(kTwoPi / kPlaceHeadings)) {
       localiser->predict(velocity, kEncoderPeriod_s);
     }
   }
 }
 
-Result<ForeignViews> look_at_foreign(const Bench& bench, const Database& database, const sim::World& world, int views,
+Result<ForeignViews> observe_foreign(const Bench& bench, const Database& database, const sim::World& world, int views,
                                      Rng& rng) {
   const std::vector<Pose2> poses = random_poses(world, bench.model, views, rng);
   const auto seen = look_from(world, bench.model, bench.features, poses, rng);

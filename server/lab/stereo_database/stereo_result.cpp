@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "common/image/files.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "common/files/files.hpp"
+#include "server/lab/experiments/described_json.hpp"
 
 namespace seeker::lab {
 
@@ -51,7 +51,7 @@ void describe(config::Fields& f, StereoResult& result) {
 }
 
 Status save(const std::filesystem::path& path, const StereoResult& result) {
-  return image::write_file(path, to_json(result));
+  return files::write_file(path, to_json(result));
 }
 
 const DatabaseScore* StereoResult::find(std::string_view name) const {

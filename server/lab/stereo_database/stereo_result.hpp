@@ -1,5 +1,5 @@
 /// \file
-/// What one seed of the stereo experiment gave: numbers in one file, curves and rows of the tables beside it.
+/// Results of one seed of the stereo experiment: numbers in one file, curves and rows of the tables beside it.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,12 @@ struct DatabaseScore {
   double rms_y_m = 0.0;
   double rms_m = 0.0;
   double rms_rad = 0.0;
-  double mean_nees = 0.0;  ///< of (x, y, theta): 3 where the filter tells its error
+  double mean_nees = 0.0;  ///< mean NEES of (x, y, theta): 3 for a consistent filter
   double mean_inliers = 0.0;
-  double mean_compared = 0.0;   ///< features of a frame times landmarks that should show in it: association's work
-  double median_step_ms = 0.0;  ///< association and update of a frame, its features apart
+  double mean_compared = 0.0;   ///< features of a frame times landmarks expected in it: the work of association
+  double median_step_ms = 0.0;  ///< association and update of a frame, without its features
   int not_localised = 0;        ///< frames that were not LOCALISED
-  int unnoticed = 0;            ///< frames that were LOCALISED and wrong by more than kUnnoticed_m or kUnnoticed_rad
+  int unnoticed = 0;            ///< frames that were LOCALISED with an error above kUnnoticed_m or kUnnoticed_rad
 };
 void describe(config::Fields& f, DatabaseScore& score);
 
@@ -41,26 +41,27 @@ struct StereoResult {
   std::string settings;
 
   std::vector<DatabaseScore> scores;
-  int dynamic = 0;  ///< landmarks of the drive through the changed room
+  int dynamic = 0;  ///< number of dynamic landmarks in the drive through the changed room
   int duplicates = 0;
   int added = 0;
   int removed = 0;
   int before = 0;
   int after = 0;
-  std::string refused;  ///< why there was no update; empty: there was
+  std::string refused;  ///< why there was no update; empty: there was one
 
-  int places = 0;  ///< of the surveyed room, at which a robot woke up and turned about until it was LOCALISED
+  /// Number of places in the surveyed room at which a robot started and rotated until it was LOCALISED.
+  int places = 0;
   int places_found = 0;
-  int places_wrong = 0;   ///< found, and off by more than stereo::kWrongPlace_m or stereo::kWrongPlace_rad
-  int at_once = 0;        ///< places that the first view alone told
-  int at_once_wrong = 0;  ///< and told wrong
-  int looks = 0;          ///< of all that turned about
-  int looks_refused = 0;  ///< of these: pictures that the check of the camera did not let pass
-  int looks_most = 0;     ///< of one of them
-  int foreign = 0;        ///< single views of rooms never surveyed
+  int places_wrong = 0;   ///< found with an error above stereo::kWrongPlace_m or stereo::kWrongPlace_rad
+  int at_once = 0;        ///< number of places that the first view alone gave
+  int at_once_wrong = 0;  ///< number of these that were wrong
+  int looks = 0;          ///< number of views of all rotating robots
+  int looks_refused = 0;  ///< number of these that the check of the camera rejected
+  int looks_most = 0;     ///< largest number of views of one robot
+  int foreign = 0;        ///< number of single views of rooms that were never surveyed
   int foreign_found = 0;
-  int foreign_empty = 0;       ///< of the views: no feature in them
-  double relocalise_ms = 0.0;  ///< of a single view, its features apart; median
+  int foreign_empty = 0;       ///< number of these without features
+  double relocalise_ms = 0.0;  ///< median time for a single view, without its features
 
   [[nodiscard]] const DatabaseScore* find(std::string_view name) const;
 };
@@ -85,14 +86,14 @@ struct DatabasePlan {
   std::vector<Point2> landmarks;
 };
 
-/// Everything of one seed.
+/// All results of one seed.
 struct StereoRecord {
   StereoResult result;
   std::string table1_csv;  ///< matches of every frame before and after the constraints
-  std::string table2_csv;  ///< what became of the features of every view of the survey
+  std::string table2_csv;  ///< use of the features of every view of the survey
   std::vector<DatabasePlan> plans;
   std::vector<ErrorCurve> curves;
-  std::vector<Point2> way;  ///< of the robot, true
+  std::vector<Point2> path;  ///< true path of the robot
 };
 
 }  // namespace seeker::lab

@@ -22,9 +22,9 @@ using stereo::kFramePeriod_s;
 using stereo::Localisation;
 
 constexpr double kMovedShare = 0.2;
-/// A room never surveyed has other walls, all its furniture elsewhere, and looks otherwise. In the surveyed room with
-/// other textures and half of its furniture moved, the frames of bookcases and posters told the right place in 4 of 100
-/// views: that is the same room, painted anew.
+/// A room that was never surveyed has other walls, all its furniture elsewhere, and other textures. In the surveyed
+/// room with other textures and half of its furniture moved, the frames of bookcases and posters gave the right place
+/// in 4 of 100 views: that is the same room with new paint.
 constexpr double kForeignShare = 1.0;
 /// The least and the most that it is longer, and narrower.
 constexpr std::array<double, 2> kForeignLonger = {1.05, 1.2};
@@ -60,7 +60,7 @@ class StereoRun {
                   localize::DatabaseUpdate* update);
   void note_frames(const Frames& frames);
   Status wake_up();
-  Status look_at_foreign();
+  Status observe_foreign();
 
   const StereoSpec& spec_;
   const Bench& bench_;
@@ -94,7 +94,7 @@ void StereoRun::note_frames(const Frames& frames) {
     const vision::StereoFeatures& seen = frames[i].seen;
     table.add({std::to_string(i + 1), std::to_string(seen.left_keypoints), std::to_string(seen.right_keypoints),
                std::to_string(seen.matches_before_constraints), std::to_string(seen.features.size())});
-    record_.way.push_back(frames[i].world_T_base.translation());
+    record_.path.push_back(frames[i].world_T_base.translation());
   }
   record_.table1_csv = table.csv();
 }
@@ -188,7 +188,7 @@ Status StereoRun::wake_up() {
   return {};
 }
 
-Status StereoRun::look_at_foreign() {
+Status StereoRun::observe_foreign() {
   StereoResult& result = record_.result;
   Result<sim::World> foreign = load_laboratory(spec_.config, kForeignTextures + spec_.seed);
   if (!foreign) {
@@ -202,7 +202,7 @@ Status StereoRun::look_at_foreign() {
   }
   Rng views_rng = rng_.fork("foreign");
   const int count = spec_.smallest ? kSmallestForeignViews : kForeignViews;
-  const Result<stereo::ForeignViews> views = stereo::look_at_foreign(bench_, salient_, *foreign, count, views_rng);
+  const Result<stereo::ForeignViews> views = stereo::observe_foreign(bench_, salient_, *foreign, count, views_rng);
   if (!views) {
     return tl::unexpected<Error>(views.error());
   }
@@ -221,7 +221,7 @@ Status StereoRun::relocalise() {
   if (Status ok = wake_up(); !ok) {
     return ok;
   }
-  if (Status ok = look_at_foreign(); !ok) {
+  if (Status ok = observe_foreign(); !ok) {
     return ok;
   }
   const auto middle = relocalise_ms_.begin() + static_cast<std::ptrdiff_t>(relocalise_ms_.size() / 2);

@@ -1,6 +1,6 @@
 /// \file
-/// One seed of the stereo experiment (spec S2.11): survey, drive with three databases, furniture that moves, update,
-/// drive again, relocalisation.
+/// One seed of the stereo experiment (spec S2.11): survey, drive with three databases, moved furniture, update, second
+/// drive, relocalisation.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@ namespace seeker::lab {
 
 struct StereoSpec {
   std::filesystem::path config;  ///< folder
-  std::uint64_t seed = 1;        ///< textures of the room, noise, which furniture moves
-  bool paper = false;            ///< gates, descriptors and filter of the paper; else ours
+  std::uint64_t seed = 1;        ///< selects the textures of the room, the noise, and which furniture is moved
+  bool paper = false;            ///< true: gates, descriptors and filter of the paper; false: the defaults
   std::vector<std::string> overrides;
-  bool smallest = false;  ///< fewer places to wake up at and fewer foreign views, to see that all of it runs
+  bool smallest = false;  ///< fewer places and fewer foreign views, to check only that all parts run
 };
 
 [[nodiscard]] Result<std::string> settings_of(const StereoSpec& spec);

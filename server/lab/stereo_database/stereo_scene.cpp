@@ -14,24 +14,24 @@ namespace seeker::lab {
 namespace {
 
 constexpr double kSpeed_m_s = 0.07;  ///< spec S2.11
-constexpr double kTurn_rad_s = 0.23;
+constexpr double kRotation_rad_s = 0.23;
 constexpr double kClearance_m = 0.35;  ///< of a place to stand at
 constexpr double kPosterDepth_m = 0.05;
 
-/// Free of furniture in the laboratory, with some way to spare; the start of spec S2.11 is the paper's.
+/// Places free of furniture in the laboratory, with some margin; the start of spec S2.11 is the paper's.
 std::vector<Point2> places_of_drive() { return {{4.4, 6.7}, {3.5, 4.6}, {2.1, 4.2}, {2.36, 6.79}}; }
 
-/// Whether the robot can drive its way.
-bool way_is_free(const sim::World& world, const sim::RobotModel& model) {
+/// Whether the path of the drive is free.
+bool path_is_free(const sim::World& world, const sim::RobotModel& model) {
   constexpr double kStep_m = 0.1;
   const sim::Scene scene(world);
   const sim::HeightBand body{0.0, model.body_height_m};
-  std::vector<Point2> way = places_of_drive();
-  way.insert(way.begin(), world.starts.front().translation());
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const Point2 leg = way[i] - way[i - 1];
+  std::vector<Point2> path = places_of_drive();
+  path.insert(path.begin(), world.starts.front().translation());
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Point2 leg = path[i] - path[i - 1];
     for (double s = 0.0; s <= 1.0; s += kStep_m / leg.norm()) {
-      if (scene.clearance_m(way[i - 1] + s * leg, kClearance_m, body) < kClearance_m) {
+      if (scene.clearance_m(path[i - 1] + s * leg, kClearance_m, body) < kClearance_m) {
         return false;
       }
     }
@@ -50,7 +50,7 @@ class Eyes {
 
   Result<vision::StereoFeatures> look(const Pose2& world_T_base, Rng& rng) {
     const double exposure = std::max(0.0, 1.0 + rng.normal(world_.lighting.exposure_jitter));
-    return or_nothing(extractor_->extract(renderer_.render(scene_, world_.lighting, world_T_base, exposure, rng)));
+    return or_empty(extractor_->extract(renderer_.render(scene_, world_.lighting, world_T_base, exposure, rng)));
   }
 
  private:
@@ -60,12 +60,12 @@ class Eyes {
   std::unique_ptr<vision::StereoExtractor> extractor_;
 };
 
-/// Turns on the spot, then drives straight, from place to place.
+/// Rotates on the spot, then drives straight, from place to place.
 class Driver {
  public:
   explicit Driver(std::vector<Point2> places) : places_(std::move(places)) {}
 
-  /// Nothing at the end of the way.
+  /// Nothing at the end of the path.
   std::optional<Twist2> steer(const Pose2& world_T_base) {
     constexpr double kThere_m = 0.1;
     constexpr double kAligned_rad = 0.03;
@@ -73,21 +73,21 @@ class Driver {
     constexpr double kGain = 0.5;
     while (next_ < places_.size() && (places_[next_] - world_T_base.translation()).norm() < kThere_m) {
       ++next_;
-      turning_ = true;
+      rotating_ = true;
     }
     if (next_ == places_.size()) {
       return std::nullopt;
     }
     const double error_rad = bearing_to(world_T_base, places_[next_]);
-    turning_ = std::abs(error_rad) > (turning_ ? kAligned_rad : kMisaligned_rad);
-    return turning_ ? Twist2{0.0, std::copysign(kTurn_rad_s, error_rad)}
-                    : Twist2{kSpeed_m_s, std::clamp(kGain * error_rad, -kTurn_rad_s, kTurn_rad_s)};
+    rotating_ = std::abs(error_rad) > (rotating_ ? kAligned_rad : kMisaligned_rad);
+    return rotating_ ? Twist2{0.0, std::copysign(kRotation_rad_s, error_rad)}
+                     : Twist2{kSpeed_m_s, std::clamp(kGain * error_rad, -kRotation_rad_s, kRotation_rad_s)};
   }
 
  private:
   std::vector<Point2> places_;
   std::size_t next_ = 0;
-  bool turning_ = true;
+  bool rotating_ = true;
 };
 
 }  // namespace
@@ -110,7 +110,7 @@ Twist2 SeeingRobot::move(const Twist2& wanted) {
   return twist_between(before, odom_T_base_, kEncoderPeriod_s);
 }
 
-std::vector<Twist2> SeeingRobot::turn(double by_rad) {
+std::vector<Twist2> SeeingRobot::rotate(double by_rad) {
   constexpr double kAligned_rad = 0.01;
   constexpr double kGain = 2.0;
   constexpr int kLongest = 600;  // periods
@@ -121,7 +121,7 @@ std::vector<Twist2> SeeingRobot::turn(double by_rad) {
     if (std::abs(error_rad) < kAligned_rad) {
       break;
     }
-    velocities.push_back(move({0.0, std::clamp(kGain * error_rad, -kTurn_rad_s, kTurn_rad_s)}));
+    velocities.push_back(move({0.0, std::clamp(kGain * error_rad, -kRotation_rad_s, kRotation_rad_s)}));
   }
   velocities.push_back(move({}));
   return velocities;
@@ -129,7 +129,7 @@ std::vector<Twist2> SeeingRobot::turn(double by_rad) {
 
 Result<vision::StereoFeatures> SeeingRobot::look() { return extractor_->extract(simulation_.stereo_pair()); }
 
-Result<vision::StereoFeatures> or_nothing(Result<vision::StereoFeatures> seen) {
+Result<vision::StereoFeatures> or_empty(Result<vision::StereoFeatures> seen) {
   return seen || seen.error().code != Errc::kInvalidArgument ? seen : vision::StereoFeatures{};
 }
 
@@ -144,11 +144,11 @@ Result<sim::World> move_furniture(const sim::World& world, const sim::RobotModel
     if (const Result<std::size_t> objects = sim::move_objects(moved, share, rng); !objects) {
       return tl::unexpected<Error>(objects.error());
     }
-    if (way_is_free(moved, model)) {
+    if (path_is_free(moved, model)) {
       return moved;
     }
   }
-  return fail(Errc::kUnreachable, "moved furniture stands in the robot's way, however it is moved");
+  return fail(Errc::kUnreachable, "moved furniture blocks the robot's path in every arrangement");
 }
 
 std::vector<Pose2> survey_poses(const sim::World& world, const sim::RobotModel& model) {
@@ -218,7 +218,7 @@ Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim:
     const Pose2 truth = robot->world_T_base();
     const auto wanted = driver.steer(truth);
     if (robot->time_s() >= next_frame_s || !wanted) {
-      Result<vision::StereoFeatures> seen = or_nothing(robot->look());
+      Result<vision::StereoFeatures> seen = or_empty(robot->look());
       if (!seen) {
         return tl::unexpected<Error>(seen.error());
       }
@@ -231,7 +231,7 @@ Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim:
     }
     velocities.push_back(robot->move(*wanted));
   }
-  return fail(Errc::kTimeout, "the drive does not end: something stands in its way");
+  return fail(Errc::kTimeout, "the drive does not end: an object blocks its path");
 }
 
 }  // namespace seeker::lab

@@ -1,6 +1,6 @@
 /// \file
-/// The laboratory of the stereo experiment (spec S2.4, S2.11): what the camera sees from where, and how furniture
-/// moves.
+/// The laboratory of the stereo experiment (spec S2.4, S2.11): views of the camera from given places, and moved
+/// furniture.
 #pragma once
 
 #include <filesystem>
@@ -18,19 +18,19 @@ namespace seeker::lab {
 
 inline constexpr double kEncoderPeriod_s = 0.1;
 
-/// A simulated robot as a localiser knows it: what its encoders and its eyes tell.
+/// A simulated robot with the data that a localiser receives: encoder velocities and features of the eyes.
 class SeeingRobot {
  public:
-  /// At `start`, where it must have room.
+  /// Makes a robot at `start`, where it must have room.
   [[nodiscard]] static Result<SeeingRobot> create(sim::World world, const sim::RobotModel& model,
                                                   const vision::StereoFeatureParams& features, const Pose2& start,
                                                   std::uint64_t seed);
 
-  /// Moves for kEncoderPeriod_s and returns the velocity that the encoders told.
+  /// Moves for kEncoderPeriod_s and returns the velocity that the encoders reported.
   Twist2 move(const Twist2& wanted);
-  /// Turns on the spot, by its odometry, and stands still. The velocities as from move().
-  [[nodiscard]] std::vector<Twist2> turn(double by_rad);
-  /// kInvalidArgument: the pictures are refused.
+  /// Rotates on the spot by an odometry angle and stops. Returns the velocities as from move().
+  [[nodiscard]] std::vector<Twist2> rotate(double by_rad);
+  /// The features of both eyes now. kInvalidArgument: the pictures are rejected.
   [[nodiscard]] Result<vision::StereoFeatures> look();
   [[nodiscard]] Pose2 world_T_base() const { return simulation_.truth().world_T_base; }
   [[nodiscard]] double time_s() const { return to_seconds(simulation_.now()); }
@@ -46,7 +46,7 @@ class SeeingRobot {
   Pose2 odom_T_base_;
 };
 
-/// One frame of a drive: where the robot truly was, what its encoders told since the frame before, what it saw.
+/// One frame of a drive: the true pose, the encoder velocities since the frame before, and the observed features.
 struct DriveFrame {
   Pose2 world_T_base;
   std::vector<Twist2> velocities;  ///< each over kEncoderPeriod_s
@@ -55,26 +55,27 @@ struct DriveFrame {
 
 /// The laboratory with textures of `pattern_seed`.
 [[nodiscard]] Result<sim::World> load_laboratory(const std::filesystem::path& config, std::uint64_t pattern_seed);
-/// Moves `share` of the objects, none of them into the way of drive_around(). kUnreachable: that cannot be done.
+/// Moves `share` of the objects, none of them onto the path of drive_around(). kUnreachable: there is no such
+/// arrangement.
 [[nodiscard]] Result<sim::World> move_furniture(const sim::World& world, const sim::RobotModel& model, double share,
                                                 Rng& rng);
 
 /// Five places with room around them, twelve headings each, in the frame of the left eye (spec S2.4).
 [[nodiscard]] std::vector<Pose2> survey_poses(const sim::World& world, const sim::RobotModel& model);
-/// Places with room for the robot, anywhere in the room and in any direction; of the base.
+/// Poses of the base with room for the robot, anywhere in the room and in any direction.
 [[nodiscard]] std::vector<Pose2> random_poses(const sim::World& world, const sim::RobotModel& model, int count,
                                               Rng& rng);
 
-/// A frame that is refused, since nothing is to be seen in it, is a frame without features.
-[[nodiscard]] Result<vision::StereoFeatures> or_nothing(Result<vision::StereoFeatures> seen);
+/// Replaces a rejected frame, in which nothing can be seen, by a frame without features.
+[[nodiscard]] Result<vision::StereoFeatures> or_empty(Result<vision::StereoFeatures> seen);
 
-/// What is seen from poses of the base, without a robot that drives there; or_nothing().
+/// Features observed from poses of the base, without a robot that drives there; rejected frames are empty.
 [[nodiscard]] Result<std::vector<vision::StereoFeatures>> look_from(const sim::World& world,
                                                                     const sim::RobotModel& model,
                                                                     const vision::StereoFeatureParams& features,
                                                                     const std::vector<Pose2>& world_T_bases, Rng& rng);
 
-/// A drive around the laboratory at the paper's speeds (0.07 m/s, 0.23 rad/s), from its start. A frame every
+/// A drive around the laboratory at the paper's speeds (0.07 m/s, 0.23 rad/s), from its start, with a frame every
 /// `period_s`.
 [[nodiscard]] Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim::RobotModel& model,
                                                            const vision::StereoFeatureParams& features,

@@ -6,7 +6,7 @@
 #include "server/app/composition/robot_options.hpp"
 #include "server/app/landmarks/landmark_library.hpp"
 #include "server/drivers/camera/cameras.hpp"
-#include "server/lab/experiments/json_printer.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/resumable.hpp"
 #include "server/localize/survey.hpp"
 
@@ -91,12 +91,12 @@ Status add_pairs(Survey& survey, localize::SurveyBuilder& builder, bool show_pro
     figures.matched += static_cast<std::uint64_t>(counts->matched);
     figures.sparsified += static_cast<std::uint64_t>(counts->sparsified);
     if (show_progress) {
-      tell_progress(std::to_string(figures.pairs) + " of " + std::to_string(survey.pairs.size()) + " pairs, " +
-                    std::to_string(builder.database().size()) + " landmarks");
+      print_progress(std::to_string(figures.pairs) + " of " + std::to_string(survey.pairs.size()) + " pairs, " +
+                     std::to_string(builder.database().size()) + " landmarks");
     }
   }
   if (show_progress) {
-    tell_progress("");
+    print_progress("");
   }
   return {};
 }

@@ -12,10 +12,10 @@ inline constexpr std::size_t kHuInvariants = 7;
 inline constexpr std::size_t kSolidFeatures = 2 * kHuInvariants;
 using SolidFeatures = std::array<double, kSolidFeatures>;
 
-/// phi_1 .. phi_7 of a one-channel picture's grey values, spec S6. The picture must not be black.
+/// The invariants phi_1 .. phi_7 of a one-channel picture's grey values, spec S6. The picture must not be black.
 [[nodiscard]] std::array<double, kHuInvariants> hu_invariants(const cv::Mat& weights);
 
-/// sgn(phi) log10(|phi| + 1e-12) of the mask, then of the grey values inside it.
+/// The features sgn(phi) log10(|phi| + 1e-12) of the mask, then of the grey values inside it.
 [[nodiscard]] SolidFeatures solid_features(const cv::Mat& mask, const cv::Mat& grey);
 
 }  // namespace seeker::vision

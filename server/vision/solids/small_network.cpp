@@ -98,7 +98,7 @@ Attempt train_once(const Batch& training, const Batch& validation, int outputs, 
   double rate = params.rate;
   Forward now = forward(w, training, params.weight_decay);
   Attempt best;
-  constexpr int kLook = 10;  // epochs between looks at the validation samples
+  constexpr int kLook = 10;  // epochs between evaluations of the validation samples
   for (int epoch = 0; epoch < params.epochs; ++epoch) {
     const Weights g = gradient(w, training, now, params.weight_decay);
     step.first = params.momentum * step.first - rate * g.first;

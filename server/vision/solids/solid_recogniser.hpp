@@ -1,5 +1,5 @@
 /// \file
-/// Which solid a picture of turbid water shows (spec S6), alone and as a Recogniser for missions.
+/// Classification of the solid in a picture of turbid water (spec S6), alone and as a Recogniser for missions.
 #pragma once
 
 #include <array>
@@ -18,24 +18,25 @@
 
 namespace seeker::vision {
 
-/// What training gives.
+/// Result of the training.
 struct SolidModel {
   SegmentParams segment;
   SmallNetwork network;
-  double min_probability = 0.5;  ///< below, a picture shows no solid that is known
+  double min_probability = 0.5;  ///< smallest probability of a recognised solid
 
   friend bool operator==(const SolidModel&, const SolidModel&) = default;
 };
 
-/// kInvalidArgument: parameters outside their range, a network for other features or classes.
+/// Fails with kInvalidArgument for parameters outside their range, or a network for other features or classes.
 [[nodiscard]] Status validate(const SolidModel& model);
 [[nodiscard]] Status validate(const SegmentParams& params);
 
-/// The solid's features and where it is. Nothing where the picture shows no region like a solid.
+/// The features of a solid and its position in the picture.
 struct SolidSight {
   SolidFeatures features{};
   PixelBox box;
 };
+/// Extracts the features; no value where the picture shows no region like a solid.
 [[nodiscard]] std::optional<SolidSight> look_at_solid(const Image& picture, const SegmentParams& params);
 
 struct ClassifiedSolid {
@@ -43,16 +44,17 @@ struct ClassifiedSolid {
   std::array<double, kSolidKinds.size()> probabilities{};
   PixelBox box;
 };
-/// The most probable class, however improbable. Nothing where no solid is seen. `model` must be valid.
+/// The most probable class, however improbable. No value where no solid is visible. `model` must be valid.
 [[nodiscard]] std::optional<ClassifiedSolid> classify_solid(const Image& picture, const SolidModel& model);
 
-/// Which solid each target is; nothing where a target is none.
+/// The solid of each target; no value for other targets.
 using WantedSolids = std::vector<std::optional<SolidKind>>;
 
-/// Sighting::target counts in `wanted`; score is the probability. There is one sighting at most.
+/// Recognises solids: Sighting::target is an index into `wanted`; the score is the probability. There is at most one
+/// sighting.
 class SolidRecogniser final : public Recogniser {
  public:
-  /// kInvalidArgument: nothing wanted, an invalid model, an omnidirectional view.
+  /// Fails with kInvalidArgument when no solid is wanted, and for an invalid model or an omnidirectional view.
   [[nodiscard]] static Result<std::unique_ptr<SolidRecogniser>> make(const WantedSolids& wanted,
                                                                      const SolidModel& model, const ViewParams& view);
 

@@ -1,5 +1,5 @@
 /// \file
-/// The factory of missions: targets of every kind, solids among them.
+/// The factory of the missions' recognisers: targets of every kind, including solids.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace seeker::vision {
 
-/// As make_recogniser(), with solids told by `solids`. kRefused with the remedy: a target is a solid, and there is no
-/// model (null), or the camera is omnidirectional.
+/// As make_recogniser(), with solids recognised by the model `solids`. Fails with kRefused and the remedy when a target
+/// is a solid and there is no model (null), or the camera is omnidirectional.
 [[nodiscard]] Result<std::unique_ptr<Recogniser>> make_target_recogniser(const std::vector<TargetModel>& targets,
                                                                          const RecogniserParams& params,
                                                                          const SolidModel* solids);

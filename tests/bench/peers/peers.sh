@@ -49,9 +49,9 @@ number() {
   shift
   (($# > 2)) && between='[^}]*'
   for part in "${@:1:$#-1}"; do
-    pattern+="\"$part\": {.*"
+    pattern+="\"$part\": *{.*"
   done
-  sed -n "s/.*${pattern%.\*}$between\"${!#}\": \([-+0-9.e]*\).*/\1/p" "$file" | head -n 1
+  sed -n "s/.*${pattern%.\*}$between\"${!#}\": *\([-+0-9.e]*\).*/\1/p" "$file" | head -n 1
 }
 
 # rate LOG TRAJECTORY SCORE

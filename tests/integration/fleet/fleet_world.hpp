@@ -69,13 +69,13 @@ class ToyHost {
       reply(app::OwnTopology(topology));
     };
     host.give_seen = [seen = seen_](const api::Reply<app::OwnSeen>& reply) { reply(app::OwnSeen(seen)); };
-    host.take_view = [heard = heard_](std::optional<FleetView> view) {
-      const std::lock_guard lock(heard->mutex);
-      heard->view = std::move(view);
+    host.take_view = [received = heard_](std::optional<FleetView> view) {
+      const std::lock_guard lock(received->mutex);
+      received->view = std::move(view);
     };
-    host.tell_operator = [heard = heard_](const std::string& kind, const std::string& text, api::Severity) {
-      const std::lock_guard lock(heard->mutex);
-      heard->events.push_back(kind + " " + text);
+    host.notify_operator = [received = heard_](const std::string& kind, const std::string& text, api::Severity) {
+      const std::lock_guard lock(received->mutex);
+      received->events.push_back(kind + " " + text);
     };
     return host;
   }

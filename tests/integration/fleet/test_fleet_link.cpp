@@ -44,16 +44,16 @@ TEST(FleetLink, ARobotThatJoinsHearsWhereItIs) {
   const Main main("link_join");
   const app::FleetPart robot = robot_at(main.port, "r1", holds(east()));
   static_cast<void>(until(*main.part.leader, "r1", [](const auto& m) { return m.main_T_base.has_value(); }));
-  std::optional<Pose2> heard;
-  while (!heard) {
+  std::optional<Pose2> received;
+  while (!received) {
     const Result<api::FleetStatus> status = robot.follower->status();
     if (status && status->members.size() == 2) {
-      heard = status->members[1].main_T_map;
+      received = status->members[1].main_T_map;
       EXPECT_FALSE(status->members[0].robot_id.empty());
     }
     std::this_thread::yield();
   }
-  EXPECT_THAT(*heard, Pose2Near(west_T_east(), 0.15, 0.03));
+  EXPECT_THAT(*received, Pose2Near(west_T_east(), 0.15, 0.03));
 }
 
 TEST(FleetLink, ALinkThatIsCutAllTheTimeStillBringsEverything) {
@@ -81,10 +81,10 @@ TEST(FleetLink, ARobotKeepsThePlacesOfTheOthersWhenTheLinkDropsAndTakesUpTheirGo
   const ToyHost second(east(), at_place("r1", {1.0, 0.0}));
   std::optional<Main> main(std::in_place, "link_share", first);
   const app::FleetPart robot = robot_at(main->port, "r1", second.host());
-  const auto heard = second.until(is_active);
-  ASSERT_TRUE(heard);
-  EXPECT_EQ(heard->robot_id, "r1");
-  EXPECT_THAT(heard->others.front().map_T_base.translation(),
+  const auto received = second.until(is_active);
+  ASSERT_TRUE(received);
+  EXPECT_EQ(received->robot_id, "r1");
+  EXPECT_THAT(received->others.front().map_T_base.translation(),
               Point2Near(inverse(west_T_east()) * Point2(2.0, 1.0), 0.3));
   const auto main_heard = first.until(is_active);
   ASSERT_TRUE(main_heard);
@@ -92,7 +92,7 @@ TEST(FleetLink, ARobotKeepsThePlacesOfTheOthersWhenTheLinkDropsAndTakesUpTheirGo
   main.reset();
   const auto alone = second.until([](const auto& view) { return view && !view->others.front().active; });
   ASSERT_TRUE(alone);
-  EXPECT_EQ(alone->others.front().topology.nodes.size(), heard->others.front().topology.nodes.size());
+  EXPECT_EQ(alone->others.front().topology.nodes.size(), received->others.front().topology.nodes.size());
 }
 
 TEST(FleetLink, RobotsHearOfTheFloorAndTheTargetsThatTheOthersHaveSeen) {
@@ -103,9 +103,9 @@ TEST(FleetLink, RobotsHearOfTheFloorAndTheTargetsThatTheOthersHaveSeen) {
   const Main main("link_floor", first);
   const app::FleetPart robot = robot_at(main.port, "r1", second.host());
   const auto has_floor = [](const std::optional<FleetView>& view) { return view && view->floor; };
-  const auto heard = second.until(has_floor);
-  ASSERT_TRUE(heard);
-  const auto there = occupied_in(*heard->floor);
+  const auto received = second.until(has_floor);
+  ASSERT_TRUE(received);
+  const auto there = occupied_in(*received->floor);
   ASSERT_TRUE(there);
   EXPECT_THAT(*there, Point2Near(inverse(west_T_east()) * seen_by_main, 0.3));
   EXPECT_TRUE(first.until(has_floor));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <future>
 
+#include "common/files/files.hpp"
 #include "server/app/fleet/fleet_records.hpp"
-#include "server/store/atomic_file.hpp"
 #include "server/store/map_file.hpp"
 #include "tests/integration/fleet/fleet_world.hpp"
 #include "tests/integration/fleet/toy_robot.hpp"
@@ -26,13 +26,13 @@ LineMap joint_map(FleetLeader& leader) {
 }
 
 /// Started anew, it has not taken its map up again.
-app::FleetHost without_map(const ToyHost& heard) {
-  app::FleetHost host = heard.host();
+app::FleetHost without_map(const ToyHost& received) {
+  app::FleetHost host = received.host();
   host.give_map = [](const api::Reply<app::OwnMap>& reply) { reply(fail(Errc::kNotReady, "it waits for 'resume'")); };
   return host;
 }
 
-bool told(const ToyHost& host, const std::string& kind) {
+bool reported(const ToyHost& host, const std::string& kind) {
   const std::vector<std::string> events = host.events();
   return std::any_of(events.begin(), events.end(),
                      [&](const std::string& event) { return event.compare(0, kind.size(), kind) == 0; });
@@ -63,13 +63,13 @@ class FleetMemory : public ::testing::Test {
     joint = joint_map(leader);
   }
   FleetLeaderParams same = leader_params("fleet_memory");
-  ToyHost heard{LineMap{}};
+  ToyHost received{LineMap{}};
   api::FleetMember merged;
   LineMap joint;
 };
 
 TEST_F(FleetMemory, TheJointMapIsThereBeforeTheMainRobotHasTakenUpItsOwn) {
-  FleetLeader again(same, without_map(heard));
+  FleetLeader again(same, without_map(received));
   EXPECT_EQ(again.status().members.size(), 3U);
   const api::FleetMember member = until(again, "r2", api::FleetState::kMerged);
   ASSERT_TRUE(member.main_T_map);
@@ -108,20 +108,20 @@ TEST_F(FleetMemory, AMapThatHasLostItsNewestPartStaysMerged) {
 }
 
 TEST_F(FleetMemory, ADamagedMemoryIsToldAndFoundAnew) {
-  ASSERT_TRUE(store::write_file_atomically(same.folder / "memory", "garbage"));
+  ASSERT_TRUE(files::write_file(same.folder / "memory", "garbage"));
   const ToyHost host(west());
   FleetLeader again(same, host.host());
   EXPECT_THAT(*until(again, "r2", [](const auto& m) { return m.main_T_map.has_value(); }).main_T_map,
               Pose2Near(west_T_east(), 0.15, 0.03));
-  EXPECT_TRUE(told(host, "fleet-memory-damaged"));
+  EXPECT_TRUE(reported(host, "fleet-memory-damaged"));
 }
 
 TEST_F(FleetMemory, ADamagedRecordIsToldAndTheOthersStay) {
-  ASSERT_TRUE(store::write_file_atomically(same.folder / "stranger" / "record", "garbage"));
+  ASSERT_TRUE(files::write_file(same.folder / "stranger" / "record", "garbage"));
   const ToyHost host(west());
   FleetLeader again(same, host.host());
   EXPECT_EQ(again.status().members.size(), 2U);
-  EXPECT_TRUE(told(host, "fleet-memory-damaged"));
+  EXPECT_TRUE(reported(host, "fleet-memory-damaged"));
   EXPECT_TRUE(until(again, "r2", [](const auto& m) { return m.main_T_map.has_value(); }).main_T_map);
 }
 
@@ -140,7 +140,7 @@ using Ids = std::vector<std::uint64_t>;
 
 TEST_F(FleetMemory, AProgramThatRunsOnMayTakeBackWhatItHasFoundAnEndedOneMayNot) {
   same.silence_limit = Duration::zero();
-  FleetLeader again(same, without_map(heard));
+  FleetLeader again(same, without_map(received));
   static_cast<void>(until(again, "r2", api::FleetState::kMerged));
   ASSERT_TRUE(again.announce(packed(east(), "r2", 1).manifest));
   ASSERT_TRUE(again.seen(seen_by("r2", {found_at(6, {2.0, 0.5})})));
@@ -164,7 +164,7 @@ TEST_F(FleetMemory, WhatTheMainRobotHasFoundSurvivesItsRestartButNotANewMap) {
     static_cast<void>(until(leader, "main", tells(leader, {7})));
   }
   {
-    FleetLeader again(same, without_map(heard));
+    FleetLeader again(same, without_map(received));
     static_cast<void>(until(again, "r2", api::FleetState::kMerged));
     EXPECT_EQ(found_by(again, "main"), Ids({7})) << "before it has taken up its map";
   }

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/app/loop/robot_loop.hpp"
 #include "server/app/runtime/update_hub.hpp"
 #include "tests/support/data.hpp"

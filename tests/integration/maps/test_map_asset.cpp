@@ -9,14 +9,14 @@
 
 #include <gtest/gtest.h>
 
+#include "common/files/files.hpp"
 #include "common/log/log.hpp"
 #include "common/rpc/robot_client.hpp"
 #include "common/rpc/wait.hpp"
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/app/estimators/tracker_estimator.hpp"
 #include "server/app/robot/robot.hpp"
 #include "server/net/server.hpp"
-#include "server/store/atomic_file.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/maps/fake_map_tracker.hpp"
 #include "tests/support/maps/random_map.hpp"
@@ -99,7 +99,7 @@ class MapAsset : public ::testing::Test {
     run.state->changed();
   }
   std::vector<std::uint8_t> bytes_of(const std::string& name) const {
-    return store::read_file(folder_ / (name + ".seekermap"), std::size_t{1} << 20U).value();
+    return files::read_file(folder_ / (name + ".seekermap"), std::size_t{1} << 20U).value();
   }
 
   std::filesystem::path folder_;

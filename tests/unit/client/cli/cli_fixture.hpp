@@ -57,7 +57,8 @@ class CliFixture {
   }
 
   /// Waits until a mission was started, then ends it; to be run beside a command.
-  void end_mission(api::Outcome outcome, double robot_time_s = 42.0) {
+  void end_mission(api::Outcome outcome, double robot_time_s = 42.0,
+                   const std::vector<UnreachablePlace>& unreachable = {}) {
     for (;;) {
       const auto mission = host->values().mission;
       if (mission && !mission->end) {
@@ -66,7 +67,7 @@ class CliFixture {
         ended.updated = ended.started + seconds(robot_time_s);
         ended.path_length_m = 12.5;
         ended.coverage = api::CoverageSummary{20.0, 18.0, 0.5, 0.8, 1};
-        ended.end = api::MissionEnd{outcome, "the cause", "the remedy", {}};
+        ended.end = api::MissionEnd{outcome, "the cause", "the remedy", unreachable};
         host->edit([&](testing::FakeRobotValues& v) { v.mission = ended; });
         host->publish(api::Topic::kMission, ended.updated, ended);
         return;
@@ -76,7 +77,7 @@ class CliFixture {
   }
 };
 
-/// Checks that a text is one JSON document; a small recursive reader that accepts exactly RFC 8259.
+/// Checks that a text is one JSON document (RFC 8259).
 bool is_json(const std::string& text);
 
 }  // namespace seeker::cli

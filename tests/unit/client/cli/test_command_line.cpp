@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/api/mission.hpp"
+
 namespace seeker::cli {
 namespace {
 
@@ -34,6 +36,14 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
           "search", "recognise", "explore", "goto",       "survey", "localise",   "landmarks",  "info",   "verify",
           "export", "prune",     "revert",  "delete",     "fleet",  "status",     "merge",      "split",  "map",
           "drive",  "stop",      "estop",   "pause",      "resume", "run",        "completion", "version"}));
+}
+
+TEST(CommandLine, HelpSaysWhatEachStrategyOfAnExplorationIsGoodFor) {
+  const std::string help = parse_command_line({"explore", "--help"}).out;
+  EXPECT_NE(help.find("=horizon"), std::string::npos) << "the default: " << help;
+  for (const api::ExploreStrategy strategy : api::kExploreStrategies) {
+    EXPECT_NE(help.find(std::string(to_string(strategy)) + ":"), std::string::npos) << help;
+  }
 }
 
 TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {

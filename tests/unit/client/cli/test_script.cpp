@@ -1,8 +1,10 @@
 #include "client/cli/script.hpp"
 
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "client/cli/run_script.hpp"
 #include "tests/unit/client/cli/cli_fixture.hpp"
@@ -85,6 +87,14 @@ TEST(Script, ErrorsNameFileLineAndPath) {
             std::string::npos);
 }
 
+TEST(Script, AnExplorationLooksSeveralDrivesAheadUnlessItNamesAStrategy) {
+  const auto script =
+      parse_script("steps:\n  - explore: {return_to_start: true}\n  - explore: {strategy: active}\n", "m.yaml");
+  ASSERT_TRUE(script) << script.error().message;
+  EXPECT_EQ(std::get<ExploreStep>(script->steps[0].action).strategy, api::ExploreStrategy::kHorizon);
+  EXPECT_EQ(std::get<ExploreStep>(script->steps[1].action).strategy, api::ExploreStrategy::kActive);
+}
+
 TEST(Script, MissionsAreMadeOfTheirSteps) {
   const auto script = parse_script(
       "steps:\n"
@@ -157,6 +167,19 @@ TEST_F(RunScript, FailsAtTheFirstExpectationThatDoesNotHold) {
   EXPECT_EQ(*result, ExitCode::kFailed);
   EXPECT_NE(out.str().find("expected at most 30.0 s"), std::string::npos) << out.str();
   EXPECT_FALSE(host->values().estop);
+}
+
+TEST_F(RunScript, FailsBeforeTheFirstMissionWhereAnExportWouldOverwriteFilesOfOthers) {
+  const std::filesystem::path world =
+      std::filesystem::path(::testing::TempDir()) / ("seeker_world_" + std::to_string(::getpid()) + ".yaml");
+  std::ofstream(world) << "walls: []\n";
+  const std::string name = (world.parent_path() / world.stem()).string();
+  const auto result = play("steps:\n  - goto: {waypoints: [[1, 1]]}\n  - map_export: " + name + "\n");
+  std::filesystem::remove(world);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, Errc::kIo);
+  EXPECT_NE(result.error().message.find("map_export: " + world.string()), std::string::npos) << result.error().message;
+  EXPECT_TRUE(host->values().missions.empty());
 }
 
 TEST_F(RunScript, BackgroundMissionIsAwaited) {

@@ -128,6 +128,9 @@ TEST_F(Usage, ASaveThatCannotBeWrittenIsToldBeforeTheMission) {
       EXPECT_NE(ran.err.find("--save: cannot "), std::string::npos) << ran.err;
     }
   }
+  const Ran picture = run({"search", "-t", path("board.png"), "--save", path("board")});
+  EXPECT_EQ(picture.code, 1);
+  EXPECT_NE(picture.err.find("board.png is there and is no such export"), std::string::npos) << picture.err;
   EXPECT_TRUE(host->values().missions.empty());
 }
 

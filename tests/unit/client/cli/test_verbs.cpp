@@ -37,6 +37,14 @@ TEST_F(Verbs, ReportsAreOneJsonDocumentWithTheDocumentedKeys) {
   }
 }
 
+TEST_F(Verbs, GridDrawsTheEvidenceAsTheNameOfTheFileSays) {
+  for (const auto& [file, beginning] : {std::pair("seen.png", "\x89PNG"), std::pair("seen.svg", "<?xml")}) {
+    const Ran ran = run({"grid", "--evidence", path(file)});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(read(file).substr(0, std::string(beginning).size()), beginning);
+  }
+}
+
 TEST_F(Verbs, ARobotThatIsLookedForHasNoPose) {
   EXPECT_EQ(run({"status"}).out.find("not known"), std::string::npos);
   for (const LocalisationQuality quality : {LocalisationQuality::kUnknown, LocalisationQuality::kLost}) {
@@ -76,9 +84,27 @@ TEST_F(Verbs, SearchReportsTheEndAndItsExitCode) {
                             "robot_time_s", "wall_time_s", "exit_code"}) {
       EXPECT_NE(ran.out.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
     }
-    EXPECT_NE(ran.out.find("\"robot_time_s\":42,"), std::string::npos);
+    EXPECT_NE(ran.out.find("\"robot_time_s\":42.0,"), std::string::npos);
   }
   EXPECT_EQ(host->values().missions.size(), 4U);
+}
+
+TEST_F(Verbs, PlacesThatWereNotReachedHaveTheirCauseAndRemedy) {
+  const std::vector<UnreachablePlace> places{{{7.0, 0.5}, UnreachableCause::kOutsideBound, 0.0, ""},
+                                             {{2.0, 1.0}, UnreachableCause::kCutOff, 1.2, "behind a cupboard"}};
+  const auto end = [&] { end_mission(api::Outcome::kUnreachable, 42.0, places); };
+  const Ran ran = run({"goto", "7,0.5", "2,1"}, end);
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  EXPECT_NE(ran.out.find("unreachable (7.00, 0.50) m: it lies outside the bound of the mission"), std::string::npos)
+      << ran.out;
+  EXPECT_NE(ran.out.find("unreachable (2.00, 1.00) m, 1.20 m wide: behind a cupboard"), std::string::npos) << ran.out;
+  host->edit([](testing::FakeRobotValues& v) { v.mission.reset(); });
+  const Ran json = run({"goto", "7,0.5", "2,1", "--json"}, end);
+  EXPECT_TRUE(is_json(json.out)) << json.out;
+  EXPECT_NE(json.out.find(R"("unreachable":[[7.0,0.5],[2.0,1.0]])"), std::string::npos) << json.out;
+  EXPECT_NE(json.out.find(R"({"place":[2.0,1.0],"cause":"cut-off","size_m":1.2,"text":"behind a cupboard","remedy":")"),
+            std::string::npos)
+      << json.out;
 }
 
 TEST_F(Verbs, SearchSendsWhatTheUserAskedFor) {
@@ -126,6 +152,7 @@ TEST_F(Verbs, ExploreSendsWhatTheUserAskedFor) {
   EXPECT_EQ(missions[0].link_policy, api::LinkPolicy::kContinue);
   EXPECT_EQ(*missions[0].time_limit, seconds(60));
   EXPECT_EQ(std::get<api::ExploreMission>(missions[1].task), api::ExploreMission{});
+  EXPECT_EQ(std::get<api::ExploreMission>(missions[1].task).strategy, api::ExploreStrategy::kHorizon);
   EXPECT_TRUE(std::get<api::SearchMission>(missions[2].task).explore);
 }
 
@@ -222,7 +249,8 @@ TEST_F(Verbs, EveryDecisionOfAnExplorationIsToldOnce) {
   EXPECT_NE(documents[1].find("\"score\":-1.5,\"refused\":\"\""), std::string::npos) << documents[1];
   EXPECT_NE(documents[2].find("\"outcome\":\"COMPLETE\""), std::string::npos);
   ran = run({"explore"}, decide_twice_and_end);
-  EXPECT_NE(ran.err.find("decision 2 (one-step, 1 of 2 ways open): the long wall grows"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("decision 2 (one-step, 1 of 2 candidates open): the long wall grows"), std::string::npos)
+      << ran.err;
 }
 
 TEST_F(Verbs, TargetFileErrorsNameFileAndLine) {
@@ -309,13 +337,6 @@ TEST_F(Verbs, MapExportWritesFilesThatCanBeReadBack) {
   const auto picture = image::read_png(path("out/office.png"));
   ASSERT_TRUE(picture);
   EXPECT_GT(picture->width_px(), 1000);
-}
-
-TEST_F(Verbs, MapOfTilesFarApartIsRefusedInsteadOfFillingTheMemory) {
-  host->edit([](testing::FakeRobotValues& v) { v.tiles.tiles[0].index = {2'000'000'000, -2'000'000'000}; });
-  const Ran ran = run({"map", "export", path("far")});
-  EXPECT_NE(ran.code, 0);
-  EXPECT_NE(ran.err.find("far apart"), std::string::npos);
 }
 
 TEST_F(Verbs, WatchPrintsJsonLinesUntilItsTime) {

@@ -167,13 +167,71 @@ TEST_F(MapVerbs, ExportWritesTheFormatsAskedForAndPicturesByDefault) {
   const Ran ran = run({"map", "export", path("out/all"), "--format", "svg,geojson,tum"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_TRUE(is_json(read("out/all.geojson"))) << read("out/all.geojson");
-  EXPECT_NE(read("out/all.svg").find("<polyline"), std::string::npos);
+  EXPECT_NE(read("out/all.svg").find("<path"), std::string::npos);
   EXPECT_NE(read("out/all.tum").find("1.000000 1.000000 2.000000 0 0 0 0.247"), std::string::npos)
       << read("out/all.tum");
   EXPECT_FALSE(fs::exists(path("out/all.png")));
   EXPECT_EQ(run({"map", "export", path("x"), "--format", "dxf"}).code, 2);
   host->edit([](testing::FakeRobotValues& v) { v.segments.reset(); });
   EXPECT_EQ(run({"map", "export", path("none"), "--format", "svg"}).code, 3);
+}
+
+TEST_F(MapVerbs, ExportOverwritesItsOwnFilesOnly) {
+  const std::vector<std::string> all{"map", "export", path("room"), "--format", "pgm,png,svg,geojson,tum"};
+  const std::vector<std::string> endings{".pgm", ".yaml", ".png", ".svg", ".geojson", ".tum"};
+  ASSERT_EQ(run(all).code, 0);
+  EXPECT_EQ(run(all).code, 0) << "exports of before are replaced";
+  for (const std::string& ending : endings) {
+    fs::remove(path("room") + ending);
+  }
+  for (const std::string& ending : endings) {
+    std::ofstream(path("room") + ending) << "walls: []\n";
+    const Ran refused = run(all);
+    EXPECT_EQ(refused.code, 1) << ending;
+    EXPECT_NE(refused.err.find("room" + ending + " is there"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("choose another name"), std::string::npos) << refused.err;
+    EXPECT_EQ(read("room" + ending), "walls: []\n");
+    for (const std::string& other : endings) {
+      EXPECT_EQ(fs::exists(path("room") + other), other == ending) << "nothing is written: " << other;
+    }
+    fs::remove(path("room") + ending);
+  }
+}
+
+TEST_F(MapVerbs, CameraPictureWithoutANameOverwritesPicturesOfTheCameraOnly) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  const Ran first = run({"camera", "grab"});
+  ASSERT_EQ(first.code, 0) << first.err;
+  const std::string file = first.out.substr(0, first.out.find('\n'));
+  EXPECT_EQ(run({"camera", "grab"}).code, 0);
+  std::ofstream(file) << "mine";
+  EXPECT_EQ(run({"camera", "grab"}).code, 1);
+  EXPECT_EQ(read(file), "mine");
+  EXPECT_EQ(run({"camera", "grab", "--out", file}).code, 0) << "a file that was named is overwritten";
+  fs::current_path(before);
+}
+
+TEST_F(MapVerbs, PictureOfLandmarksOverwritesItsOwnKindOnly) {
+  host->edit([](testing::FakeRobotValues& v) {
+    v.landmarks["lab"] = {{.id = 1, .p = {1.0, 2.0}, .z_m = 0.5, .sigma_m = 0.01, .views = 3},
+                          {.id = 2, .p = {3.0, 1.0}, .z_m = 0.5, .sigma_m = 0.01, .views = 3}};
+  });
+  const std::vector<std::string> verb{"landmarks", "export", "lab", path("lab.csv")};
+  ASSERT_EQ(run(verb).code, 0) << run(verb).err;
+  EXPECT_EQ(run(verb).code, 0);
+  fs::remove(path("lab.csv"));
+  std::ofstream(path("lab.png")) << "mine";
+  EXPECT_EQ(run(verb).code, 1);
+  EXPECT_EQ(read("lab.png"), "mine");
+  EXPECT_FALSE(fs::exists(path("lab.csv"))) << "nothing is written";
+}
+
+TEST_F(MapVerbs, MapOfTilesFarApartIsRefusedInsteadOfFillingTheMemory) {
+  host->edit([](testing::FakeRobotValues& v) { v.tiles.tiles[0].index = {2'000'000'000, -2'000'000'000}; });
+  const Ran ran = run({"map", "export", path("far")});
+  EXPECT_NE(ran.code, 0);
+  EXPECT_NE(ran.err.find("far apart"), std::string::npos);
 }
 
 TEST_F(MapVerbs, StatusTellsOfTheMap) {

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include <unistd.h>
 
@@ -33,6 +35,12 @@ class VerbsFixture : public ::testing::Test, public CliFixture {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string read(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
 
   std::filesystem::path folder_;

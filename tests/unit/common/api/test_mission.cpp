@@ -201,6 +201,10 @@ TEST(Names, EveryTopicAndOutcomeHasItsOwn) {
   EXPECT_EQ(outcomes.size(), static_cast<std::size_t>(Outcome::kFault) + 1);
 }
 
+TEST(ExploreMission, LooksSeveralDrivesAheadUnlessAnotherStrategyIsNamed) {
+  EXPECT_EQ(ExploreMission{}.strategy, ExploreStrategy::kHorizon);
+}
+
 TEST(Names, EveryStrategyAndTaskHasItsOwn) {
   std::set<std::string> strategies;
   for (const ExploreStrategy strategy : kExploreStrategies) {

@@ -106,6 +106,37 @@ TEST(MapPicture, ShowsFloorWallsUnknownAndTheMarks) {
   EXPECT_EQ(colour_at(10.6, 3.4), (Colour{214, 0, 110}));  // the pin of the target
 }
 
+TEST(MapPicture, IsADrawingOfTheSameSizeAndShapes) {
+  const MapScene scene = two_rooms();
+  const auto picture = draw_map(scene);
+  const auto drawing = map_svg(scene);
+  ASSERT_TRUE(picture && drawing);
+  const auto size = [](int px) { return "=\"" + std::to_string(px) + "px\""; };
+  EXPECT_NE(drawing->find("width" + size(picture->width_px()) + " height" + size(picture->height_px())),
+            std::string::npos);
+  EXPECT_NE(drawing->find("<image"), std::string::npos) << "the grids";
+  EXPECT_NE(drawing->find("stroke:rgb(0%,39.215686%,69.803922%)"), std::string::npos) << "the path of the robot";
+  EXPECT_NE(drawing->find("fill:rgb(83.921569%,0%,43.137255%)"), std::string::npos) << "the pin of the target";
+  EXPECT_EQ(map_svg({}).error().code, Errc::kNotReady);
+}
+
+/// In a process of its own: a font is loaded once.
+TEST(MapPictureDeathTest, IsDrawnWithTextWhereTheMachineHasNoFont) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto draw_without_fonts = [] {
+    ::setenv("SEEKER_FONT", "/nowhere/font.ttf", 1);
+    Canvas canvas(100, 30, kWhite);
+    canvas.text(Point2(5, 25), "Map", {kBlack, 14.0});
+    int letters_px = 0;
+    for (int u = 0; u < canvas.width_px(); ++u) {
+      letters_px += canvas.pixel(u, 20) == kWhite ? 0 : 1;
+    }
+    const bool legible = text_width_px("Map", 14.0) > 20.0 && letters_px > 5;
+    std::exit(legible && draw_map(two_rooms()) ? 0 : 1);
+  };
+  EXPECT_EXIT(draw_without_fonts(), ::testing::ExitedWithCode(0), "");
+}
+
 TEST(MapPicture, GapsAreNumberedFromTheLargestAndTheRestIsCounted) {
   std::vector<GapMark> gaps{{Point2(1, 1), 0.04, "not seen"}, {Point2(2, 2), 0.5, "cut off"}};
   for (int n = 0; n < 11; ++n) {

@@ -9,7 +9,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "common/core/rng.hpp"
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/pgm.hpp"
 
 namespace seeker::image {

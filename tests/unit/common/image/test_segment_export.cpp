@@ -30,11 +30,14 @@ TEST(SegmentExport, SvgShowsWallsRealAndOpenEndsAndAScale) {
   map.segments.front().left_real = false;
   const Result<std::string> svg = segments_svg({"room <1>", map.segments, {{0, 0, 0}, {1, 1, 0}}});
   ASSERT_TRUE(svg);
-  EXPECT_EQ(count(*svg, "<polyline"), 4U + 1U + 1U) << "walls, the way, the scale bar";
-  EXPECT_EQ(count(*svg, "<circle"), 8U);
-  EXPECT_EQ(count(*svg, "fill=\"#ffffff\" fill-opacity=\"1\" stroke=\"#0064b2\""), 1U) << "one open end";
-  EXPECT_NE(svg->find("room &lt;1&gt;"), std::string::npos);
-  EXPECT_NE(svg->find("1 m</text>"), std::string::npos);
+  EXPECT_EQ(count(*svg, "stroke-width:2;"), 4U) << "walls";
+  EXPECT_EQ(count(*svg, "stroke-dasharray:6,5.25"), 1U) << "the way";
+  EXPECT_EQ(count(*svg, "stroke-width:3;"), 1U) << "the scale bar";
+  EXPECT_EQ(count(*svg, "stroke-width:1;"), 8U) << "ends";
+  EXPECT_EQ(count(*svg, "<path style=\" stroke:none;fill-rule:evenodd;fill:rgb(100%,100%,100%)"), 1U) << "one open end";
+  constexpr const char* kLetters = "stroke:none;fill-rule:nonzero";
+  EXPECT_EQ(count(*svg, kLetters), 2U) << "the title and the length of the scale";
+  EXPECT_EQ(count(*segments_svg({"", map.segments, {}}), kLetters), 1U);
 }
 
 TEST(SegmentExport, NothingToDrawIsAnError) {

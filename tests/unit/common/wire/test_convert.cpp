@@ -109,6 +109,25 @@ void expect_refused(const M& message, const std::string& field, Errc code) {
   EXPECT_NE(value.error().message.find("'" + field + "'"), std::string::npos) << value.error().message;
 }
 
+TEST(Convert, PlacesOfOlderRobotsHaveNoCauseAndNewCausesAreNoError) {
+  api::MissionStatus ended;
+  ended.state = api::MissionState::kEnded;
+  ended.end = api::MissionEnd{api::Outcome::kUnreachable, "cause", "", {}};
+  ended.end->unreachable.push_back({{1.0, 2.0}, UnreachableCause::kOutsideBound, 0.8, "the text"});
+  auto message = to_message<pb::MissionStatus>(ended);
+  EXPECT_EQ(message.end().unreachable().x_m_size(), 1) << "clients of older software read the points";
+  message.mutable_end()->mutable_unreachable_places(0)->set_cause(static_cast<pb::UnreachableCause>(99));
+  const auto unknown = from_message<api::MissionStatus>(message);
+  ASSERT_TRUE(unknown) << unknown.error().message;
+  EXPECT_EQ(unknown->end->unreachable.front(),
+            (UnreachablePlace{{1.0, 2.0}, UnreachableCause::kNotStated, 0.8, "the text"}));
+  message.mutable_end()->clear_unreachable_places();
+  const auto older = from_message<api::MissionStatus>(message);
+  ASSERT_TRUE(older) << older.error().message;
+  EXPECT_EQ(older->end->unreachable,
+            (std::vector<UnreachablePlace>{{{1.0, 2.0}, UnreachableCause::kNotStated, 0.0, ""}}));
+}
+
 TEST(Convert, RefusalsNameTheField) {
   ValueMaker make(1);
   auto status = to_message<pb::RobotStatus>(make.status());

@@ -201,8 +201,8 @@ TEST(ConvertFleet, ATopologyThatMakesNoSenseIsRefused) {
   EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->mutable_goals(0)->set_layer(65); }), Errc::kInvalidArgument);
   EXPECT_EQ(refusal_of([](T& t) { t.mutable_places(0)->mutable_goals(0)->mutable_p_map()->set_x_m(300.0); }),
             Errc::kInvalidArgument);
-  EXPECT_EQ(refusal_of([](T& t) { t.set_ways(0, 9); }), Errc::kInvalidArgument);
-  EXPECT_EQ(refusal_of([](T& t) { t.add_ways(1); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.set_edges(0, 9); }), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of([](T& t) { t.add_edges(1); }), Errc::kInvalidArgument);
   EXPECT_EQ(refusal_of([](T& t) { t.set_current(9); }), Errc::kInvalidArgument);
   EXPECT_EQ(refusal_of([](T& t) { t.mutable_velocity()->set_v_m_s(1e9); }), Errc::kInvalidArgument);
   EXPECT_EQ(refusal_of([](T& t) { t.mutable_velocity()->set_omega_rad_s(-1e9); }), Errc::kInvalidArgument);

@@ -181,7 +181,10 @@ api::MissionStatus ValueMaker::mission_status() {
     m.decision = decision();
   }
   if (m.state == api::MissionState::kEnded) {
-    m.end = api::MissionEnd{one_of(api::Outcome::kFault), text(), text(), points()};
+    m.end = api::MissionEnd{one_of(api::Outcome::kFault), text(), text(), {}};
+    for (int k = count(4); k > 0; --k) {
+      m.end->unreachable.push_back({point(), one_of(kUnreachableCauses.back()), number(), text()});
+    }
   }
   return m;
 }

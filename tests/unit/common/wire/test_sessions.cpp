@@ -1,3 +1,8 @@
+#include <set>
+#include <string>
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
 #include <gtest/gtest.h>
 
 #include "common/wire/client_session.hpp"
@@ -33,6 +38,29 @@ pb::Envelope info_request(std::uint64_t id) {
   envelope.mutable_request()->mutable_header()->set_request_id(id);
   envelope.mutable_request()->mutable_get_info();
   return envelope;
+}
+
+TEST(RequiredRole, CallsThatChangeSomethingNeedAnOperator) {
+  const std::set<std::string> for_everybody = {
+      "get_info",     "get_status",   "list_components", "get_mission",       "stop",
+      "get_tiles",    "get_grid",     "get_detections",  "get_trajectory",    "grab_image",
+      "subscribe",    "unsubscribe",  "time_sync",       "list_maps",         "inspect_map",
+      "download_map", "get_segments", "list_landmarks",  "inspect_landmarks", "get_landmarks"};
+  const google::protobuf::OneofDescriptor* calls = pb::Request::descriptor()->FindOneofByName("call");
+  ASSERT_NE(calls, nullptr);
+  for (int k = 0; k < calls->field_count(); ++k) {
+    pb::Request request;
+    pb::Request::GetReflection()->MutableMessage(&request, calls->field(k));
+    const std::string& name = calls->field(k)->name();
+    EXPECT_EQ(required_role(request), for_everybody.contains(name) ? api::Role::kObserver : api::Role::kOperator)
+        << name;
+  }
+}
+
+TEST(RequiredRole, AnybodyMayEngageTheEmergencyStopAndAnOperatorReleasesIt) {
+  pb::Request request;
+  request.mutable_set_estop()->set_engaged(true);
+  EXPECT_EQ(required_role(request), api::Role::kObserver);
 }
 
 class ServerSessionTest : public ::testing::Test {

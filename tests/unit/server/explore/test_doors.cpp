@@ -93,7 +93,7 @@ TEST(Doors, WhoStaysInTheDoorMakesWhatLiesBehindUnreachable) {
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kUnreachable) << run.end->cause;
   ASSERT_FALSE(run.end->unreachable.empty());
-  EXPECT_GT(run.end->unreachable.front().x(), 5.0);
+  EXPECT_GT(run.end->unreachable.front().p_map.x(), 5.0);
   EXPECT_GT(run.seconds, 120.0) << "it has been waited for";
   EXPECT_LT(run.seconds, 400.0);
 }

@@ -93,7 +93,9 @@ TEST(Exploration, FloorBehindAGapTooNarrowIsListedAsUnreachable) {
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kUnreachable);
   ASSERT_FALSE(run.end->unreachable.empty());
-  EXPECT_GT(run.end->unreachable.front().x(), 5.1);
+  EXPECT_GT(run.end->unreachable.front().p_map.x(), 5.1);
+  EXPECT_GT(run.end->unreachable.front().size_m, 0.5) << "how much is left there";
+  EXPECT_NE(run.end->cause.find(" m wide: "), std::string::npos) << run.end->cause;
   EXPECT_FALSE(run.end->remedy.empty());
   EXPECT_TRUE(has_event(run, "unreachable"));
 }

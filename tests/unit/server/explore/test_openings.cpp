@@ -141,7 +141,9 @@ TEST(Openings, AFailedDriveRestsAndIsGivenUpAfterSome) {
   }
   EXPECT_FALSE(find(1000.0).has_value());
   ASSERT_EQ(openings.given_up().size(), 1U);
-  EXPECT_THAT(openings.given_up().front(), Point2Near(first.front().p_map, 1e-9));
+  EXPECT_THAT(openings.given_up().front().p_map, Point2Near(first.front().p_map, 1e-9));
+  EXPECT_DOUBLE_EQ(openings.given_up().front().size_m, first.front().size_m);
+  EXPECT_GT(first.front().size_m, 0.0);
 }
 
 TEST(Openings, WhatWasGivenUpIsTriedOnceMoreWhenAskedTo) {

@@ -36,7 +36,7 @@ TEST(Auction, SendsTheSecondRobotElsewhereThanBesideTheFirst) {
   EXPECT_EQ(given, (Given{0, 2}));
 }
 
-TEST(Auction, LeavesARobotWithoutAWayAlone) {
+TEST(Auction, LeavesARobotWithoutAPathAlone) {
   EXPECT_EQ(auction({{"a", {kNoWay}}, {"b", {50.0}}}, {{{0.0, 0.0}, 1.0}}), (Given{std::nullopt, 0}));
   EXPECT_EQ(auction({{"a", {}}}, {}), (Given{std::nullopt}));
   EXPECT_TRUE(auction({}, {{{0.0, 0.0}, 1.0}}).empty());
@@ -54,7 +54,7 @@ RC_GTEST_PROP(Auction, GivesTheSameWhateverTheOrder, ()) {
   for (std::size_t r = 0; r < robots; ++r) {
     Bidder bidder{std::string(1, static_cast<char>('a' + r)), {}};
     for (std::size_t k = 0; k < places; ++k) {
-      bidder.way_m.push_back(*rc::gen::inRange(0, 5));
+      bidder.distance_m.push_back(*rc::gen::inRange(0, 5));
     }
     bidders.push_back(std::move(bidder));
   }
@@ -69,7 +69,7 @@ RC_GTEST_PROP(Auction, GivesTheSameWhateverTheOrder, ()) {
 
   std::vector<Bidder> turned(bidders.rbegin(), bidders.rend());
   for (Bidder& bidder : turned) {
-    std::reverse(bidder.way_m.begin(), bidder.way_m.end());
+    std::reverse(bidder.distance_m.begin(), bidder.distance_m.end());
   }
   const Given again = auction(turned, {tasks.rbegin(), tasks.rend()});
   for (std::size_t r = 0; r < robots; ++r) {

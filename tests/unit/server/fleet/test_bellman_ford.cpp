@@ -9,25 +9,25 @@
 namespace seeker::fleet {
 namespace {
 
-TEST(BellmanFord, GoesTheShorterWayRound) {
+TEST(BellmanFord, TakesTheShorterPathRound) {
   PlaceGraph graph;
   graph.places = {{0, 0}, {1, 0}, {1, 1}, {0, 5}};
   graph.edges = {{0, 1}, {1, 2}, {2, 3}, {0, 3}};
-  const ShortestWays ways = bellman_ford(graph, 0);
-  EXPECT_DOUBLE_EQ(ways.distance_m[2], 2.0);
-  EXPECT_EQ(ways.way_to(2), (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_EQ(ways.way_to(3), (std::vector<std::size_t>{0, 3}));
-  EXPECT_EQ(ways.way_to(0), (std::vector<std::size_t>{0}));
+  const ShortestPaths paths = bellman_ford(graph, 0);
+  EXPECT_DOUBLE_EQ(paths.distance_m[2], 2.0);
+  EXPECT_EQ(paths.path_to(2), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(paths.path_to(3), (std::vector<std::size_t>{0, 3}));
+  EXPECT_EQ(paths.path_to(0), (std::vector<std::size_t>{0}));
 }
 
-TEST(BellmanFord, SaysWhereNoWayLeads) {
+TEST(BellmanFord, SaysWhereNoPathLeads) {
   PlaceGraph graph;
   graph.places = {{0, 0}, {1, 0}, {2, 0}};
   graph.edges = {{0, 1}};
-  const ShortestWays ways = bellman_ford(graph, 1);
-  EXPECT_FALSE(ways.reaches(2));
-  EXPECT_TRUE(ways.way_to(2).empty());
-  EXPECT_TRUE(ways.reaches(0));
+  const ShortestPaths paths = bellman_ford(graph, 1);
+  EXPECT_FALSE(paths.reaches(2));
+  EXPECT_TRUE(paths.path_to(2).empty());
+  EXPECT_TRUE(paths.reaches(0));
 }
 
 TEST(BellmanFord, KnowsTheOnlyPlace) {
@@ -69,20 +69,20 @@ RC_GTEST_PROP(BellmanFord, FindsTheDistancesOfAllPairs, ()) {
     graph.edges.push_back({*rc::gen::inRange<std::size_t>(0, n), *rc::gen::inRange<std::size_t>(0, n)});
   }
   const auto source = *rc::gen::inRange<std::size_t>(0, n);
-  const ShortestWays ways = bellman_ford(graph, source);
+  const ShortestPaths paths = bellman_ford(graph, source);
   const auto oracle = all_pairs(graph);
   for (std::size_t k = 0; k < n; ++k) {
-    RC_ASSERT(ways.reaches(k) == std::isfinite(oracle[source][k]));
-    if (!ways.reaches(k)) {
+    RC_ASSERT(paths.reaches(k) == std::isfinite(oracle[source][k]));
+    if (!paths.reaches(k)) {
       continue;
     }
-    RC_ASSERT(std::abs(ways.distance_m[k] - oracle[source][k]) < 1e-9);
-    const std::vector<std::size_t> way = ways.way_to(k);
+    RC_ASSERT(std::abs(paths.distance_m[k] - oracle[source][k]) < 1e-9);
+    const std::vector<std::size_t> path = paths.path_to(k);
     double length = 0.0;
-    for (std::size_t step = 1; step < way.size(); ++step) {
-      length += (graph.places[way[step]] - graph.places[way[step - 1]]).norm();
+    for (std::size_t step = 1; step < path.size(); ++step) {
+      length += (graph.places[path[step]] - graph.places[path[step - 1]]).norm();
     }
-    RC_ASSERT(std::abs(length - ways.distance_m[k]) < 1e-9);
+    RC_ASSERT(std::abs(length - paths.distance_m[k]) < 1e-9);
   }
 }
 

@@ -22,7 +22,7 @@ TEST(FleetLinks, ARobotHangsTogetherWithTheMainOneOverAnother) {
   EXPECT_DOUBLE_EQ(links.at(2).confidence, 0.7);
 }
 
-TEST(FleetLinks, OfSeveralWaysTheSurestCounts) {
+TEST(FleetLinks, OfSeveralPathsTheSurestCounts) {
   const auto links = links_from(0, {pair(0, 1, 0.9), pair(0, 2, 0.3), pair(1, 2, 0.8)});
   EXPECT_EQ(links.at(2).through, 1);
   EXPECT_DOUBLE_EQ(links.at(2).confidence, 0.8);

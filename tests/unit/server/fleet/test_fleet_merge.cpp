@@ -24,7 +24,7 @@ TEST(Cycles, ThreeRobotsThatAgreeStayMerged) {
   std::vector<PairAnswer> pairs{merged(0, 1, kOne, 0.9), merged(1, 2, kTwo, 0.8), merged(0, 2, kOne * kTwo, 0.7)};
   demote_open_cycles(pairs);
   EXPECT_EQ(merged_count(pairs), 3U);
-  // Whichever way round the pairs were asked.
+  // In whichever order the pairs were compared.
   std::vector<PairAnswer> turned{merged(1, 0, inverse(kOne), 0.9), merged(1, 2, kTwo, 0.8),
                                  merged(2, 0, inverse(kOne * kTwo), 0.7)};
   demote_open_cycles(turned);

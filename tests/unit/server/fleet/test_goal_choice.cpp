@@ -74,7 +74,7 @@ TEST(GoalChoice, IsTheMainGoalOfThePresentNode) {
   const GoalChoice choice = scene.choose();
   ASSERT_TRUE(choice.goal.has_value());
   EXPECT_EQ(choice.goal->id, 2U);
-  EXPECT_TRUE(choice.goal->way_map.empty());
+  EXPECT_TRUE(choice.goal->path_map.empty());
   ASSERT_TRUE(choice.decision.chosen.has_value());
   EXPECT_EQ(choice.decision.rule, "topological");
   EXPECT_EQ(choice.decision.candidates.size(), 4U);
@@ -88,9 +88,9 @@ TEST(GoalChoice, GoesBackToTheClosestNodeWithAGoal) {
   ASSERT_TRUE(choice.goal.has_value());
   EXPECT_EQ(choice.goal->id, 9U);
   EXPECT_EQ(choice.goal->node, 3U);
-  ASSERT_EQ(choice.goal->way_map.size(), 2U);
-  EXPECT_THAT(choice.goal->way_map.back(), Point2Near(Point2(8.0, 0.0), 1e-9));
-  EXPECT_NEAR(choice.goal->way_m, 11.0, 1e-9);
+  ASSERT_EQ(choice.goal->path_map.size(), 2U);
+  EXPECT_THAT(choice.goal->path_map.back(), Point2Near(Point2(8.0, 0.0), 1e-9));
+  EXPECT_NEAR(choice.goal->distance_m, 11.0, 1e-9);
 }
 
 TEST(GoalChoice, LeavesOutWhatFailedLately) {
@@ -118,7 +118,7 @@ TEST(GoalChoice, LeavesAloneWhatAnotherRobotDrivesTo) {
   EXPECT_TRUE(scene.choose().others_busy);
 }
 
-TEST(GoalChoice, TakesOverWhatAnotherRobotHasAMuchLongerWayTo) {
+TEST(GoalChoice, TakesOverWhatAnotherRobotHasAMuchLongerPathTo) {
   Scene scene{row({{{1, {3.0, 0.0}, 8}}})};
   scene.fleet.others = {other_at({5.0, 0.0})};
   scene.fleet.others.front().target_map = Point2(3.0, 0.0);
@@ -129,7 +129,7 @@ TEST(GoalChoice, TakesOverWhatAnotherRobotHasAMuchLongerWayTo) {
   EXPECT_EQ(scene.choose().goal->id, 1U);
 }
 
-TEST(GoalChoice, OfTwoThatDriveToOneGoalTheOneWithTheMuchLongerWayYieldsElseTheLastByName) {
+TEST(GoalChoice, OfTwoThatDriveToOneGoalTheOneWithTheMuchLongerPathYieldsElseTheLastByName) {
   const Topology own = row({{{1, {9.0, 0.0}, 8}}});
   for (const char* name : {"b", "0"}) {  // after the other one, "a", and before it
     const auto yields_to = [&](const Point2& p_other) {

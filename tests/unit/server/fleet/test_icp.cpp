@@ -26,7 +26,7 @@ TEST(RigidFit, GivesBackTheMotionThatMadeThePairs) {
   }
 }
 
-TEST(RigidFit, OfASinglePairMovesWithoutTurning) {
+TEST(RigidFit, OfASinglePairMovesWithoutRotation) {
   EXPECT_THAT(rigid_fit({{3.0, 1.0}}, {{1.0, 1.0}}), Pose2Near(Pose2{2.0, 0.0, 0.0}, 1e-12, 1e-12));
 }
 

@@ -77,11 +77,11 @@ TEST(JointMap, CarriesPosesOfRobotsAndGoalsThereAndBack) {
   EXPECT_THAT(joint->robots.at(1).from_joint(there), Pose2Near(own, 1e-6, 1e-6));
 }
 
-TEST(JointMap, RelationsAtBothEndsTakeTheBendOutOfAMap) {
+TEST(JointMap, RelationsAtBothEndsTakeTheDistortionOutOfAMap) {
   const LineMap a = chain(6, kStep);
-  const LineMap bent = chain(6, kStep * Pose2{0.0, 0.0, 0.02});
+  const LineMap distorted = chain(6, kStep * Pose2{0.0, 0.0, 0.02});
   const auto joint =
-      join({{0, &a}, {1, &bent}}, {{0, 1, {pair_of(0, 0, {}), pair_of(3, 3, {}), pair_of(5, 5, {})}}}, 1);
+      join({{0, &a}, {1, &distorted}}, {{0, 1, {pair_of(0, 0, {}), pair_of(3, 3, {}), pair_of(5, 5, {})}}}, 1);
   ASSERT_TRUE(joint);
   for (std::uint32_t k = 0; k < 6; ++k) {
     const JointRobot::Node& node = joint->robots.at(1).nodes.at(k);

@@ -1,4 +1,4 @@
-// Robots that hear of each other late may choose one goal; they must not both drive on to it.
+// Robots that receive each other's goals late may choose one goal; they must not both drive on to it.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using explore::ToyExplorer;
 
 constexpr double kLimit_s = 60.0;
 
-/// Another robot turns out to drive to the goal that robot "m" has chosen: after how long does "m" leave it?
+/// Another robot is found to drive to the goal that robot "m" has chosen: after how long does "m" leave it?
 double leaves_its_goal_after_s(const std::string& other_id) {
   explore::ExploreRequest request;
   request.strategy = [](const explore::ExploreParams& params) {

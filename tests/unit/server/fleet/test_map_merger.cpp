@@ -26,12 +26,12 @@ const std::vector<Point2> kEast{{23.0, 6.0}, {8.0, 5.9}, {20.0, 6.0}};
 
 TEST(MapMerger, LaysTwoRobotsMapsUponEachOtherWithoutKnowingWhereTheyBegan) {
   const auto walls = office(1);
-  const auto ways = std::pair(drive(kWest), drive(kEast));
-  PreparedMap a = prepared(toy_map(walls, ways.first, 11));
-  PreparedMap b = prepared(toy_map(walls, ways.second, 12));
+  const auto paths = std::pair(drive(kWest), drive(kEast));
+  PreparedMap a = prepared(toy_map(walls, paths.first, 11));
+  PreparedMap b = prepared(toy_map(walls, paths.second, 12));
   const MergeAnswer answer = MapMerger().merge(a, b);
   ASSERT_EQ(answer.verdict, MergeVerdict::kMerged) << answer.reason;
-  const Pose2 truth = inverse(ways.first.front()) * ways.second.front();
+  const Pose2 truth = inverse(paths.first.front()) * paths.second.front();
   EXPECT_THAT(answer.hypotheses.front().a_T_b.a_T_b, Pose2Near(truth, 0.15, 0.02));
 }
 
@@ -44,7 +44,7 @@ TEST(MapMerger, DoesNotMergeTwoBuildings) {
   }
 }
 
-TEST(MapMerger, AnswersTheSameWhenAskedAgainAndTheReverseTheOtherWayRound) {
+TEST(MapMerger, AnswersTheSameWhenAskedAgainAndTheInverseInTheOtherDirection) {
   const auto walls = office(2);
   PreparedMap a = prepared(toy_map(walls, drive(kWest), 11));
   PreparedMap b = prepared(toy_map(walls, drive(kEast), 12));
@@ -65,7 +65,7 @@ TEST(MapMerger, APlaceThatOnlyOneOfThemHasSeenIsTooLittle) {
   EXPECT_EQ(answer.verdict, MergeVerdict::kInsufficientOverlap) << answer.reason;
 }
 
-TEST(MapMerger, WhereOneOfTwoEqualCorridorsIsMeantNobodyCanTell) {
+TEST(MapMerger, WhichOfTwoEqualCorridorsIsMeantCannotBeDecided) {
   const auto walls = twin_corridors();
   // The first robot knows both, the other one alone.
   PreparedMap both = prepared(
@@ -89,15 +89,15 @@ TEST(MapMerger, RobotsThatBeganInTwoEqualCorridorsMeetInTheHallAndNowhereElse) {
   const auto walls = twin_corridors_with_a_hall();
   const std::vector<Point2> first{{15.0, 1.0}, {3.0, 1.0}, {-4.0, 1.0}, {-7.0, 4.0}, {-7.0, 9.0}, {-4.0, 10.5}};
   const std::vector<Point2> second{{15.0, 11.0}, {3.0, 11.0}, {-4.0, 11.0}, {-8.0, 8.0}, {-6.0, 3.0}, {-3.0, 1.5}};
-  const auto way = [](const std::vector<Point2>& corners, std::size_t so_far) {
+  const auto path = [](const std::vector<Point2>& corners, std::size_t so_far) {
     return drive({corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(so_far)});
   };
   for (std::size_t so_far = 2; so_far <= first.size(); ++so_far) {
-    const auto ways = std::pair(way(first, so_far), way(second, so_far));
-    PreparedMap a = prepared(toy_map(walls, ways.first, 11));
-    PreparedMap b = prepared(toy_map(walls, ways.second, 12));
+    const auto paths = std::pair(path(first, so_far), path(second, so_far));
+    PreparedMap a = prepared(toy_map(walls, paths.first, 11));
+    PreparedMap b = prepared(toy_map(walls, paths.second, 12));
     const MergeAnswer answer = MapMerger().merge(a, b);
-    const Pose2 truth = inverse(ways.first.front()) * ways.second.front();
+    const Pose2 truth = inverse(paths.first.front()) * paths.second.front();
     if (answer.merged()) {
       EXPECT_THAT(answer.hypotheses.front().a_T_b.a_T_b, Pose2Near(truth, 0.3, 0.03)) << figures_of(answer);
     }

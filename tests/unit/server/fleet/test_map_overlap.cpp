@@ -16,11 +16,11 @@ const std::vector<Wall> kVisitor = box(4.2, 3.2, 4.7, 3.7);
 PreparedMap visited_map(std::size_t places, std::uint64_t seed) {
   std::vector<Wall> with_visitor = kHall;
   add(with_visitor, kVisitor);
-  const std::vector<Pose2> way = drive(kRound);
+  const std::vector<Pose2> path = drive(kRound);
   const ToyDrift none{0.0, 0.0};
-  LineMap map = toy_map(kHall, way, seed, none);
-  const LineMap visited = toy_map(with_visitor, way, seed, none);
-  std::copy_n(visited.keyframes.begin(), std::min(places, way.size()), map.keyframes.begin());
+  LineMap map = toy_map(kHall, path, seed, none);
+  const LineMap visited = toy_map(with_visitor, path, seed, none);
+  std::copy_n(visited.keyframes.begin(), std::min(places, path.size()), map.keyframes.begin());
   return prepared(map);
 }
 

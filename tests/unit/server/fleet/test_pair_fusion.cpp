@@ -36,13 +36,13 @@ TEST(PairFusion, APairInABareCorridorHasNoSayAlongIt) {
   EXPECT_THAT(fuse(pairs, {}).a_T_b, Pose2Near(kTruth, 0.01, 0.002));
 }
 
-TEST(PairFusion, TwoCorridorsAcrossEachOtherTellThePlaceTogether) {
+TEST(PairFusion, TwoCorridorsAcrossEachOtherDetermineThePlaceTogether) {
   const std::vector<PairPlace> pairs{pair_at({0.0, 0.0, 0.0}, sigmas(10.0, 0.05, 0.01), {4.0, 0.0, 0.0}),
                                      pair_at({5.0, 5.0, 1.0}, sigmas(0.05, 10.0, 0.01), {0.0, -4.0, 0.0})};
   EXPECT_THAT(fuse(pairs, {}).a_T_b, Pose2Near(kTruth, 0.01, 0.002));
 }
 
-TEST(PairFusion, PlacesFarApartTellTheHeadingBetterThanTheirOwnHeadingsDo) {
+TEST(PairFusion, PlacesFarApartDetermineTheHeadingBetterThanTheirOwnHeadingsDo) {
   const auto heading_sigma = [](double apart_m) {
     return std::sqrt(fuse({pair_at({0.0, 0.0, 0.0}, sigmas(0.05, 0.05, 0.02)),
                            pair_at({apart_m, 0.0, 0.0}, sigmas(0.05, 0.05, 0.02))},
@@ -55,7 +55,7 @@ TEST(PairFusion, PlacesFarApartTellTheHeadingBetterThanTheirOwnHeadingsDo) {
 TEST(PairFusion, ItsErrorsAreOfTheSizeThatItSays) {
   constexpr int kRuns = 2000;
   Rng rng(5);
-  BendParams none;
+  DistortionParams none;
   none.sigma_m = none.sigma_rad = 1e-6;
   double nees = 0.0;
   for (int run = 0; run < kRuns; ++run) {
@@ -74,11 +74,11 @@ TEST(PairFusion, ItsErrorsAreOfTheSizeThatItSays) {
 }
 
 TEST(PairFusion, ALocalMapIsCarriedByTheNearestPairWhereThatKnowsBetter) {
-  // The map of b is bent: its far end lies 0.3 m off.
-  const Pose2 bend{0.0, 0.3, 0.0};
+  // The map of b is distorted: its far end lies 0.3 m off.
+  const Pose2 distortion{0.0, 0.3, 0.0};
   const std::vector<PairPlace> sure{pair_at({0.0, 0.0, 0.0}, sigmas(0.03, 0.03, 0.01)),
-                                    pair_at({20.0, 0.0, 0.0}, sigmas(0.03, 0.03, 0.01), bend)};
-  const Pose2 far = pair_at({20.0, 0.0, 0.0}, Matrix3::Zero(), bend).map_a_T_node.a_T_b;
+                                    pair_at({20.0, 0.0, 0.0}, sigmas(0.03, 0.03, 0.01), distortion)};
+  const Pose2 far = pair_at({20.0, 0.0, 0.0}, Matrix3::Zero(), distortion).map_a_T_node.a_T_b;
   EXPECT_THAT(carried(sure, kTruth, {20.0, 0.0, 0.0}, {}), Pose2Near(far, 0.02, 0.01));
   EXPECT_THAT(carried(sure, kTruth, {0.0, 0.0, 0.0}, {}), Pose2Near(kTruth, 0.01, 0.01));
   // The same from a bare corridor moves nothing.

@@ -7,7 +7,7 @@
 namespace seeker::fleet {
 namespace {
 
-const std::vector<Point2> kWay{{1.0, 6.0}, {22.0, 6.0}, {2.0, 6.2}};
+const std::vector<Point2> kPath{{1.0, 6.0}, {22.0, 6.0}, {2.0, 6.2}};
 
 /// The map as it was when only so many local maps were there.
 LineMap first_nodes(LineMap map, std::uint32_t count) {
@@ -18,7 +18,7 @@ LineMap first_nodes(LineMap map, std::uint32_t count) {
 }
 
 TEST(PreparedMap, KeepsWhatDidNotChangeWhenTheMapGrows) {
-  const LineMap whole = toy_map(office(1), drive(kWay), 1);
+  const LineMap whole = toy_map(office(1), drive(kPath), 1);
   ASSERT_GE(whole.nodes.size(), 4U);
   PreparedMap map = prepared(first_nodes(whole, 3));
   ASSERT_EQ(map.nodes().size(), 3U);
@@ -32,7 +32,7 @@ TEST(PreparedMap, KeepsWhatDidNotChangeWhenTheMapGrows) {
 }
 
 TEST(PreparedMap, ARegionIsMadeAgainWhenItsLocalMapsMoveToEachOther) {
-  LineMap whole = toy_map(office(1), drive(kWay), 1);
+  LineMap whole = toy_map(office(1), drive(kPath), 1);
   PreparedMap map = prepared(whole);
   const auto before = map.place(0);
   whole.nodes[1].map_T_node = whole.nodes[1].map_T_node * Pose2{0.005, 0.0, 0.0};
@@ -44,7 +44,7 @@ TEST(PreparedMap, ARegionIsMadeAgainWhenItsLocalMapsMoveToEachOther) {
 }
 
 TEST(PreparedMap, RefusesWhatIsNoMapAndLeavesOutLocalMapsWithoutScans) {
-  LineMap map = toy_map(office(1), drive(kWay), 1);
+  LineMap map = toy_map(office(1), drive(kPath), 1);
   LineMap broken = map;
   broken.keyframes.front().node = 999;
   PreparedMap empty;
@@ -55,7 +55,7 @@ TEST(PreparedMap, RefusesWhatIsNoMapAndLeavesOutLocalMapsWithoutScans) {
 }
 
 TEST(PreparedMap, FindsTheRegionOfAPlaceAndNoneFarAway) {
-  const PreparedMap map = prepared(toy_map(office(1), drive(kWay), 1));
+  const PreparedMap map = prepared(toy_map(office(1), drive(kPath), 1));
   for (const PreparedNode& node : map.nodes()) {
     EXPECT_TRUE(map.region_at(node.map_T_node * node.middle));
     EXPECT_LT(node.region, map.regions().size());
@@ -64,8 +64,8 @@ TEST(PreparedMap, FindsTheRegionOfAPlaceAndNoneFarAway) {
 }
 
 TEST(PreparedMap, ProposesNoMoreRegionsThanAskedFor) {
-  const PreparedMap a = prepared(toy_map(office(1), drive(kWay), 1));
-  const PreparedMap b = prepared(toy_map(office(1), drive(kWay), 2));
+  const PreparedMap a = prepared(toy_map(office(1), drive(kPath), 1));
+  const PreparedMap b = prepared(toy_map(office(1), drive(kPath), 2));
   ASSERT_GE(a.regions().size(), 2U);
   EXPECT_EQ(a.regions_like(b.nodes().front(), 1).size(), 1U);
   EXPECT_EQ(a.regions_like(b.nodes().front(), 100).size(), a.regions().size());

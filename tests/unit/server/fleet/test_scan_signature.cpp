@@ -18,13 +18,13 @@ double between(const ScanSignature& a, const ScanSignature& b) {
 }
 
 /// All around: a look ahead and one back.
-std::vector<slam::SeenPoints> around(const Pose2& world_T_base, std::uint64_t seed, double turn_rad = 0.0) {
+std::vector<slam::SeenPoints> around(const Pose2& world_T_base, std::uint64_t seed, double rotation_rad = 0.0) {
   Rng rng(seed);
   std::vector<slam::SeenPoints> seen;
   for (const double look_rad : {0.0, kPi}) {
     const Pose2 base_T_look{0.0, 0.0, look_rad};
     const LaserScan scan = scan_from(office(1), world_T_base * base_T_look, rng);
-    seen.push_back(slam::transform(Pose2{0.0, 0.0, turn_rad} * base_T_look, slam::seen_points(scan)));
+    seen.push_back(slam::transform(Pose2{0.0, 0.0, rotation_rad} * base_T_look, slam::seen_points(scan)));
   }
   return seen;
 }
@@ -32,13 +32,13 @@ std::vector<slam::SeenPoints> around(const Pose2& world_T_base, std::uint64_t se
 TEST(ScanSignature, DoesNotChangeWithTheHeadingOfTheRobot) {
   const Pose2 here{6.0, 6.0, 0.0};
   const ScanSignature straight = signature_at({0.0, 0.0}, around(here, 1));
-  for (const double turn_rad : {0.5, 1.7, -2.9}) {
-    const Pose2 turned{6.0, 6.0, turn_rad};
-    EXPECT_LT(between(straight, signature_at({0.0, 0.0}, around(turned, 2))), 0.12) << turn_rad;
+  for (const double rotation_rad : {0.5, 1.7, -2.9}) {
+    const Pose2 turned{6.0, 6.0, rotation_rad};
+    EXPECT_LT(between(straight, signature_at({0.0, 0.0}, around(turned, 2))), 0.12) << rotation_rad;
   }
 }
 
-TEST(ScanSignature, TellsAPlaceFromOthersOfTheSameBuilding) {
+TEST(ScanSignature, DistinguishesAPlaceFromOthersOfTheSameBuilding) {
   const ScanSignature here = signature_at({0.0, 0.0}, around({3.0, 6.0, 0.3}, 1));
   const ScanSignature again = signature_at({0.0, 0.0}, around({3.2, 6.05, -1.0}, 2));
   const ScanSignature room = signature_at({0.0, 0.0}, around({2.0, 2.2, 0.0}, 3));

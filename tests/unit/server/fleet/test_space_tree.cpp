@@ -105,7 +105,7 @@ TEST(SpaceTree, SpeaksInTheFrameOfTheBase) {
   EXPECT_FALSE(aside.admits({0.0, 3.0}));
 }
 
-TEST(MainGoal, IsTheOutermostThenTheOneWithTheSmallestTurn) {
+TEST(MainGoal, IsTheOutermostThenTheOneWithTheSmallestHeadingChange) {
   const std::vector<GoalDirection> goals{{5, 1.0}, {8, -2.0}, {8, 1.5}, {7, 0.0}};
   EXPECT_EQ(main_goal_of(goals, 0.0), 2U);
   EXPECT_EQ(main_goal_of(goals, -1.5), 1U);

@@ -212,7 +212,7 @@ TEST(TopologicalStrategy, LooksAboutBeforeItWaitsForOthers) {
   EXPECT_EQ(*std::prev(waits), "turn");
 }
 
-TEST(TopologicalStrategy, DrivesUpToOneInTheDoorThatMakesWay) {
+TEST(TopologicalStrategy, DrivesUpToOneInTheDoorThatYields) {
   Exploration exploration = exploration_of();
   ToyExplorer robot(explore::two_rooms(), {3.3, 2.5, 0.0}, 7, 6.0);
   ToyExplorer::Hooks hooks;
@@ -231,7 +231,8 @@ TEST(TopologicalStrategy, DrivesUpToOneInTheDoorThatMakesWay) {
 
 constexpr Pose2 kBehindTheDoor{7.0, 2.0, 0.0};
 
-/// While something stands in the only door, and another robot in the room behind. `later` may change what is heard.
+/// While an obstacle stands in the only door, and another robot in the room behind. `later` may change what is
+/// received.
 explore::ExploreEnd end_with_another_behind_the_door(
     bool active, const std::function<void(double t_s, RobotTopology& other)>& later = nullptr) {
   RobotTopology other;

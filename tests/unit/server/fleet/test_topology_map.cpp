@@ -169,7 +169,7 @@ TEST(TopologyMap, MovesWithTheMap) {
   EXPECT_THAT(map.current()->goals.front().p_map, Point2Near(Point2(-1.0, 6.0), 1e-9));
 }
 
-TEST(UnionOfRobots, JoinsNodesOfTwoRobotsWhereTheWayIsPassable) {
+TEST(UnionOfRobots, JoinsNodesOfTwoRobotsWhereTheLineIsPassable) {
   Topology own;
   own.nodes = {node(1, {1.0, 0.0}), node(2, {1.0, 4.0})};
   own.edges = {{1, 2}};
@@ -180,19 +180,19 @@ TEST(UnionOfRobots, JoinsNodesOfTwoRobotsWhereTheWayIsPassable) {
   ASSERT_EQ(all.members.size(), 5U);
   EXPECT_FALSE(all.members[1].robot.has_value());
   EXPECT_EQ(all.members[2].robot, 0U);
-  const ShortestWays ways = bellman_ford(all.graph, 0);
-  EXPECT_NEAR(ways.distance_m[3], std::hypot(1.0, 4.0), 1e-9);
-  EXPECT_NEAR(ways.distance_m[2], std::hypot(1.0, 4.0) + 5.0, 1e-9);  // the wall keeps the two starts apart
+  const ShortestPaths paths = bellman_ford(all.graph, 0);
+  EXPECT_NEAR(paths.distance_m[3], std::hypot(1.0, 4.0), 1e-9);
+  EXPECT_NEAR(paths.distance_m[2], std::hypot(1.0, 4.0) + 5.0, 1e-9);  // the wall keeps the two starts apart
 }
 
-TEST(FarthestVisible, IsTheFarthestPlaceOfTheWayThatCanBeDrivenStraightTo) {
-  const std::vector<Point2> way{{1.0, 0.0}, {1.0, 3.0}, {0.5, 2.0}, {-1.0, 9.0}};
-  EXPECT_EQ(farthest_visible({1.0, -1.0}, way, kWall), Point2(1.0, 3.0));
+TEST(FarthestVisible, IsTheFarthestPlaceOfThePathThatCanBeDrivenStraightTo) {
+  const std::vector<Point2> path{{1.0, 0.0}, {1.0, 3.0}, {0.5, 2.0}, {-1.0, 9.0}};
+  EXPECT_EQ(farthest_visible({1.0, -1.0}, path, kWall), Point2(1.0, 3.0));
   EXPECT_EQ(farthest_visible({-1.0, -1.0}, {{1.0, 0.0}, {2.0, 0.0}}, kWall), Point2(1.0, 0.0));
   EXPECT_EQ(farthest_visible({0.0, 0.0}, {}, kWall), std::nullopt);
 }
 
-TEST(CorridorsOfAMap, TellFreeFromBlockedFromUnseen) {
+TEST(CorridorsOfAMap, DistinguishFreeFromBlockedFromUnseen) {
   const auto map = nav::CostMap::build(nav::ascii_map({"############",  //
                                                        "#....#     #",  //
                                                        "#....#     #",  //

@@ -44,11 +44,11 @@ inline std::vector<Pose2> drive(const std::vector<Point2>& corners) {
   constexpr double kStep_m = 0.4;
   std::vector<Pose2> poses;
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
-    const Point2 way = corners[k + 1] - corners[k];
-    const double heading_rad = std::atan2(way.y(), way.x());
-    const int steps = static_cast<int>(std::ceil(way.norm() / kStep_m));
+    const Point2 leg = corners[k + 1] - corners[k];
+    const double heading_rad = std::atan2(leg.y(), leg.x());
+    const int steps = static_cast<int>(std::ceil(leg.norm() / kStep_m));
     for (int i = 0; i < steps; ++i) {
-      const Point2 p = corners[k] + way * (static_cast<double>(i) / steps);
+      const Point2 p = corners[k] + leg * (static_cast<double>(i) / steps);
       poses.push_back({p.x(), p.y(), heading_rad});
     }
     poses.push_back({corners[k + 1].x(), corners[k + 1].y(), wrap_angle(heading_rad + kPi)});
@@ -56,7 +56,7 @@ inline std::vector<Pose2> drive(const std::vector<Point2>& corners) {
   return poses;
 }
 
-/// What the robot believes of its way: each step between local maps is off by noise of these deviations.
+/// What the robot believes of its path: each step between local maps is off by noise of these deviations.
 struct ToyDrift {
   double sigma_m = 0.02;
   double sigma_rad = 0.004;

@@ -25,7 +25,7 @@ inline LaserScan scan_of(const testing::Room& room, testing::ScannerModel model,
   return testing::scan_room(room, model, rng).scan;
 }
 
-/// The same readings from a scanner that turns the other way.
+/// The same readings from a scanner that rotates in the opposite direction.
 inline LaserScan turned_round(const LaserScan& scan) {
   LaserScan turned = scan;
   const std::size_t n = scan.ranges_m.size();

@@ -165,7 +165,7 @@ TEST(FastExtractor, NoiseOfTheScanIsFoundInTheScan) {
 }
 
 TEST(FastExtractor, WhatTheBearingsAreOffByIsNotCountedTwice) {
-  // Beams that graze a wall: a bearing that is off shows in their ranges, from which the noise is told.
+  // Beams that graze a wall: a bearing that is off shows in their ranges, from which the noise is estimated.
   ScannerModel model{.beams = 91, .first_rad = deg_to_rad(60.0), .step_rad = deg_to_rad(0.2)};
   model.bearing_sigma_rad = 0.0008;
   FastParams params;

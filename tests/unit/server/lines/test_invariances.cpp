@@ -20,13 +20,13 @@ const std::vector<std::pair<std::string, Extract>>& extractors() {
   return kExtractors;
 }
 
-/// Every line of `a` has one in `b` with the same numbers, turned by `turn_rad`.
-bool same_lines(const ScanLines& a, const ScanLines& b, double turn_rad) {
+/// Every line of `a` has one in `b` with the same numbers, turned by `rotation_rad`.
+bool same_lines(const ScanLines& a, const ScanLines& b, double rotation_rad) {
   if (a.lines.size() != b.lines.size()) {
     return false;
   }
   const auto same = [&](const Line& p, const Line& q) {
-    return std::abs(p.r_m - q.r_m) < 1e-5 && std::abs(wrap_angle(p.alpha_rad + turn_rad - q.alpha_rad)) < 1e-5 &&
+    return std::abs(p.r_m - q.r_m) < 1e-5 && std::abs(wrap_angle(p.alpha_rad + rotation_rad - q.alpha_rad)) < 1e-5 &&
            (p.covariance - q.covariance).norm() < 1e-3 * p.covariance.norm() && p.points == q.points &&
            std::abs(p.length_m - q.length_m) < 1e-4;
   };
@@ -52,11 +52,11 @@ LaserScan cut_elsewhere(const LaserScan& scan, std::size_t beams) {
 
 RC_GTEST_PROP(LineInvariance, TurningTheScanTurnsTheLines, ()) {
   const LaserScan scan = random_scan(*rc::gen::inRange<std::uint64_t>(1, 1'000'000));
-  const double turn_rad = *rc::gen::inRange(-314, 314) / 100.0;
+  const double rotation_rad = *rc::gen::inRange(-314, 314) / 100.0;
   LaserScan turned = scan;
-  turned.angle_min_rad += turn_rad;
+  turned.angle_min_rad += rotation_rad;
   for (const auto& [name, extract] : extractors()) {
-    RC_ASSERT(same_lines(extract(scan), extract(turned), turn_rad));
+    RC_ASSERT(same_lines(extract(scan), extract(turned), rotation_rad));
   }
 }
 

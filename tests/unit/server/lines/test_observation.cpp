@@ -97,7 +97,7 @@ TEST(Observation, AnEndThatTheBeamsDoNotResolveIsVirtual) {
   EXPECT_FALSE(coarse[0].real[kRight]);
 }
 
-TEST(Observation, EndsSeenFlatlyAreToldNeitherTooNearNorTooFar) {
+TEST(Observation, EndsSeenFlatlyAreMeasuredNeitherTooNearNorTooFar) {
   // One metre beside a wall that ends some 4 m ahead, and of another that begins there: where the beams meet them
   // differs from place to place, and beams lie further apart the farther they go.
   constexpr int kPlaces = 400;
@@ -212,7 +212,7 @@ TEST(Observation, AnEndThatIsClearIsReadRightOnAverageWhereverTheBeamsFall) {
     }
   }
   EXPECT_GT(clear, 20) << "most of what is near";
-  EXPECT_GT(short_read, 0) << "the limit keeps something out";
+  EXPECT_GT(short_read, 0) << "the limit excludes some ends";
 }
 
 TEST(Observation, AClockwiseScannerSeesTheSame) {

@@ -119,8 +119,8 @@ TEST(PaperExtractor, ReportsHowItsThresholdsShrank) {
   const PacketHistory& history = lines.history.front();
   ASSERT_GT(history.rounds.size(), 1U);
   EXPECT_EQ(history.rounds.size(), history.worst_error_m.size());
-  EXPECT_DOUBLE_EQ(history.rounds[0].turn_m, 0.025);
-  EXPECT_DOUBLE_EQ(history.rounds[1].turn_m, 0.8 * 0.025);
+  EXPECT_DOUBLE_EQ(history.rounds[0].corner_m, 0.025);
+  EXPECT_DOUBLE_EQ(history.rounds[1].corner_m, 0.8 * 0.025);
   EXPECT_DOUBLE_EQ(history.rounds[1].gap_m, 0.8 * 0.150);
   EXPECT_GT(history.worst_error_m.front(), 0.005);
   EXPECT_LE(history.worst_error_m.back(), 0.005);

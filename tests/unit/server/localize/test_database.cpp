@@ -153,7 +153,7 @@ TEST(Database, RefusesWhatIsNoLandmark) {
   EXPECT_THAT(twice.error().message, HasSubstr("same id"));
 }
 
-TEST(Association, IsBothWaysOnly) {
+TEST(Association, IsMutualOnly) {
   Rng rng(4);
   const auto look = testing::random_look(rng);
   LandmarkDatabase database;
@@ -205,7 +205,7 @@ TEST(Sparsity, FollowsEquationsEightAndNine) {
     return may_insert(database, point_at({distance, 0, 0}), descriptor, {}, vision::Metric::kL2);
   };
   EXPECT_FALSE(allowed(0.03, other)) << "nothing within the inner radius";
-  EXPECT_TRUE(allowed(0.15, other)) << "something else within the outer one";
+  EXPECT_TRUE(allowed(0.15, other)) << "another feature within the outer one";
   EXPECT_FALSE(allowed(0.15, same));
   EXPECT_TRUE(allowed(0.30, same)) << "anything outside";
   SparsityParams off;
@@ -291,7 +291,7 @@ TEST(Survey, LandmarksLieWhereTheirPointsAre) {
     inside += error.dot(landmark.information * error) < 11.345 ? 1 : 0;
   }
   EXPECT_GT(near, 0.97 * static_cast<double>(database.size()));
-  EXPECT_GT(inside, 0.90 * static_cast<double>(database.size())) << "covariances tell the errors";
+  EXPECT_GT(inside, 0.90 * static_cast<double>(database.size())) << "covariances state the errors";
 }
 
 TEST(Survey, RefusesPosesThatCannotBe) {

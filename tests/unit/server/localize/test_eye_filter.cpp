@@ -20,7 +20,7 @@ EyeBelief belief_at(const Pose2& pose, double sigma_m = 0.05, double sigma_rad =
   return belief;
 }
 
-/// A noisy measurement of a landmark from `truth`, drawn from the noise that it tells.
+/// A noisy measurement of a landmark from `truth`, drawn from the noise that it states.
 RangeBearing sight_of(const Point2& landmark, const Pose2& truth, Rng& rng, double range_sigma_m = 0.05) {
   RangeBearing seen;
   const Point2 offset = landmark - truth.translation();
@@ -75,7 +75,7 @@ TEST(Motion, TransitionIsThatOfDifferences) {
   }
 }
 
-TEST(Motion, TurningInPlaceMovesTheEyeOnItsCircle) {
+TEST(Motion, RotatingOnTheSpotMovesTheEyeOnItsCircle) {
   const LeverArm arm{0.15, 0.06, 0.0};
   EyeBelief belief = belief_at(eye_from_base({0, 0, 0}, arm));
   predict(belief, {0.0, kPi / 2.0}, 1.0, arm, {}, true);
@@ -164,7 +164,7 @@ double mean_nees(bool together, double offset_sigma_px) {
       one.range_m += one.range_per_disparity_m * offset_px;
       seen.push_back(one);
     }
-    static_cast<void>(together ? update_together(belief, seen, {3, 1e9}) : update_in_turn(belief, seen));
+    static_cast<void>(together ? update_together(belief, seen, {3, 1e9}) : update_sequentially(belief, seen));
     const Eigen::Vector3d error(belief.map_T_eye.x_m - truth.x_m, belief.map_T_eye.y_m - truth.y_m,
                                 wrap_angle(belief.map_T_eye.theta_rad - truth.theta_rad));
     sum += error.dot(belief.pose_covariance().inverse() * error);
@@ -173,13 +173,13 @@ double mean_nees(bool together, double offset_sigma_px) {
 }
 
 // The 99 % band of a mean of 600 chi-squared values of 3 degrees of freedom is 2.75 .. 3.27.
-TEST(Consistency, UpdateInTurnTellsItsError) {
+TEST(Consistency, SequentialUpdateStatesItsError) {
   const double nees = mean_nees(false, 0.0);
   EXPECT_GT(nees, 2.75);
   EXPECT_LT(nees, 3.35) << "a little more is left for the linearisation";
 }
 
-TEST(Consistency, UpdateTogetherTellsItsError) {
+TEST(Consistency, JointUpdateStatesItsError) {
   const double nees = mean_nees(true, 0.0);
   EXPECT_GT(nees, 2.7);
   EXPECT_LT(nees, 3.3);
@@ -220,7 +220,7 @@ void wander(EyeBelief& belief, bool together, int steps) {
     for (std::uint64_t i = rng.below(4); i > 0; --i) {
       seen.push_back(sight_of({rng.uniform(0, 10), rng.uniform(0, 10)}, truth, rng, rng.uniform(0.001, 0.5)));
     }
-    static_cast<void>(together ? update_together(belief, seen, {2, 2.5}) : update_in_turn(belief, seen));
+    static_cast<void>(together ? update_together(belief, seen, {2, 2.5}) : update_sequentially(belief, seen));
     const Matrix3 covariance = belief.pose_covariance();
     ASSERT_EQ((covariance - covariance.transpose()).norm(), 0.0) << step;
     ASSERT_GT(Eigen::SelfAdjointEigenSolver<Matrix3>(covariance, Eigen::EigenvaluesOnly).eigenvalues().minCoeff(), 0.0)

@@ -41,7 +41,7 @@ struct Drive {
 
   explicit Drive(std::uint64_t seed) : rng(seed) {}
 
-  /// Moves the truth and tells the localiser what the encoders say.
+  /// Moves the truth and gives the localiser the readings of the encoders.
   void move(StereoLocaliser& localiser, const Twist2& velocity) {
     map_T_base = map_T_base * integrate(velocity, kStep_s);
     const double v_sigma = noise.v_share * std::abs(velocity.v_m_s) + noise.v_floor_m_s;
@@ -51,7 +51,7 @@ struct Drive {
   const LocaliserStep& look(StereoLocaliser& localiser, const LandmarkRoom& room, const ViewNoise& view) {
     return localiser.update(room.view(eye_from_base(map_T_base, arm), {}, view, rng), chance);
   }
-  /// Within the room: turns away from walls.
+  /// Within the room: steers away from walls.
   [[nodiscard]] Twist2 wander(int step) const {
     const Point2 ahead = map_T_base * Point2(1.5, 0.0);
     const bool clear = ahead.minCoeff() > 1.0 && ahead.maxCoeff() < 9.0;
@@ -91,7 +91,7 @@ Score run(StereoLocaliser& localiser, const LandmarkRoom& room, std::uint64_t se
   return score;
 }
 
-TEST(Localiser, TracksARobotToCentimetresAndTellsItsError) {
+TEST(Localiser, TracksARobotToCentimetresAndStatesItsError) {
   double nees = 0.0;
   constexpr int kRuns = 4;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
@@ -171,7 +171,7 @@ TEST(Localiser, WakesUpAnywhereOnTheSecondFrame) {
   EXPECT_LT(distance_m(localiser.estimate({}).map_T_base, drive.map_T_base), 0.10);
 }
 
-TEST(Localiser, APlaceWaitsForAFrameThatShowsSomething) {
+TEST(Localiser, APlaceWaitsForAFrameThatShowsFeatures) {
   const LandmarkRoom room(2, 500);
   LandmarkRoom dark = room;
   dark.points().clear();
@@ -208,15 +208,15 @@ TEST(Localiser, AKidnappedRobotSaysSoAndFindsItselfAgain) {
   }
   drive.map_T_base = {7.0, 3.0, 0.4};
   int frames = 0;
-  bool told = false;
+  bool reported = false;
   while (frames < 10 && !localiser.last().relocalised) {
     drive.move(localiser, {0.07, 0.1});
     const LocaliserStep& step = drive.look(localiser, room, {});
     EXPECT_TRUE(step.relocalised || step.quality != LocalisationQuality::kLocalised) << "frame " << frames;
-    told = told || step.quality != LocalisationQuality::kLocalised;
+    reported = reported || step.quality != LocalisationQuality::kLocalised;
     ++frames;
   }
-  EXPECT_TRUE(told);
+  EXPECT_TRUE(reported);
   EXPECT_TRUE(localiser.last().relocalised);
   EXPECT_LT(distance_m(localiser.estimate({}).map_T_base, drive.map_T_base), 0.10);
 }
@@ -265,7 +265,7 @@ LandmarkRoom poster_room(const std::vector<int>& walls, int others) {
     const double along_m = rng.uniform(-1.2, 1.2);
     const double height_m = rng.uniform(-0.8, 0.8);
     for (const int wall : walls) {
-      // Walls 2 and 3 run the other way round: the same picture hangs on all of them.
+      // Walls 2 and 3 run in the opposite direction: the same picture hangs on all of them.
       const bool turned = wall >= 2;
       room.add(wall, 5.0 + (turned ? -along_m : along_m), height_m, look);
     }
@@ -296,7 +296,7 @@ TEST(Relocalisation, APosterThatHangsTwiceIsRefused) {
   }
 }
 
-// Seven metres away there is only one wall to see, and something near was moved.
+// Seven metres away there is only one wall to see, and a near object was moved.
 TEST(Relocalisation, APlaceThatLeansOnOneMatchIsNotFoundWrongly) {
   const Pose2 truth{1.2, 2.6, 0.5 * kPi};
   constexpr double kMoved_m = 0.4;

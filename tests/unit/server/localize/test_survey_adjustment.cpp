@@ -54,7 +54,7 @@ TEST(SurveyAdjustment, PosesAgreeBetterWithEachOtherAndWithTheTruth) {
     EXPECT_LT(report->rms_after_m, report->rms_before_m);
     EXPECT_LT(after.rms_m, 0.5 * before.rms_m);
     EXPECT_LT(after.rms_rad, 0.5 * before.rms_rad);
-    EXPECT_LT(after.mean_nees, 6.0) << "3 on average for a covariance that tells the error";
+    EXPECT_LT(after.mean_nees, 6.0) << "3 on average for a covariance that states the error";
   }
 }
 
@@ -105,7 +105,7 @@ TEST(SurveyAdjustment, KnownLandmarksHoldASurveyThatBeganWrong) {
   const testing::LandmarkRoom room(9, 600);
   const LandmarkDatabase database = testing::survey(room, kEyes, {}, 9);
   std::vector<Sighting> sightings = rough_survey(9);
-  const Pose2 off{0.05, -0.04, 0.01};  // of all poses alike, which nothing that they share can tell
+  const Pose2 off{0.05, -0.04, 0.01};  // of all poses alike, which no shared observation can determine
   std::vector<KnownSight> known;
   for (std::size_t s = 0; s < sightings.size(); ++s) {
     const std::vector<SeenPoint> points = see(kEyes, sightings[s], {}, {});
@@ -140,8 +140,8 @@ TEST(SurveyAdjustment, OdometryHoldsSightingsThatShareNothing) {
   opposite[0].map_T_eye = truth[0];
   opposite[0].pose_covariance.setZero();
   const Matrix3 little = Eigen::Vector3d(1e-6, 1e-6, 1e-6).asDiagonal();
-  const SightingsApart turn{0, 1, {inverse(truth[0]) * truth[6], little}};
-  ASSERT_TRUE(adjust_poses(kEyes, {}, opposite, {}, {&turn, 1}));
+  const SightingsApart rotation{0, 1, {inverse(truth[0]) * truth[6], little}};
+  ASSERT_TRUE(adjust_poses(kEyes, {}, opposite, {}, {&rotation, 1}));
   EXPECT_LT(distance_m(opposite[1].map_T_eye, truth[6]), 0.001);
   EXPECT_LT(std::abs(wrap_angle(opposite[1].map_T_eye.theta_rad - truth[6].theta_rad)), 0.001);
   EXPECT_LT(opposite[1].pose_covariance.trace(), 4e-6) << "no more certain than the odometry, and no less";

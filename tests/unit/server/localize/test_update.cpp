@@ -41,7 +41,7 @@ class UpdateDrive {
     return taken;
   }
 
-  Pose2 start_off;  ///< of the pose that the localiser is told at first
+  Pose2 start_off;  ///< error of the pose that the localiser is given at first
   std::shared_ptr<const LandmarkDatabase> database;
   DatabaseUpdate update;
 };
@@ -175,7 +175,7 @@ TEST(DatabaseUpdate, LearnsNothingWhileTheRobotIsNotLocalised) {
 TEST(DatabaseUpdate, ThatWouldRemoveMostIsRefused) {
   const LandmarkRoom room(2, 300);
   UpdateParams params;
-  params.min_turn_rad = params.min_move_m = 0.0;
+  params.min_rotation_rad = params.min_move_m = 0.0;
   UpdateDrive drive(room, params);
   LocaliserStep step;
   step.quality = LocalisationQuality::kLocalised;
@@ -195,10 +195,10 @@ TEST(DatabaseUpdate, ThatWouldRemoveMostIsRefused) {
   const auto staged = drive.update.stage(*drive.database);
   ASSERT_FALSE(staged);
   EXPECT_EQ(staged.error().code, Errc::kRefused);
-  EXPECT_THAT(staged.error().message, HasSubstr("survey the building anew"));
+  EXPECT_THAT(staged.error().message, HasSubstr("survey the building again"));
 }
 
-TEST(DatabaseUpdate, ForgetsWhenToldTo) {
+TEST(DatabaseUpdate, ForgetsOnClear) {
   const LandmarkRoom room(2, 300);
   UpdateDrive drive(room, {});
   EXPECT_GT(drive.drive(room, 20), 0);

@@ -76,6 +76,27 @@ TEST(CostMap, KeepsTheRobotsRadiusFromWallsAndOutOfTheUnknown) {
   EXPECT_TRUE(map_of(ascii_map({"   ", " . ", "   "}, 0.4), {}, optimistic).traversable(Point2(0.1, 0.1)));
 }
 
+TEST(Planner, NamesTheCauseOfNoPath) {
+  CostMapLimits limits;
+  limits.bound = Polygon{{0.0, 0.0}, {7.0, 0.0}, {7.0, 3.0}, {0.0, 3.0}};
+  limits.keep_out = {Polygon{{5.0, 0.0}, {6.0, 0.0}, {6.0, 1.0}, {5.0, 1.0}}};
+  const CostMap map = map_of(two_rooms(), limits);
+  const Point2 start(1.0, 1.5);
+  EXPECT_EQ(cause_of_no_path(map, start, {2.0, 0.05}), UnreachableCause::kObstacle) << "in the wall";
+  EXPECT_EQ(cause_of_no_path(map, start, {7.6, 1.5}), UnreachableCause::kOutsideBound);
+  EXPECT_EQ(cause_of_no_path(map, start, {5.5, 0.5}), UnreachableCause::kKeptOut);
+  EXPECT_EQ(cause_of_no_path(map, {7.6, 0.5}, start), UnreachableCause::kRobotForbidden);
+  const CostMap free = map_of(two_rooms());
+  EXPECT_EQ(cause_of_no_path(free, start, {20.0, 1.5}), UnreachableCause::kUnknownFloor) << "where the map ends";
+  const CostMap rooms = map_of(ascii_map({"#########", "#...#...#", "#...#...#", "#...#...#", "#########"}, 0.4));
+  EXPECT_EQ(cause_of_no_path(rooms, {1.0, 1.0}, {2.6, 1.0}), UnreachableCause::kCutOff);
+  const CostMap closet = map_of(ascii_map({"####", "#. .", "####"}, 0.2));
+  EXPECT_EQ(cause_of_no_path(closet, {0.3, 0.3}, {0.7, 0.3}), UnreachableCause::kRobotEnclosed);
+  const Result<Path> refused = plan(map, start, {2.0, 0.05});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("it lies in an obstacle"), std::string::npos) << refused.error().message;
+}
+
 TEST(CostMap, CostsMoreNearWalls) {
   const CostMap map = map_of(two_rooms());
   EXPECT_GT(map.cost(map.frame().cell_of({1.0, 0.42})), map.cost(map.frame().cell_of({1.0, 0.6})));

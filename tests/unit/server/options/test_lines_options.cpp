@@ -21,8 +21,8 @@ TEST(LinesOptions, ReadWhatAFileSaysAndKeepTheRest) {
   EXPECT_NEAR(fast.bearing_sigma_rad, 0.1 * 3.14159265358979 / 180.0, 1e-12);
   EXPECT_DOUBLE_EQ(fast.split_sigmas, FastParams{}.split_sigmas);
   PaperParams paper;
-  ASSERT_TRUE(read("start: {turn_m: 0.03}\nshrink: 0.7\n", paper));
-  EXPECT_DOUBLE_EQ(paper.start.turn_m, 0.03);
+  ASSERT_TRUE(read("start: {corner_m: 0.03}\nshrink: 0.7\n", paper));
+  EXPECT_DOUBLE_EQ(paper.start.corner_m, 0.03);
   EXPECT_DOUBLE_EQ(paper.shrink, 0.7);
   ObservationParams observation;
   ASSERT_TRUE(read("wall_sigma_m: 0.02\n", observation));

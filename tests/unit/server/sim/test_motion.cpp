@@ -67,7 +67,7 @@ Spread spread(int runs, F&& value) {
 TEST(Odometry, NoiseHasTheSpreadOfItsParameters) {
   RobotModel model = without_errors(RobotModel{});
   model.odometry.sigma_distance = 0.02;
-  model.odometry.sigma_turn = 0.03;
+  model.odometry.sigma_rotation = 0.03;
   constexpr int kRuns = 400;
   const Spread way = spread(kRuns, [&](std::uint64_t seed) {
     Simulation s = make(square_room(20.0), model, seed);

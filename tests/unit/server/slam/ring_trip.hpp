@@ -15,7 +15,7 @@
 
 namespace seeker::slam {
 
-/// A ring of corridors of 2 m round a block of 12 x 8 m, with three alcoves that tell its sides apart.
+/// A ring of corridors of 2 m round a block of 12 x 8 m, with three alcoves that distinguish its sides.
 inline std::vector<Wall> ring() {
   std::vector<Wall> walls = box(0.0, 0.0, 16.0, 12.0);
   const auto block = box(2.0, 2.0, 14.0, 10.0);
@@ -39,14 +39,14 @@ class Trip {
     if ((kCorners.at(corner_) - truth_.translation()).norm() < 0.5) {
       corner_ = (corner_ + 1) % kCorners.size();
     }
-    const double turn = std::clamp(bearing_to(truth_, kCorners.at(corner_)), -0.6, 0.6);
-    move(integrate({std::abs(turn) > 0.4 ? 0.1 : 0.5, turn}, kTick_s));
+    const double omega_rad_s = std::clamp(bearing_to(truth_, kCorners.at(corner_)), -0.6, 0.6);
+    move(integrate({std::abs(omega_rad_s) > 0.4 ? 0.1 : 0.5, omega_rad_s}, kTick_s));
   }
   void move(const Pose2& motion) {
     truth_ = truth_ * motion;
     odom_ = odom_ * Pose2{1.03 * motion.x_m + rng_.normal(0.002), motion.y_m,
                           motion.theta_rad + 0.01 * motion.x_m + rng_.normal(0.002)};
-    way_m_ += std::hypot(motion.x_m, motion.y_m);
+    path_m_ += std::hypot(motion.x_m, motion.y_m);
     time_s_ += kTick_s;
   }
   Status feed(LineSlam& slam) {
@@ -56,7 +56,7 @@ class Trip {
   [[nodiscard]] LaserScan scan() { return scan_at(walls_, truth_, time_s_, rng_); }
   [[nodiscard]] const Pose2& truth() const { return truth_; }
   [[nodiscard]] const Pose2& odom() const { return odom_; }
-  [[nodiscard]] double way_m() const { return way_m_; }
+  [[nodiscard]] double path_m() const { return path_m_; }
   [[nodiscard]] RobotTime time() const { return robot_time_s(time_s_); }
 
   static constexpr double kTick_s = 0.1;
@@ -68,13 +68,13 @@ class Trip {
   Pose2 start_;
   Pose2 odom_;
   std::size_t corner_ = 0;
-  double way_m_ = 0.0;
+  double path_m_ = 0.0;
   double time_s_ = 0.0;
 };
 
-inline void drive(Trip& trip, LineSlam& slam, double way_m) {
-  const double end_m = trip.way_m() + way_m;
-  while (trip.way_m() < end_m) {
+inline void drive(Trip& trip, LineSlam& slam, double path_m) {
+  const double end_m = trip.path_m() + path_m;
+  while (trip.path_m() < end_m) {
     ASSERT_TRUE(trip.feed(slam));
     trip.step();
   }

@@ -7,7 +7,7 @@ namespace {
 
 const Pose2 kJump{2.0, -1.0, 0.9};  ///< found * inverse(predicted)
 
-/// Where odometry has the robot after `k` steps along a bend.
+/// Where odometry has the robot after `k` steps along a curve.
 Pose2 predicted(int k) { return integrate({0.3, 0.2}, static_cast<double>(k)); }
 
 TEST(JumpWitness, ConfirmsWhatThreeScansInARowSay) {
@@ -17,7 +17,7 @@ TEST(JumpWitness, ConfirmsWhatThreeScansInARowSay) {
   EXPECT_TRUE(witness.confirms(kJump * predicted(3), predicted(3)));
 }
 
-TEST(JumpWitness, BeginsAgainWhenAScanSaysSomethingElse) {
+TEST(JumpWitness, BeginsAgainWhenAScanDisagrees) {
   JumpWitness witness;
   const Pose2 other{-1.0, 2.0, -1.3};
   EXPECT_FALSE(witness.confirms(kJump * predicted(1), predicted(1)));

@@ -130,7 +130,7 @@ TEST(LineSlam, GapsOfAlmostAMetreBetweenScansAreBridged) {
     LineSlam slam({}, trip.truth());
     Pose2 last = trip.truth();
     ASSERT_TRUE(trip.feed(slam));
-    while (trip.way_m() < 48.0) {
+    while (trip.path_m() < 48.0) {
       trip.step();
       if (moved(last, trip.truth(), 0.8, 0.5)) {
         last = trip.truth();
@@ -189,7 +189,7 @@ double heading_error_rad(const LineSlamParams& params) {
   return std::abs(wrap_angle(slam.estimate().map_T_base.theta_rad - base_T_true_laser.theta_rad));
 }
 
-TEST(LineSlam, AScannerThatSitsTurnedDoesNotBendACorridor) {
+TEST(LineSlam, AScannerThatIsMountedRotatedDoesNotDistortACorridor) {
   LineSlamParams unlearnt;
   unlearnt.odometry_bias = kCalibratedOdometry;
   const double learnt_rad = heading_error_rad({});
@@ -282,7 +282,7 @@ TEST(LineSlam, ANamedPlaceGoesAlongWithTheRobot) {
   LineSlam slam;
   ASSERT_TRUE(slam.load(mapper.map(), MapUse::kContinue));
   ASSERT_TRUE(slam.relocalise(second.truth()));
-  for (const double end_m = second.way_m() + 3.0; second.way_m() < end_m; second.step()) {
+  for (const double end_m = second.path_m() + 3.0; second.path_m() < end_m; second.step()) {
     ASSERT_TRUE(slam.predict(second.odom(), second.time())) << "the laser says nothing";
   }
   ASSERT_NO_FATAL_FAILURE(drive(second, slam, 2.0));
@@ -293,9 +293,9 @@ TEST(LineSlam, ANamedPlaceGoesAlongWithTheRobot) {
 TEST(LineSlam, ClosesTheLoopWithAScanEachMetre) {
   Trip trip(3);
   LineSlam slam({}, trip.truth());
-  for (double next_m = 0.0; trip.way_m() < 104.0; trip.step()) {
+  for (double next_m = 0.0; trip.path_m() < 104.0; trip.step()) {
     ASSERT_TRUE(slam.predict(trip.odom(), trip.time()));
-    if (trip.way_m() >= next_m) {
+    if (trip.path_m() >= next_m) {
       (void)slam.update(trip.scan());
       next_m += 1.0;
     }
@@ -331,7 +331,7 @@ TEST(LineSlam, RefusesBeamsThatRunInTheOtherDirection) {
     taken = slam.update(scan);
   }
   ASSERT_FALSE(taken);
-  EXPECT_NE(taken.error().message.find("turn the other way"), std::string::npos) << taken.error().message;
+  EXPECT_NE(taken.error().message.find("rotate against the wheels"), std::string::npos) << taken.error().message;
   EXPECT_EQ(slam.estimate().quality, LocalisationQuality::kLost);
   slam.reset({});
   trip.step();

@@ -18,7 +18,7 @@ void drive_over_a_join(Trip& trip, LineSlam& slam) {
   while (slam.local_maps() == before) {
     trip.step();
     ASSERT_TRUE(trip.feed(slam));
-    ASSERT_LT(trip.way_m(), 40.0) << "no local map is ever full";
+    ASSERT_LT(trip.path_m(), 40.0) << "no local map is ever full";
   }
 }
 
@@ -26,11 +26,11 @@ class Joins : public ::testing::TestWithParam<PointUse> {};
 
 INSTANTIATE_TEST_SUITE_P(LineSlam, Joins, ::testing::Values(PointUse::kNone, PointUse::kLeftover, PointUse::kAll));
 
-// A filter that is told of an uncertain heading learns of it by looking at walls that cannot know.
+// A filter that begins with an uncertain heading gains certainty from walls that hold no information about it.
 TEST_P(Joins, ALocalMapKnowsExactlyWhereItsFirstScanWasTaken) {
   Trip trip(15);
   LineSlamParams params;
-  params.local.max_way_m = kShort_m;
+  params.local.max_distance_m = kShort_m;
   params.points.use = GetParam();
   LineSlam slam(params, trip.truth());
   for (int k = 0; k < 3; ++k) {
@@ -45,7 +45,7 @@ TEST_P(Joins, ALocalMapKnowsExactlyWhereItsFirstScanWasTaken) {
 TEST(LineSlam, TheJointHoldsWhatTheWheelsMayBeOffBeforeTheFirstScan) {
   Trip trip(16);
   LineSlamParams params;
-  params.local.max_way_m = kShort_m;
+  params.local.max_distance_m = kShort_m;
   params.local.joint_sigma_m = 0.0;
   params.local.joint_sigma_rad = 0.0;
   params.points.use = PointUse::kNone;
@@ -58,8 +58,8 @@ TEST(LineSlam, TheJointHoldsWhatTheWheelsMayBeOffBeforeTheFirstScan) {
     trip.step();
     ASSERT_TRUE(trip.feed(slam));
   }
-  const double way_m = 0.5 * Trip::kTick_s;
-  const double wheels_rad = params.odometry.theta_sigma_rad_per_sqrt_m * std::sqrt(way_m);
+  const double path_m = 0.5 * Trip::kTick_s;
+  const double wheels_rad = params.odometry.theta_sigma_rad_per_sqrt_m * std::sqrt(path_m);
   EXPECT_GT(slam.estimate().covariance(2, 2), before(2, 2) + 0.9 * wheels_rad * wheels_rad);
 }
 

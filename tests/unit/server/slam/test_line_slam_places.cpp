@@ -97,13 +97,13 @@ TEST(LineSlamPlaces, TheBackOfAPillarDoesNotContradictItsFront) {
       EXPECT_NE(slam.estimate().quality, LocalisationQuality::kLost) << time_s << ": " << slam.estimate().cause;
     }
   };
-  const std::vector<Pose2> way{{0.0, 0.0, 0.0},       {1.0, 0.0, 0.0},       {1.0, 0.0, kPi / 2.0},
-                               {1.0, 3.0, kPi / 2.0}, {6.0, 3.0, kPi / 2.0}, {6.0, 0.0, kPi / 2.0},
-                               {6.0, 0.0, kPi},       {5.5, 0.0, kPi}};
-  for (std::size_t k = 1; k < way.size(); ++k) {
-    ASSERT_NO_FATAL_FAILURE(go(way[k - 1], way[k]));
+  const std::vector<Pose2> path{{0.0, 0.0, 0.0},       {1.0, 0.0, 0.0},       {1.0, 0.0, kPi / 2.0},
+                                {1.0, 3.0, kPi / 2.0}, {6.0, 3.0, kPi / 2.0}, {6.0, 0.0, kPi / 2.0},
+                                {6.0, 0.0, kPi},       {5.5, 0.0, kPi}};
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    ASSERT_NO_FATAL_FAILURE(go(path[k - 1], path[k]));
   }
-  EXPECT_LT(distance_m(slam.estimate().map_T_base, way.back()), 0.3) << "what the wheels may be off by";
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, path.back()), 0.3) << "what the wheels may be off by";
 }
 
 /// Takes at its word whoever says where the robot stood, whatever the scans say; asked so seldom that no right answers

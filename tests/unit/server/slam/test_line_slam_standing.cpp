@@ -47,7 +47,7 @@ TEST(LineSlamStanding, AStandMakesTheDirectionsOfWallsBetterForAWhile) {
     ASSERT_NO_FATAL_FAILURE(stand.look());
   }
   const double after_rad = stand.sigma_rad();
-  EXPECT_LT(after_rad, 0.5 * before_rad) << "thirty scans tell more than two";
+  EXPECT_LT(after_rad, 0.5 * before_rad) << "thirty scans hold more information than two";
   EXPECT_EQ(stand.slam.counts().stood, static_cast<std::uint64_t>(limit));
   for (int k = 0; k < limit; ++k) {
     ASSERT_NO_FATAL_FAILURE(stand.look());
@@ -84,7 +84,7 @@ TEST(LineSlamStanding, AJumpOfTheOdometryIsOverWithTheNextScan) {
   EXPECT_EQ(stand.slam.estimate().quality, LocalisationQuality::kLocalised) << stand.slam.estimate().cause;
 }
 
-TEST(LineSlamStanding, AScanThatIsRepeatedTellsAStandingRobotNothing) {
+TEST(LineSlamStanding, AScanThatIsRepeatedGivesAStandingRobotNoInformation) {
   Stand stand;
   const LaserScan frozen = stand.trip.scan();
   ASSERT_NO_FATAL_FAILURE(stand.look(frozen));
@@ -95,7 +95,8 @@ TEST(LineSlamStanding, AScanThatIsRepeatedTellsAStandingRobotNothing) {
   EXPECT_EQ(stand.sigma_rad(), before_rad);
 }
 
-/// Along a corridor in which only posts too small for lines tell how far the robot came, and a turn to and fro there.
+/// Along a corridor in which only posts too small for lines show how far the robot came, and a rotation to and fro
+/// there.
 double variance_along_a_corridor_m2(const PointNetParams& points) {
   std::vector<Wall> walls{{{-50.0, 0.0}, {50.0, 0.0}}, {{50.0, 2.0}, {-50.0, 2.0}}};
   for (const auto& post : {box(3.0, 0.0, 3.12, 0.12), box(4.5, 1.88, 4.62, 2.0), box(6.0, 0.0, 6.12, 0.12)}) {

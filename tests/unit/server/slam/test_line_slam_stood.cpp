@@ -27,7 +27,7 @@ TEST(LineSlam, GoesOnWhereItStoodInAMapOfItsFirstMetre) {
   EXPECT_TRUE(validate(slam.map()));
 }
 
-TEST(LineSlam, IsFoundAtThePlaceThatIsNamedInAMapThatTellsNoPlaceFromAnother) {
+TEST(LineSlam, IsFoundAtThePlaceThatIsNamedInAMapOfEqualPlaces) {
   Trip trip(15);
   LineSlam slam({}, trip.truth());
   ASSERT_NO_FATAL_FAILURE(drive(trip, slam, 1.0));
@@ -40,7 +40,7 @@ TEST(LineSlam, IsFoundAtThePlaceThatIsNamedInAMapThatTellsNoPlaceFromAnother) {
   EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.1);
 }
 
-/// Half a turn shows the same room: only the odometry says on which side the robot is.
+/// A rotation by 180 degrees shows the same room: only the odometry says on which side the robot is.
 TEST(LineSlam, IsFoundWhereTheOdometrySaysOfPlacesThatLookAlike) {
   const std::vector<Wall> room = box(0.0, 0.0, 10.0, 6.0);
   Rng rng(21);
@@ -57,7 +57,7 @@ TEST(LineSlam, IsFoundWhereTheOdometrySaysOfPlacesThatLookAlike) {
     ASSERT_NO_FATAL_FAILURE(see(0.01));
   }
   for (int k = 0; k < 60 && slam.estimate().quality != LocalisationQuality::kUnknown; ++k) {
-    ASSERT_NO_FATAL_FAILURE(see(0.3));  // something is wrong with the scanner
+    ASSERT_NO_FATAL_FAILURE(see(0.3));  // the scanner is faulty
   }
   ASSERT_EQ(slam.estimate().quality, LocalisationQuality::kUnknown);
   for (int k = 0; k < 60; ++k) {
@@ -82,7 +82,7 @@ TEST(LineSlam, IsFoundElsewhereWhenItDoesNotStandWhereItStood) {
   EXPECT_LT(distance_m(slam.estimate().map_T_base, second.truth()), 0.3);
 }
 
-TEST(LineSlam, FindsItselfByATurnOnTheSpotWhereItWentOnAndLooksAway) {
+TEST(LineSlam, FindsItselfByARotationOnTheSpotWhereItWentOnAndFacesAway) {
   Trip first(15);
   LineSlam mapper({}, first.truth());
   ASSERT_NO_FATAL_FAILURE(drive(first, mapper, 12.5));

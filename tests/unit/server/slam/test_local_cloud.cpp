@@ -5,7 +5,7 @@
 namespace seeker::slam {
 namespace {
 
-TEST(LocalCloud, AsksForAKeyframeWhereNoneIsNearAndLooksTheSameWay) {
+TEST(LocalCloud, AsksForAKeyframeWhereNoneIsNearWithTheSameHeading) {
   LocalCloud cloud;
   EXPECT_TRUE(cloud.needs_keyframe({}));
   cloud.add({}, {});

@@ -73,7 +73,7 @@ TEST(LoopDetector, ALoopInACorridorSaysNothingAlongIt) {
   EXPECT_GT(loop->information(1, 1), 100.0);
 }
 
-/// A hall with pillars along both walls, and what was seen in it on the way there and, less far, on the way back.
+/// A hall with pillars along both walls, and what was seen in it on the path there and, less far, on the return.
 struct PillarHall {
   std::vector<SeenPoints> out;
   std::vector<SeenPoints> back;

@@ -10,7 +10,7 @@ namespace {
 
 using testing::Pose2Near;
 
-/// A robot that walks about in the furnished room and keeps each scan, as the backend is told by its tracker.
+/// A robot that walks about in the furnished room and keeps each scan, as the tracker gives it to the backend.
 class Visit {
  public:
   explicit Visit(std::uint64_t seed) : rng_(seed) {}
@@ -31,8 +31,8 @@ class Visit {
   double time_s_ = 0.0;
 };
 
-/// Way from one local map to the next, of a robot whose odometry is worse than this says.
-const Matrix3 kWay = Eigen::Vector3d(6e-3, 6e-3, 1e-4).asDiagonal();
+/// Covariance of the motion from one local map to the next, of a robot whose odometry is worse than this says.
+const Matrix3 kMotion = Eigen::Vector3d(6e-3, 6e-3, 1e-4).asDiagonal();
 const Matrix3 kSure = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
 /// Of a place that was found: RelocaliseParams::joint_sigma_m and joint_sigma_rad.
 const Matrix3 kFound = Eigen::Vector3d(9e-4, 9e-4, 1e-4).asDiagonal();
@@ -62,14 +62,15 @@ TEST(MapBackend, OneViewIsOneWitnessHoweverManyLocalMapsItIsComparedWith) {
   Visit visit(1);
   MapBackend backend;
   const Pose2 second{2.8, 3.2, 0.4};
-  const Pose2 way{6.0, 3.0, 0.0};
+  const Pose2 turning_point{6.0, 3.0, 0.0};
   const Pose2 back{2.4, 2.8, 0.2};
   backend.begin_first(kFirst, visit.now());
   visit.look(backend, kFirst, 10);
-  backend.begin_next(inverse(kFirst) * second, kWay, visit.now());
+  backend.begin_next(inverse(kFirst) * second, kMotion, visit.now());
   visit.look(backend, second, 10);
-  backend.begin_next(inverse(second) * way, kWay, visit.now());
-  const std::uint32_t newest = backend.begin_next(inverse(way) * back * Pose2{0.7, 0.0, 0.0}, kWay, visit.now());
+  backend.begin_next(inverse(second) * turning_point, kMotion, visit.now());
+  const std::uint32_t newest =
+      backend.begin_next(inverse(turning_point) * back * Pose2{0.7, 0.0, 0.0}, kMotion, visit.now());
   visit.look(backend, back, kView);
   compare(backend);
   EXPECT_EQ(backend.loops().surprises, 2) << "both local maps show where the robot is";

@@ -111,7 +111,7 @@ TEST(PairwiseConsistency, LoopsOfOneViewCountOnceAndFollowWhenOthersAgree) {
   const Walk walk(90, rng);
   const OdometryChain chain(walk.steps);
   const auto odometry = [&](std::size_t i, std::size_t j) { return chain.between(i, j); };
-  // One view of node 60, compared with three others, is wrong by the same way each time.
+  // One view of node 60, compared with three others, is wrong by the same displacement each time.
   std::vector<LoopEdge> candidates;
   for (const std::size_t old : {18U, 19U, 20U}) {
     LoopEdge lie = walk.loop(old, 60, rng);

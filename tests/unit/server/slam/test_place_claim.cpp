@@ -49,7 +49,7 @@ TEST(PlaceClaim, ThreeAnswersInARowAreBelieved) {
   EXPECT_TRUE(claim.take(unique(kPlace), kNodeTBase));
 }
 
-TEST(PlaceClaim, AnotherPlaceBeginsTheRowAnew) {
+TEST(PlaceClaim, AnotherPlaceBeginsTheRowAgain) {
   PlaceClaim claim;
   EXPECT_FALSE(claim.take(unique(kPlace), kNodeTBase));
   EXPECT_FALSE(claim.take(unique(kPlace), kNodeTBase));
@@ -112,7 +112,7 @@ TEST(PlaceClaim, OneViewLookedAtAgainAndAgainIsOne) {
   }
 }
 
-TEST(PlaceClaim, AViewThatPrefersAnotherPlaceBeginsTheRowAnew) {
+TEST(PlaceClaim, AViewThatPrefersAnotherPlaceBeginsTheRowAgain) {
   PlaceClaim claim;
   const Pose2 other = kPlace * Pose2{2.0, 0.0, 0.0};
   for (int k = 0; k < 30; ++k) {

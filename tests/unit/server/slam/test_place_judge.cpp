@@ -24,7 +24,7 @@ TEST(Judge, NamesTheReasonOfEachVerdict) {
   EXPECT_EQ(judge({candidate(0.9, 0.0), candidate(0.95, 0.0)}, 200).verdict, PlaceVerdict::kAmbiguous);
   EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.9, 0.0)}, 200).reason, "another place fits nearly as well");
   EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.75, 0.0)}, 60).reason,
-            "too little was seen to tell this place from others");
+            "too little was observed to distinguish this place from others");
   // The same lead is enough for a good fit and too little for a poor one.
   EXPECT_EQ(judge({candidate(0.95, 0.0), candidate(0.8, 0.0)}, 200).verdict, PlaceVerdict::kUnique);
   EXPECT_EQ(judge({candidate(0.8, 0.0), candidate(0.65, 0.0)}, 200).verdict, PlaceVerdict::kAmbiguous);
@@ -37,7 +37,7 @@ TEST(Judge, NamesTheReasonOfEachVerdict) {
   EXPECT_EQ(judge({blind}, 200).verdict, PlaceVerdict::kAmbiguous);
 }
 
-TEST(Judge, TellsWhatSpeaksForAnotherPlaceFromWhatSaysNothing) {
+TEST(Judge, DistinguishesEvidenceForAnotherPlaceFromNoEvidence) {
   EXPECT_FALSE(judge({}, 200).says_nothing);
   EXPECT_FALSE(judge({candidate(0.7, 0.0)}, 200).says_nothing) << "the map does not show this place";
   EXPECT_FALSE(judge({candidate(0.95, 0.0), candidate(0.9, 0.0)}, 200).says_nothing) << "two places fit";

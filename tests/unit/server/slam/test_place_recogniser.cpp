@@ -44,7 +44,7 @@ std::vector<Pose2> shifted(std::vector<Pose2> poses, double x_m) {
   return poses;
 }
 
-/// The furnished room is nearly the same turned by half a turn; a real one has more in it.
+/// The furnished room is nearly the same rotated by 180 degrees; a real one has more in it.
 std::vector<Wall> office() {
   std::vector<Wall> walls = furnished_room();
   for (const auto& piece : {box(0.0, 5.0, 1.8, 6.0), box(9.2, 0.0, 10.0, 2.2), box(5.2, 5.5, 6.8, 6.0)}) {
@@ -142,7 +142,7 @@ TEST(PlaceRecogniser, TwoEqualRoomsAreAmbiguous) {
   }
 }
 
-TEST(PlaceRecogniser, OneCupboardTellsTwoRoomsApart) {
+TEST(PlaceRecogniser, OneCupboardDistinguishesTwoRooms) {
   Rng rng(3);
   const auto other = shifted(both(furnished_room(), box(0.0, 4.6, 1.0, 6.0)), 14.0);
   const auto walls = both(furnished_room(), other);
@@ -252,7 +252,7 @@ TEST(PlaceRecogniser, ARobotThatHasNotMovedIsConfirmedByOneScanOfAMapOfOne) {
   EXPECT_THAT(answer.candidates.front().match.map_T_base, Pose2Near(truth, 0.05, 0.02));
 }
 
-TEST(PlaceRecogniser, ARobotThatTurnedOnIsConfirmedNearby) {
+TEST(PlaceRecogniser, ARobotThatRotatedOnIsConfirmedNearby) {
   Rng rng(12);
   const PlaceMap map = room_map(rng);
   const Pose2 truth{2.5, 3.2, 0.7};

@@ -69,8 +69,8 @@ TEST(PoseGraph, AKnownSquareIsClosedExactly) {
   PoseGraph graph;
   const Pose2 side{2.0, 0.0, kPi / 2.0};
   Pose2 pose;
-  const std::vector<Pose2> bent{{}, {2.2, 0.1, 1.4}, {2.3, 2.2, 2.9}, {-0.3, 2.4, -1.4}};
-  for (const Pose2& guess : bent) {
+  const std::vector<Pose2> distorted{{}, {2.2, 0.1, 1.4}, {2.3, 2.2, 2.9}, {-0.3, 2.4, -1.4}};
+  for (const Pose2& guess : distorted) {
     graph.add_node(guess);
   }
   for (std::size_t k = 0; k < 4; ++k) {

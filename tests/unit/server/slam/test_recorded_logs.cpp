@@ -137,7 +137,7 @@ TEST(RecordedLogs, Freiburg079IsFollowedWithAScanEveryMetre) {
   const auto samples = play(path, {}, corrected, slam, {.gap_m = 1.0, .gap_rad = 0.5});
   ASSERT_GT(samples.size(), 500U);
   // As the robot believes at the time, before loops put right what they can. It depends on where local maps end: 0.20
-  // to 0.31 m with 7 to 14 m of way each.
+  // to 0.31 m with a path length of 7 to 14 m each.
   EXPECT_LT(report(samples, 20).translation_m, 0.32);
 }
 

@@ -50,7 +50,7 @@ TEST(SeenThrough, WhatIsHiddenOrOutOfViewOrDoesNotComeBackIsNeither) {
   EXPECT_EQ(seen_through_in({}, {}), 0.0);
 }
 
-TEST(SeenThrough, ItIsTheSameWhicheverWayTheScannerTurns) {
+TEST(SeenThrough, ItIsTheSameInWhicheverDirectionTheScannerRotates) {
   Rng rng(3);
   LaserScan scan = scan_at({{{8.0, -5.0}, {8.0, 5.0}}}, {}, 0.0, rng);
   const ReferenceCloud pillar = pillar_from({});

@@ -38,23 +38,23 @@ TEST(SegmentFusion, KeepsADoorwayOpenAndClosesAGapOfSight) {
   EXPECT_EQ(fuse({left, right}).size(), 2U);
 }
 
-TEST(SegmentFusion, KeepsParallelAndTurnedWallsApart) {
+TEST(SegmentFusion, KeepsParallelAndRotatedWallsApart) {
   EXPECT_EQ(fuse({wall(1, 0.0, 0.0, 0.0, 4.0), wall(2, 0.0, 0.2, 0.0, 4.0)}).size(), 2U);
   EXPECT_EQ(fuse({wall(1, 0.0, 0.0, 0.0, 4.0), wall(2, 0.0, 0.0, 0.3, 4.0)}).size(), 2U);
 }
 
 TEST(SegmentFusion, DoesNotDependOnTheFrame) {
-  const Pose2 turn{30.0, -20.0, 2.0};
+  const Pose2 motion{30.0, -20.0, 2.0};
   auto a = wall(1, 0.0, 0.0, 0.0, 4.0);
   auto b = wall(2, 3.0, 0.05, 0.02, 4.0);
   const auto here = fuse({a, b});
-  a.map_T_segment = turn * a.map_T_segment;
-  b.map_T_segment = turn * b.map_T_segment;
+  a.map_T_segment = motion * a.map_T_segment;
+  b.map_T_segment = motion * b.map_T_segment;
   const auto there = fuse({a, b});
   ASSERT_EQ(here.size(), 1U);
   ASSERT_EQ(there.size(), 1U);
-  EXPECT_NEAR((turn * here[0].left() - there[0].left()).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((turn * here[0].right() - there[0].right()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((motion * here[0].left() - there[0].left()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((motion * here[0].right() - there[0].right()).norm(), 0.0, 1e-9);
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ TEST(SpGeometry, MovingTheOriginAlongTheLineIsTOfS) {
   EXPECT_LT((t - slope(after, 2)).cwiseAbs().maxCoeff(), kTolerance);
 }
 
-TEST(SpGeometry, CovarianceTurnsBetweenFrames) {
+TEST(SpGeometry, CovarianceRotatesBetweenFrames) {
   const Matrix3 base = Eigen::Vector3d(0.04, 0.01, 0.0025).asDiagonal().toDenseMatrix();
   const Pose2 quarter{3.0, 2.0, kPi / 2.0};
   const Matrix3 map = to_map_frame(base, quarter);

@@ -1,4 +1,4 @@
-/// Whatever is fed to the filter, its covariance stays one.
+/// For any input the filter's covariance stays valid.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <Eigen/Eigenvalues>

@@ -194,7 +194,7 @@ LaserScan sweep(double range_m) {
 
 TEST(SpMap, ForgetsASegmentThatIsLookedThrough) {
   SpMapParams params;
-  for (const double step_deg : {1.0, -1.0}) {  // scanners turn either way
+  for (const double step_deg : {1.0, -1.0}) {  // scanners rotate in either direction
     SpMap map({}, kStart, params);
     for (int k = 0; k < 10; ++k) {
       feed(map, {part(-1.0, 1.0)});
@@ -207,7 +207,7 @@ TEST(SpMap, ForgetsASegmentThatIsLookedThrough) {
     LaserScan silent = through;
     silent.ranges_m.assign(181, kNoReturn);
     for (int k = 0; k < 20; ++k) {
-      EXPECT_TRUE(map.observe_free_space(hidden).empty()) << "something stands before it";
+      EXPECT_TRUE(map.observe_free_space(hidden).empty()) << "an obstacle stands before it";
       EXPECT_TRUE(map.observe_free_space(silent).empty()) << "no return is no evidence";
     }
     for (int k = 1; k < params.existence.misses; ++k) {

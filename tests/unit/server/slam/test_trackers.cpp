@@ -36,7 +36,7 @@ struct Drive {
   }
 };
 
-TEST(OdometryTracker, GrowsItsCovarianceWithTheWay) {
+TEST(OdometryTracker, GrowsItsCovarianceWithTheDistance) {
   OdometryTracker tracker;
   EXPECT_EQ(tracker.estimate().quality, LocalisationQuality::kUnknown);
   ASSERT_TRUE(tracker.predict({5.0, 5.0, 1.0}, robot_time_s(0.0)));

@@ -16,14 +16,14 @@ using testing::Pose2Near;
 TEST(UnseenMotion, ExpectsTheLastMotionOnceMore) {
   UnseenMotion unseen;
   EXPECT_FALSE(unseen.on());
-  EXPECT_FALSE(unseen.trusted()) << "wheels that have told of nothing yet";
+  EXPECT_FALSE(unseen.trusted()) << "wheels that have not reported any motion yet";
   unseen.note({0.1, 0.01, -0.05}, 0.2);
   ASSERT_TRUE(unseen.on());
   const UncertainPose next = unseen.expected(0.4);
   EXPECT_THAT(next.a_T_b, Pose2Near(Pose2{0.2, 0.02, -0.1}, 1e-9, 1e-9));
   const UnseenMotionParams params;
   EXPECT_NEAR(next.covariance(0, 0), std::pow(params.speed_sigma_mps * 0.4, 2), 1e-9);
-  EXPECT_NEAR(next.covariance(2, 2), std::pow(params.turn_sigma_radps * 0.4, 2), 1e-9);
+  EXPECT_NEAR(next.covariance(2, 2), std::pow(params.rotation_sigma_radps * 0.4, 2), 1e-9);
   EXPECT_FALSE(unseen.trusted());
   unseen.note_wheels();
   EXPECT_FALSE(unseen.on());
@@ -35,7 +35,7 @@ TEST(UnseenMotion, KnowsWhatNobodyCanDo) {
   const UnseenMotion unseen;
   EXPECT_FALSE(unseen.is_too_fast({0.3, 0.0, 0.4}, 0.2));
   EXPECT_TRUE(unseen.is_too_fast({0.5, 0.0, 0.0}, 0.2));
-  EXPECT_TRUE(unseen.is_too_fast({0.0, 0.0, 1.5}, 0.2)) << "a square room looks the same a quarter of a turn on";
+  EXPECT_TRUE(unseen.is_too_fast({0.0, 0.0, 1.5}, 0.2)) << "a square room is the same after a rotation by 90 degrees";
 }
 
 TEST(LineSlamWithoutWheels, FollowsALaserThatIsCarriedRoundARing) {
@@ -43,7 +43,7 @@ TEST(LineSlamWithoutWheels, FollowsALaserThatIsCarriedRoundARing) {
     Trip trip(seed);
     LineSlam slam({}, trip.truth());
     double worst_m = 0.0;
-    while (trip.way_m() < 40.0) {
+    while (trip.path_m() < 40.0) {
       ASSERT_TRUE(slam.predict({}, trip.time()));
       ASSERT_TRUE(slam.update(trip.scan()));
       worst_m = std::max(worst_m, distance_m(slam.estimate().map_T_base, trip.truth()));
@@ -69,7 +69,7 @@ struct Room {
   double time_s = 0.0;
 };
 
-TEST(LineSlamWithoutWheels, ARobotThatIsPushedAndTurnedIsFollowedAndItsWheelsAreBelievedAgain) {
+TEST(LineSlamWithoutWheels, ARobotThatIsPushedAndRotatedIsFollowedAndItsWheelsAreBelievedAgain) {
   Room room;
   Pose2 wheels;
   for (int k = 0; k < 10; ++k) {

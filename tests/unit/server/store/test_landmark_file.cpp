@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "server/store/store.hpp"
 #include "tests/unit/server/store/killed_writer.hpp"
 #include "tests/unit/server/store/landmark_samples.hpp"
@@ -122,9 +122,9 @@ TEST_F(LandmarkFileTest, AChangedNumberIsFound) {
 
 TEST_F(LandmarkFileTest, AFileCutOffAnywhereIsRefused) {
   ASSERT_TRUE(write_landmark_file(file(), origin_, some_landmarks(1, 40)));
-  const auto whole = read_file(file(), 1U << 24U).value();
+  const auto whole = files::read_file(file(), 1U << 24U).value();
   for (std::size_t cut = 0; cut < whole.size(); cut += 1 + whole.size() / 60) {
-    ASSERT_TRUE(write_file_atomically(file(), std::span(whole).first(cut)));
+    ASSERT_TRUE(files::write_file(file(), std::span(whole).first(cut)));
     const auto read = read_landmark_file(file());
     ASSERT_FALSE(read) << "cut at " << cut;
     EXPECT_NE(read.error().code, Errc::kInternal);

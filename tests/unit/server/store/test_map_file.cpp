@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "tests/support/maps/random_map.hpp"
 #include "tests/unit/server/store/killed_writer.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"

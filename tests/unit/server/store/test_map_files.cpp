@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "tests/support/maps/random_map.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
@@ -62,7 +62,7 @@ TEST(MapFiles, DamagedFileIsListedWithItsProblem) {
   const testing::TemporaryFolder folder;
   const MapFiles files(folder.path());
   ASSERT_TRUE(files.write(room("good"), false));
-  ASSERT_TRUE(write_file_atomically(files.path_of("bad"), "this is no map"));
+  ASSERT_TRUE(files::write_file(files.path_of("bad"), "this is no map"));
   std::ofstream(folder.path() / "notes.txt") << "not a map either, but none that claims to be one";
   const Result<std::vector<MapListing>> list = files.list();
   ASSERT_TRUE(list);

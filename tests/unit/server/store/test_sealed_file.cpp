@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
 namespace seeker::store {
@@ -46,7 +46,7 @@ TEST(SealedFile, IsWrittenIntoAFolderThatItMakes) {
   ASSERT_TRUE(write_sealed_file(path, "place", "here"));
   EXPECT_EQ(read_sealed_file(path, "place", 100).value(), (Bytes{'h', 'e', 'r', 'e'}));
   EXPECT_EQ(read_sealed_file(path, "place", 10).error().code, Errc::kTooLarge);
-  ASSERT_TRUE(write_file_atomically(path, "garbage"));
+  ASSERT_TRUE(files::write_file(path, "garbage"));
   EXPECT_NE(read_sealed_file(path, "place", 100).error().message.find("a.place"), std::string::npos);
 }
 
@@ -54,7 +54,7 @@ TEST(SealedFile, OneThatNeedNotOutliveAPowerCutIsReplacedAsAWholeToo) {
   const testing::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "a.place";
   ASSERT_TRUE(write_sealed_file(path, "place", "the first, which is longer"));
-  ASSERT_TRUE(write_sealed_file(path, "place", "here", Outlives::kItsProgram));
+  ASSERT_TRUE(write_sealed_file(path, "place", "here", files::Outlives::kItsProgram));
   EXPECT_EQ(read_sealed_file(path, "place", 100).value(), (Bytes{'h', 'e', 'r', 'e'}));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "no temporary file is left";
 }

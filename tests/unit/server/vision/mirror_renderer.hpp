@@ -13,14 +13,14 @@
 namespace seeker::vision::testing {
 
 /// An upright flat picture on the floor plane.
-struct FlatThing {
+struct FlatObject {
   cv::Mat picture;
   double bearing_rad = 0.0;  ///< of its centre
   double range_m = 1.0;
   double width_m = 0.30;
   double height_m = 0.30;
   double z_min_m = 0.45;
-  double turn_rad = 0.0;  ///< away from facing the camera
+  double rotation_rad = 0.0;  ///< away from facing the camera
 };
 
 /// Hyperbolic mirror: radius = gain cos(e) / (shape - sin(e)); horizon at 172.7 px.
@@ -44,8 +44,8 @@ inline double elevation_at(const Mirror& m, double radius) {
   return 0.5 * (low + high);
 }
 
-/// Grey of the nearest thing along a ray, or of floor or wall.
-inline double shade(const Mirror& m, const std::vector<FlatThing>& things, double bearing, double elevation) {
+/// Grey of the nearest object along a ray, or of floor or wall.
+inline double shade(const Mirror& m, const std::vector<FlatObject>& objects, double bearing, double elevation) {
   const double slope = std::tan(elevation);
   double nearest = m.wall_m;
   double grey = 165.0 + 25.0 * std::sin(3.0 * bearing) + 8.0 * std::sin(41.0 * bearing);
@@ -53,12 +53,12 @@ inline double shade(const Mirror& m, const std::vector<FlatThing>& things, doubl
     nearest = m.height_m / -slope;
     grey = 120.0 + 10.0 * std::sin(9.0 * nearest) + 6.0 * std::sin(17.0 * bearing);
   }
-  for (const FlatThing& t : things) {
+  for (const FlatObject& t : objects) {
     const double off = bearing - t.bearing_rad;
-    // Along the ray: distance q with q cos(off) = range + s sin(turn), q sin(off) = s cos(turn).
-    const double denominator = std::cos(off) * std::cos(t.turn_rad) - std::sin(off) * std::sin(t.turn_rad);
-    const double q = denominator > 1e-9 ? t.range_m * std::cos(t.turn_rad) / denominator : -1.0;
-    const double across = q * std::sin(off) / std::cos(t.turn_rad);  // left positive
+    // Along the ray: distance q with q cos(off) = range + s sin(rotation), q sin(off) = s cos(rotation).
+    const double denominator = std::cos(off) * std::cos(t.rotation_rad) - std::sin(off) * std::sin(t.rotation_rad);
+    const double q = denominator > 1e-9 ? t.range_m * std::cos(t.rotation_rad) / denominator : -1.0;
+    const double across = q * std::sin(off) / std::cos(t.rotation_rad);  // left positive
     const double z = m.height_m + q * slope - t.z_min_m;
     if (q <= 0.0 || q >= nearest || std::abs(across) >= 0.5 * t.width_m || z < 0.0 || z >= t.height_m) {
       continue;
@@ -72,7 +72,7 @@ inline double shade(const Mirror& m, const std::vector<FlatThing>& things, doubl
 }
 
 /// 640x480 with 2x2 samples per pixel, blur and noise.
-inline cv::Mat render(const Mirror& m, const std::vector<FlatThing>& things, double noise_sigma, Rng& rng) {
+inline cv::Mat render(const Mirror& m, const std::vector<FlatObject>& objects, double noise_sigma, Rng& rng) {
   constexpr int kSide = 2;
   std::vector<double> table;
   for (int i = 0; i <= 480; ++i) {
@@ -91,7 +91,7 @@ inline cv::Mat render(const Mirror& m, const std::vector<FlatThing>& things, dou
         }
         const auto i = static_cast<std::size_t>(2.0 * radius);
         const double elevation = table[i] + (2.0 * radius - static_cast<double>(i)) * (table[i + 1] - table[i]);
-        sum += shade(m, things, std::atan2(x, y), elevation);
+        sum += shade(m, objects, std::atan2(x, y), elevation);
       }
       out.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(sum / (kSide * kSide));
     }

@@ -51,7 +51,7 @@ inline TargetModel model_of(const std::string& name, const cv::Mat& picture, Tar
 }
 
 /// Boxes and discs of middle greys over a slow gradient.
-inline cv::Mat cluttered_ground(int width, int height, int things, Rng& rng) {
+inline cv::Mat cluttered_ground(int width, int height, int objects, Rng& rng) {
   cv::Mat ground(height, width, CV_8UC1);
   const double slope = rng.uniform(-40.0, 40.0);
   for (int v = 0; v < height; ++v) {
@@ -59,7 +59,7 @@ inline cv::Mat cluttered_ground(int width, int height, int things, Rng& rng) {
       ground.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(150.0 + slope * (1.0 * u / width - 0.5));
     }
   }
-  for (int i = 0; i < things; ++i) {
+  for (int i = 0; i < objects; ++i) {
     const cv::Point corner(static_cast<int>(rng.below(static_cast<std::uint64_t>(width))),
                            static_cast<int>(rng.below(static_cast<std::uint64_t>(height))));
     const cv::Size size(12 + static_cast<int>(rng.below(70)), 12 + static_cast<int>(rng.below(70)));

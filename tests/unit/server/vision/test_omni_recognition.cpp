@@ -10,7 +10,7 @@
 namespace seeker::vision {
 namespace {
 
-using testing::FlatThing;
+using testing::FlatObject;
 using testing::Mirror;
 
 RecogniserParams omni_params() {
@@ -37,19 +37,19 @@ struct Score {
   double worst_range_error = 0.0;
 };
 
-void look(const Recogniser& recogniser, const std::vector<FlatThing>& things, int symbol, Rng& rng, Score& score) {
-  const cv::Mat scene = testing::render(Mirror(), things, 2.5, rng);
+void look(const Recogniser& recogniser, const std::vector<FlatObject>& objects, int symbol, Rng& rng, Score& score) {
+  const cv::Mat scene = testing::render(Mirror(), objects, 2.5, rng);
   const auto report = recogniser.recognise(to_image(scene));
   ASSERT_TRUE(report.has_value());
   ++score.shown;
   for (const Sighting& s : report->sightings) {
-    const double error_deg = std::abs(rad_to_deg(wrap_angle(s.bearing_base_rad - things[0].bearing_rad)));
+    const double error_deg = std::abs(rad_to_deg(wrap_angle(s.bearing_base_rad - objects[0].bearing_rad)));
     const bool right = s.target == symbol && error_deg < 3.0;
     score.found += right ? 1 : 0;
     score.false_positives += right ? 0 : 1;
     if (right) {
       score.worst_bearing_deg = std::max(score.worst_bearing_deg, error_deg);
-      score.worst_range_error = std::max(score.worst_range_error, std::abs(*s.range_m / things[0].range_m - 1.0));
+      score.worst_range_error = std::max(score.worst_range_error, std::abs(*s.range_m / objects[0].range_m - 1.0));
     }
   }
 }
@@ -90,16 +90,16 @@ TEST(OmniRecognition, RecallFallsWithRangeOnly) {
   }
 }
 
-TEST(OmniRecognition, ATurnedSignIsFound) {
+TEST(OmniRecognition, ARotatedSignIsFound) {
   const auto recogniser = signs_recogniser();
   Rng rng(23);
   for (const double turn_deg : {0.0, 20.0, 35.0, 50.0}) {
     Score score;
     for (int i = 0; i < 4; ++i) {
       const int symbol = i % testing::kSymbols;
-      FlatThing thing{testing::sign(symbol), rng.uniform(-kPi, kPi), 1.5};
-      thing.turn_rad = deg_to_rad(turn_deg);
-      look(*recogniser, {thing}, symbol, rng, score);
+      FlatObject object{testing::sign(symbol), rng.uniform(-kPi, kPi), 1.5};
+      object.rotation_rad = deg_to_rad(turn_deg);
+      look(*recogniser, {object}, symbol, rng, score);
     }
     std::printf("omni, turned by %.0f deg: found %d of %d, %d false\n", turn_deg, score.found, score.shown,
                 score.false_positives);
@@ -132,13 +132,13 @@ TEST(OmniRecognition, ARoomWithoutSignsHasNone) {
   Rng rng(25);
   int reported = 0;
   for (int i = 0; i < 8; ++i) {
-    std::vector<FlatThing> things;
+    std::vector<FlatObject> objects;
     for (int k = 0; k < 10; ++k) {
       const cv::Mat plain(8, 8, CV_8UC1, cv::Scalar(rng.uniform(15.0, 240.0)));
-      things.push_back({plain, rng.uniform(-kPi, kPi), rng.uniform(0.8, 4.0), rng.uniform(0.1, 1.2),
-                        rng.uniform(0.1, 1.4), rng.uniform(0.0, 0.7)});
+      objects.push_back({plain, rng.uniform(-kPi, kPi), rng.uniform(0.8, 4.0), rng.uniform(0.1, 1.2),
+                         rng.uniform(0.1, 1.4), rng.uniform(0.0, 0.7)});
     }
-    const auto report = recogniser->recognise(to_image(testing::render(Mirror(), things, 2.5, rng)));
+    const auto report = recogniser->recognise(to_image(testing::render(Mirror(), objects, 2.5, rng)));
     ASSERT_TRUE(report.has_value());
     reported += static_cast<int>(report->sightings.size());
   }

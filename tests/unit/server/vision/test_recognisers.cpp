@@ -93,7 +93,7 @@ TEST(TemplateRecogniser, StagesAddUp) {
   EXPECT_EQ(*report, *(*recogniser)->recognise(to_image(scene)));  // deterministic
 }
 
-TEST(FeatureRecogniser, FindsATurnedObliquePicture) {
+TEST(FeatureRecogniser, FindsARotatedObliquePicture) {
   Rng rng(35);
   cv::Mat picture(180, 240, CV_8UC1);
   cv::randu(picture, 0, 255);

@@ -56,37 +56,37 @@ TEST_F(StereoFaults, APictureWithoutPixelsIsRefused) {
   EXPECT_THAT(fault(), HasSubstr("left eye"));
 }
 
-TEST_F(StereoFaults, ABlackPictureIsTold) {
+TEST_F(StereoFaults, ABlackPictureIsReported) {
   cv::Mat black = testing::plain_ground(480, 360, 3);
   testing::degrade(black, 0.0, 2.0, rng);
   frame.left = to_image(black);
   EXPECT_THAT(fault(), AllOf(HasSubstr("left eye"), HasSubstr("black"), HasSubstr("lens cap")));
 }
 
-TEST_F(StereoFaults, ASaturatedPictureIsTold) {
+TEST_F(StereoFaults, ASaturatedPictureIsReported) {
   cv::Mat bright = to_grey_mat(frame.right) * 4.0;
   frame.right = to_image(bright);
   EXPECT_THAT(fault(), AllOf(HasSubstr("right eye"), HasSubstr("saturated"), HasSubstr("exposure")));
 }
 
-TEST_F(StereoFaults, OneBlurredEyeIsTold) {
+TEST_F(StereoFaults, OneBlurredEyeIsReported) {
   const Image sharp = frame.left;
   frame.left = blurred(sharp, 6.0, rng);
   EXPECT_THAT(fault(), AllOf(HasSubstr("left eye"), HasSubstr("blurred"), HasSubstr("focus")));
 }
 
-TEST_F(StereoFaults, BothEyesBlurredIsTold) {
+TEST_F(StereoFaults, BothEyesBlurredIsReported) {
   frame.left = blurred(frame.left, 8.0, rng);
   frame.right = blurred(frame.right, 8.0, rng);
   EXPECT_THAT(fault(), HasSubstr("blurred"));
 }
 
-TEST_F(StereoFaults, SwappedEyesAreTold) {
+TEST_F(StereoFaults, SwappedEyesAreReported) {
   std::swap(frame.left, frame.right);
   EXPECT_THAT(fault(), AllOf(HasSubstr("negative"), HasSubstr("swap")));
 }
 
-TEST_F(StereoFaults, RowsThatDoNotAgreeAreTold) {
+TEST_F(StereoFaults, RowsThatDoNotAgreeAreReported) {
   frame.right = with_rows_moved(frame.right, 4.0);
   EXPECT_THAT(fault(), AllOf(HasSubstr("row"), HasSubstr("calibrat"), HasSubstr("synchronise")));
 }

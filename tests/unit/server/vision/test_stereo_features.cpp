@@ -60,7 +60,7 @@ TEST(StereoFeatures, DisparitiesAreTrueToAnEighthOfAPixel) {
   EXPECT_LE(rms_of_good(e), 0.125);
 }
 
-TEST(StereoFeatures, CorrelationRefinesWhatKeyPointsTell) {
+TEST(StereoFeatures, CorrelationRefinesTheKeyPointsDisparity) {
   StereoFeatureParams rough;
   rough.match.refine_disparity = false;
   Rng rng(22);
@@ -71,7 +71,7 @@ TEST(StereoFeatures, CorrelationRefinesWhatKeyPointsTell) {
   EXPECT_LT(rms_of_good(errors(*refined)), 0.7 * rms_of_good(errors(*plain)));
 }
 
-TEST(StereoFeatures, HalfResolutionTellsPlacesInFullPixels) {
+TEST(StereoFeatures, HalfResolutionGivesPositionsInFullPixels) {
   StereoFeatureParams params;
   params.detector.half_resolution = true;
   params.detector.wanted = 200;

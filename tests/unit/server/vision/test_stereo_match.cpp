@@ -61,13 +61,13 @@ FeatureList seen_from_the_right(const FeatureList& left, Rng& rng) {
 
 bool passes_constraints(const Keypoint& l, const Keypoint& r, const StereoMatchParams& p) {
   const double disparity = static_cast<double>(l.u_px) - static_cast<double>(r.u_px);
-  const double turn =
+  const double rotation =
       std::remainder(static_cast<double>(l.orientation_rad) - static_cast<double>(r.orientation_rad), kTwoPi);
   const double scales =
       static_cast<double>(std::max(l.scale_px, r.scale_px)) / static_cast<double>(std::min(l.scale_px, r.scale_px));
   const double difference = std::abs(static_cast<double>(l.scale_px) - static_cast<double>(r.scale_px));
   return std::abs(static_cast<double>(l.v_px) - static_cast<double>(r.v_px)) < kRowGate_px &&
-         disparity > p.min_disparity_px && disparity < p.max_disparity_px && std::abs(turn) < p.max_turn_rad &&
+         disparity > p.min_disparity_px && disparity < p.max_disparity_px && std::abs(rotation) < p.max_rotation_rad &&
          (p.scale_gate_kind == ScaleGate::kRatio ? scales <= p.scale_gate : difference < p.scale_gate);
 }
 

@@ -42,8 +42,10 @@ ForeignPairs foreign_pairs(const FeatureList& left, const FeatureList& right, co
       const Keypoint& l = left.keypoints[i];
       const Keypoint& r = right.keypoints[k];
       const double scales = std::max(l.scale_px, r.scale_px) / std::min(l.scale_px, r.scale_px);
-      const double turn = wrap_angle(static_cast<double>(l.orientation_rad) - static_cast<double>(r.orientation_rad));
-      if (std::abs(l.v_px - r.v_px) > kRowsApart && scales <= match.scale_gate && std::abs(turn) < match.max_turn_rad) {
+      const double rotation =
+          wrap_angle(static_cast<double>(l.orientation_rad) - static_cast<double>(r.orientation_rad));
+      if (std::abs(l.v_px - r.v_px) > kRowsApart && scales <= match.scale_gate &&
+          std::abs(rotation) < match.max_rotation_rad) {
         ++out.pairs;
         out.within_gate += descriptor_distance(left.descriptors[i], right.descriptors[k], match.metric) <= gate ? 1 : 0;
       }
@@ -111,7 +113,7 @@ TEST_F(Aloe, ThePapersGatesDoAlmostAsWell) {
   EXPECT_GE(s.within_1_px, s.known * 93 / 100);
 }
 
-TEST_F(Aloe, SwappedEyesAreTold) {
+TEST_F(Aloe, SwappedEyesAreReported) {
   std::swap(frame.left, frame.right);
   const auto found = make_stereo_extractor(geometry_of(frame.left), {})->extract(frame);
   ASSERT_FALSE(found.has_value());

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/unit/server/nav/ascii_map.hpp"
@@ -72,16 +72,19 @@ TEST_F(WayHome, StaysInsideTheBoundAndOnFloorThatTheRobotHasSeen) {
   const Decision outside = first_step({east, {}});
   ASSERT_TRUE(outside.end);
   EXPECT_EQ(outside.end->outcome, api::Outcome::kUnreachable);
-  EXPECT_EQ(outside.end->unreachable, std::vector<Point2>{Point2::Zero()});
+  EXPECT_EQ(positions_of(outside.end->unreachable), std::vector<Point2>{Point2::Zero()});
+  EXPECT_EQ(outside.end->unreachable.front().cause, UnreachableCause::kOutsideBound);
   map.clear();
   see(kPi);
   Decision unseen = first_step({});
   for (double now_s = 2.0; now_s < 120.0 && !unseen.end; now_s += 1.0) {
-    EXPECT_EQ(unseen.command, Twist2{}) << "nobody knows what lies behind it";
+    EXPECT_EQ(unseen.command.v_m_s, 0.0) << "nobody knows what lies behind it";
     unseen = step(now_s);
   }
   ASSERT_TRUE(unseen.end);
   EXPECT_EQ(unseen.end->outcome, api::Outcome::kUnreachable);
+  EXPECT_EQ(unseen.end->unreachable.front().cause, UnreachableCause::kUnknownFloor);
+  EXPECT_NE(unseen.end->remedy.find("explore"), std::string::npos) << unseen.end->remedy;
 }
 
 }  // namespace

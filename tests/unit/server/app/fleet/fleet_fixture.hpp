@@ -42,7 +42,7 @@ struct AskedErrands {
       asked.push_back("judge " + id);
       return !full;
     };
-    errands.tell_operator = [this](const std::string& kind, const std::string&, api::Severity) {
+    errands.notify_operator = [this](const std::string& kind, const std::string&, api::Severity) {
       asked.push_back("event " + kind);
     };
     return errands;

@@ -83,7 +83,7 @@ TEST(FleetJudge, DropsWhatWasFoundOfAMapThatTheMainRobotHasLeft) {
   JudgeParts parts;
   parts.join(packed(east()));
   parts.judge.judge("r1");
-  static_cast<void>(parts.main.hear(app::OwnSeen{true, {}, {found_at(1, {1.0, 1.0})}, {}}, kStart));
+  static_cast<void>(parts.main.receive(app::OwnSeen{true, {}, {found_at(1, {1.0, 1.0})}, {}}, kStart));
   parts.own = fleet::toy_map(fleet::office(12), fleet::drive(kWest), 31, {}, 15);
   parts.judge.judge("r1");
   EXPECT_NE(parts.entry().state, api::FleetState::kMerged) << parts.entry().reason;

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "tests/unit/server/app/fleet/fleet_fixture.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
@@ -113,7 +113,7 @@ TEST(FleetMemory, ReportsDamageAndKeepsTheEpoch) {
   EXPECT_TRUE(fleet.pairs.empty());
   EXPECT_EQ(fleet.joint_epoch, 5U);
   EXPECT_EQ(again.damage.size(), 1U);
-  ASSERT_TRUE(store::write_file_atomically(folder.path() / "memory", "garbage"));
+  ASSERT_TRUE(files::write_file(folder.path() / "memory", "garbage"));
   EXPECT_FALSE(again.memory.read());
   EXPECT_EQ(again.damage.size(), 2U);
 }

@@ -17,10 +17,10 @@ TEST(KnownOthers, AreGivenToTheRobotWithTheFloorThatTheyHaveSeen) {
   sightings.floor = floor_with({1.0, 1.0});
   sightings.findings = {{"main", found_at(1, {1.0, 1.0})}};
   sightings.searched = {searched_at({}, 3, 200)};
-  parts.others.hear(sightings);
+  parts.others.receive(sightings);
   EXPECT_FALSE(parts.host.view()) << "it comes with the topologies";
   EXPECT_EQ(parts.host.events().size(), 1U);
-  parts.others.hear(api::FleetShared{api::FleetState::kMerged, {at_place("main", {2.0, 1.0})}});
+  parts.others.receive(api::FleetShared{api::FleetState::kMerged, {at_place("main", {2.0, 1.0})}});
   ASSERT_TRUE(parts.host.view());
   EXPECT_EQ(parts.host.view()->robot_id, "r1");
   EXPECT_EQ(parts.host.view()->others.size(), 1U);
@@ -30,8 +30,8 @@ TEST(KnownOthers, AreGivenToTheRobotWithTheFloorThatTheyHaveSeen) {
 
 TEST(KnownOthers, KeepTheirPlacesButNotTheirGoalsWithoutALink) {
   KnownParts parts;
-  parts.others.hear(api::FleetShared{api::FleetState::kMerged, {at_place("main", {2.0, 1.0})}});
-  parts.others.hear(Result<api::FleetShared>(fail(Errc::kLinkLost, "the link is cut")));
+  parts.others.receive(api::FleetShared{api::FleetState::kMerged, {at_place("main", {2.0, 1.0})}});
+  parts.others.receive(Result<api::FleetShared>(fail(Errc::kLinkLost, "the link is cut")));
   ASSERT_TRUE(parts.host.view());
   EXPECT_FALSE(parts.host.view()->others.front().active);
   EXPECT_FALSE(parts.host.view()->others.front().velocity);
@@ -44,11 +44,11 @@ TEST(KnownOthers, AreForgottenWhereTheMapsAreDenied) {
     KnownParts parts;
     api::FleetSightings sightings;
     sightings.floor = floor_with({1.0, 1.0});
-    parts.others.hear(sightings);
-    parts.others.hear(api::FleetShared{api::FleetState::kMerged, {at_place("main", {2.0, 1.0})}});
-    parts.others.hear(api::FleetShared{state, {}});
+    parts.others.receive(sightings);
+    parts.others.receive(api::FleetShared{api::FleetState::kMerged, {at_place("main", {2.0, 1.0})}});
+    parts.others.receive(api::FleetShared{state, {}});
     EXPECT_FALSE(parts.host.view());
-    parts.others.hear(api::FleetShared{api::FleetState::kMerged, {}});
+    parts.others.receive(api::FleetShared{api::FleetState::kMerged, {}});
     EXPECT_FALSE(parts.host.view()->floor);
   }
 }
@@ -58,12 +58,12 @@ TEST(FleetNews, TellsOfATargetOnceAndAgainWhenItHasAPlace) {
   api::FleetSightings sightings;
   sightings.findings = {{"main", found_at(1, {1.0, 1.0})}};
   sightings.findings.front().detection.position.reset();
-  parts.others.hear(sightings);
-  parts.others.hear(sightings);
+  parts.others.receive(sightings);
+  parts.others.receive(sightings);
   EXPECT_EQ(parts.host.events().size(), 1U);
   sightings.findings.front().detection.position = Point2(1.0, 1.0);
-  parts.others.hear(sightings);
-  parts.others.hear(sightings);
+  parts.others.receive(sightings);
+  parts.others.receive(sightings);
   EXPECT_EQ(parts.host.events().size(), 2U);
 }
 

@@ -70,23 +70,23 @@ TEST(MemberBook, RefusesMoreThanAFleetHolds) {
 
 TEST(MemberBook, HearsOnlyTheProgramThatHasAnnouncedItself) {
   BookParts parts;
-  EXPECT_EQ(parts.book.hear(api::FleetShare{"r1", 1, {}}, kStart).error().code, Errc::kNotFound);
-  EXPECT_EQ(parts.book.hear(seen_by("r1"), kStart).error().code, Errc::kNotFound);
+  EXPECT_EQ(parts.book.receive(api::FleetShare{"r1", 1, {}}, kStart).error().code, Errc::kNotFound);
+  EXPECT_EQ(parts.book.receive(seen_by("r1"), kStart).error().code, Errc::kNotFound);
   EXPECT_EQ(parts.book.receive({"r1", {}, 0, {1}}).error().code, Errc::kNotFound);
   parts.join(packed(small_map()));
-  EXPECT_TRUE(parts.book.hear(api::FleetShare{"r1", 1, {}}, kStart));
-  EXPECT_EQ(parts.book.hear(api::FleetShare{"r1", 2, {}}, kStart).error().code, Errc::kNotFound);
+  EXPECT_TRUE(parts.book.receive(api::FleetShare{"r1", 1, {}}, kStart));
+  EXPECT_EQ(parts.book.receive(api::FleetShare{"r1", 2, {}}, kStart).error().code, Errc::kNotFound);
 }
 
 TEST(MemberBook, AsksForARecordWhenARobotHasFoundSomethingElse) {
   BookParts parts;
   parts.join(packed(small_map()));
   parts.asked.asked.clear();
-  ASSERT_TRUE(parts.book.hear(seen_by("r1", {found_at(1, {1.0, 1.0})}), kStart));
-  ASSERT_TRUE(parts.book.hear(seen_by("r1", {found_at(2, {1.0, 1.0})}), kStart));
+  ASSERT_TRUE(parts.book.receive(seen_by("r1", {found_at(1, {1.0, 1.0})}), kStart));
+  ASSERT_TRUE(parts.book.receive(seen_by("r1", {found_at(2, {1.0, 1.0})}), kStart));
   EXPECT_EQ(parts.asked.take("record r1"), 1U) << "one record waits";
   parts.book.begin_record("r1");
-  ASSERT_TRUE(parts.book.hear(seen_by("r1", {found_at(2, {1.0, 1.0})}), kStart));
+  ASSERT_TRUE(parts.book.receive(seen_by("r1", {found_at(2, {1.0, 1.0})}), kStart));
   EXPECT_EQ(parts.asked.take("record r1"), 0U);
   EXPECT_EQ(parts.book.record_of("r1").finds.now.front().id, 2U);
 }
@@ -100,16 +100,16 @@ TEST(MemberBook, GivesAMergedRobotTheOthersInItsOwnFrame) {
   outcome.pairs.push_back(second.pairs.front());
   outcome.links.insert(second.links.begin(), second.links.end());
   outcome.main_T_maps->insert(second.main_T_maps->begin(), second.main_T_maps->end());
-  EXPECT_TRUE(parts.book.hear(api::FleetShare{"r1", 1, {}}, kStart)->others.empty()) << "nothing is merged yet";
+  EXPECT_TRUE(parts.book.receive(api::FleetShare{"r1", 1, {}}, kStart)->others.empty()) << "nothing is merged yet";
   parts.book.settle(outcome);
-  const auto heard = parts.book.hear(api::FleetShare{"r1", 1, at_place("r1", {2.0, 1.0})}, kStart);
-  ASSERT_TRUE(heard);
-  EXPECT_EQ(heard->state, api::FleetState::kMerged);
-  EXPECT_EQ(heard->main_T_map, (Pose2{10.0, 0.0, 0.0}));
-  ASSERT_EQ(heard->others.size(), 1U);
-  EXPECT_EQ(heard->others.front().robot_id, "r2");
-  EXPECT_THAT(heard->others.front().map_T_theirs, Pose2Near(Pose2{2.0, 0.0, 0.0}, 1e-9, 1e-9));
-  EXPECT_TRUE(heard->others.front().silent) << "it has not shared its topology";
+  const auto received = parts.book.receive(api::FleetShare{"r1", 1, at_place("r1", {2.0, 1.0})}, kStart);
+  ASSERT_TRUE(received);
+  EXPECT_EQ(received->state, api::FleetState::kMerged);
+  EXPECT_EQ(received->main_T_map, (Pose2{10.0, 0.0, 0.0}));
+  ASSERT_EQ(received->others.size(), 1U);
+  EXPECT_EQ(received->others.front().robot_id, "r2");
+  EXPECT_THAT(received->others.front().map_T_theirs, Pose2Near(Pose2{2.0, 0.0, 0.0}, 1e-9, 1e-9));
+  EXPECT_TRUE(received->others.front().silent) << "it has not shared its topology";
   const auto merged = parts.book.merged(kStart);
   ASSERT_EQ(merged.size(), 2U);
   EXPECT_FALSE(merged.front().silent);
@@ -164,7 +164,7 @@ TEST(MemberBook, AppliesTheDecisionsOfTheOperator) {
 TEST(MemberBook, KeepsWhatAProgramFoundBeforeItWasRestarted) {
   BookParts parts;
   parts.join(packed(small_map(), "r1", 1));
-  ASSERT_TRUE(parts.book.hear(seen_by("r1", {found_at(1, {1.0, 1.0})}), kStart));
+  ASSERT_TRUE(parts.book.receive(seen_by("r1", {found_at(1, {1.0, 1.0})}), kStart));
   parts.join(packed(small_map(), "r1", 2), kStart + seconds(5));
   const app::MemberRecord record = parts.book.record_of("r1");
   EXPECT_TRUE(record.finds.now.empty());
@@ -196,7 +196,7 @@ TEST(MemberBook, MayBeCalledByTheNetworkAndTheJudgeAtOnce) {
     }
   });
   for (int k = 0; k < 200; ++k) {
-    ASSERT_TRUE(parts.book.hear(api::FleetShare{"r1", 1, at_place("r1", {2.0, 1.0})}, kStart));
+    ASSERT_TRUE(parts.book.receive(api::FleetShare{"r1", 1, at_place("r1", {2.0, 1.0})}, kStart));
     EXPECT_EQ(parts.book.status(kStart).members.size(), 2U);
   }
   judge.join();

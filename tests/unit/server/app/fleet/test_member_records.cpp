@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "tests/unit/server/app/fleet/fleet_fixture.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
@@ -62,7 +62,7 @@ TEST(MemberRecords, ThatAreDamagedAreReportedAndTheOthersStay) {
   RecordParts parts(folder.path());
   keep_with_pieces(parts, "r1");
   keep_with_pieces(parts, "r2");
-  ASSERT_TRUE(store::write_file_atomically(folder.path() / "r2" / "record", "garbage"));
+  ASSERT_TRUE(files::write_file(folder.path() / "r2" / "record", "garbage"));
   EXPECT_EQ(parts.records.load("main").size(), 1U);
   EXPECT_EQ(parts.damage.size(), 1U);
   std::filesystem::rename(folder.path() / "r1", folder.path() / "r3");

@@ -10,7 +10,7 @@ app::OtherRobot reporting(const Pose2& map_T_theirs) {
   app::OtherRobot other{"r2", {}, map_T_theirs, false};
   other.report.topology = at_place("r2", {2.0, 1.0});
   static_cast<void>(
-      other.report.hear_seen(floor_with({1.0, 1.0}), {found_at(1, {1.0, 0.0})}, searched_at({}, 3, 200), kStart));
+      other.report.receive_seen(floor_with({1.0, 1.0}), {found_at(1, {1.0, 0.0})}, searched_at({}, 3, 200), kStart));
   return other;
 }
 

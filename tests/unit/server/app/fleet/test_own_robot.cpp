@@ -23,17 +23,17 @@ TEST(OwnRobot, IsTheFirstMemberOfItsFleetAtItsOwnOrigin) {
 
 TEST(OwnRobot, TakesNothingBackWhileItHasLostItsPose) {
   OwnRobot main("main");
-  EXPECT_TRUE(main.hear(OwnSeen{true, floor_with({1.0, 1.0}), {found_at(1, {1.0, 1.0})}, {}}, kStart));
-  EXPECT_FALSE(main.hear(OwnSeen{}, kStart));
+  EXPECT_TRUE(main.receive(OwnSeen{true, floor_with({1.0, 1.0}), {found_at(1, {1.0, 1.0})}, {}}, kStart));
+  EXPECT_FALSE(main.receive(OwnSeen{}, kStart));
   EXPECT_EQ(main.report().finds.now.size(), 1U);
   EXPECT_TRUE(main.report().floor);
 }
 
 TEST(OwnRobot, ForgetsSearchedFloorThatItsLoopDoesNotReportAnyMore) {
   OwnRobot main("main");
-  static_cast<void>(main.hear(OwnSeen{true, {}, {}, searched_at({}, 3, 200)}, kStart));
+  static_cast<void>(main.receive(OwnSeen{true, {}, {}, searched_at({}, 3, 200)}, kStart));
   EXPECT_TRUE(main.report().search.floor);
-  static_cast<void>(main.hear(OwnSeen{true, {}, {}, {}}, kStart));
+  static_cast<void>(main.receive(OwnSeen{true, {}, {}, {}}, kStart));
   EXPECT_FALSE(main.report().search.floor);
 }
 
@@ -43,9 +43,9 @@ TEST(OwnRobot, HoldsWhatIsRememberedUntilItHasTakenUpItsMap) {
   EXPECT_TRUE(main.remembered());
   EXPECT_FALSE(main.report().topology->active);
   EXPECT_FALSE(main.report().topology->velocity);
-  main.hear(app::OwnTopology(at_place("main", {9.0, 9.0})));
+  main.receive(app::OwnTopology(at_place("main", {9.0, 9.0})));
   EXPECT_EQ(main.report().topology->map_T_base, (Pose2{2.0, 1.0, 0.0})) << "its loop is in another frame";
-  EXPECT_FALSE(main.hear(OwnSeen{true, {}, {found_at(2, {1.0, 1.0})}, {}}, kStart));
+  EXPECT_FALSE(main.receive(OwnSeen{true, {}, {found_at(2, {1.0, 1.0})}, {}}, kStart));
   main.take_map({small_map(), std::nullopt}, false);
   EXPECT_FALSE(main.remembered());
   EXPECT_EQ(main.describe().detections.size(), 1U);
@@ -55,8 +55,8 @@ TEST(OwnRobot, HoldsWhatIsRememberedUntilItHasTakenUpItsMap) {
 
 TEST(OwnRobot, DropsItsReportWithItsMapButNotTheTopologyThatItsLoopHasReportedSince) {
   OwnRobot main("main");
-  static_cast<void>(main.hear(OwnSeen{true, floor_with({1.0, 1.0}), {found_at(1, {1.0, 1.0})}, {}}, kStart));
-  main.hear(app::OwnTopology(at_place("main", {2.0, 1.0})));
+  static_cast<void>(main.receive(OwnSeen{true, floor_with({1.0, 1.0}), {found_at(1, {1.0, 1.0})}, {}}, kStart));
+  main.receive(app::OwnTopology(at_place("main", {2.0, 1.0})));
   main.take_map({small_map(2, 9), std::nullopt}, true);
   EXPECT_TRUE(main.report().finds.all().empty());
   EXPECT_FALSE(main.report().floor);

@@ -10,11 +10,11 @@ using app::RobotReport;
 
 TEST(RobotReport, KeepsThePlacesOfARobotThatKnowsFewerNow) {
   RobotReport report;
-  report.hear_topology(at_place("r1", {2.0, 1.0}));
+  report.receive_topology(at_place("r1", {2.0, 1.0}));
   RobotTopology restarted;
   restarted.robot_id = "r1";
   restarted.map_T_base = {5.0, 1.0, 0.0};
-  report.hear_topology(restarted);
+  report.receive_topology(restarted);
   ASSERT_TRUE(report.topology);
   EXPECT_EQ(report.topology->topology.nodes.size(), 1U);
   EXPECT_EQ(report.topology->map_T_base, restarted.map_T_base);
@@ -24,10 +24,10 @@ TEST(RobotReport, KeepsThePlacesOfARobotThatKnowsFewerNow) {
 
 TEST(RobotReport, OfARobotThatHasLostItsPoseHoldsTheLastPoseWithoutAVelocity) {
   RobotReport report;
-  report.hear_topology(std::nullopt);
+  report.receive_topology(std::nullopt);
   EXPECT_FALSE(report.topology);
-  report.hear_topology(at_place("r1", {2.0, 1.0}));
-  report.hear_topology(std::nullopt);
+  report.receive_topology(at_place("r1", {2.0, 1.0}));
+  report.receive_topology(std::nullopt);
   ASSERT_TRUE(report.topology);
   EXPECT_EQ(report.topology->map_T_base, (Pose2{2.0, 1.0, 0.0}));
   EXPECT_FALSE(report.topology->velocity);
@@ -47,22 +47,22 @@ TEST(RobotReport, ListsEveryFindOnceWithTheNewestReportOfIt) {
 TEST(RobotReport, SaysWhetherOtherTargetsWereFound) {
   RobotReport report;
   const std::vector<api::Detection> found{found_at(1, {1.0, 1.0})};
-  EXPECT_TRUE(report.hear_seen(floor_with({2.0, 2.0}), found, {}, kStart));
+  EXPECT_TRUE(report.receive_seen(floor_with({2.0, 2.0}), found, {}, kStart));
   EXPECT_TRUE(report.floor);
-  EXPECT_FALSE(report.hear_seen({}, found, {}, kStart));
+  EXPECT_FALSE(report.receive_seen({}, found, {}, kStart));
   EXPECT_FALSE(report.floor);
-  EXPECT_TRUE(report.hear_seen({}, {}, {}, kStart)) << "it takes one back";
+  EXPECT_TRUE(report.receive_seen({}, {}, {}, kStart)) << "it takes one back";
 }
 
 TEST(RobotReport, DatesSearchedFloorByItsLastChangeAndForgetsNone) {
   RobotReport report;
   const SearchedFloor searched = searched_at({}, 3, 200);
-  static_cast<void>(report.hear_seen({}, {}, searched, kStart));
-  static_cast<void>(report.hear_seen({}, {}, searched, kStart + seconds(5)));
+  static_cast<void>(report.receive_seen({}, {}, searched, kStart));
+  static_cast<void>(report.receive_seen({}, {}, searched, kStart + seconds(5)));
   EXPECT_EQ(report.search.changed, kStart);
-  static_cast<void>(report.hear_seen({}, {}, {}, kStart + seconds(6)));
+  static_cast<void>(report.receive_seen({}, {}, {}, kStart + seconds(6)));
   EXPECT_EQ(report.search.floor, searched);
-  static_cast<void>(report.hear_seen({}, {}, searched_at({}, 4, 200), kStart + seconds(7)));
+  static_cast<void>(report.receive_seen({}, {}, searched_at({}, 4, 200), kStart + seconds(7)));
   EXPECT_EQ(report.search.changed, kStart + seconds(7));
 }
 

@@ -18,12 +18,12 @@ FleetView one_other(const Pose2& map_T_base, const Twist2& velocity) {
   return {.robot_id = "me", .others = {other}};
 }
 
-const RobotTime kStart{seconds(50)};
+const RobotTime kReportedAt{seconds(50)};
 
 TEST(Neighbours, AReportedRobotIsBroughtOnByItsVelocityForTheTimeSince) {
   Neighbours neighbours(FleetMotionParams{});
-  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {0.5, 0.0}), kStart);
-  const auto movers = neighbours.movers_base(Pose2{1.0, 0.0, 0.0}, std::nullopt, kStart + seconds(1));
+  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {0.5, 0.0}), kReportedAt);
+  const auto movers = neighbours.movers_base(Pose2{1.0, 0.0, 0.0}, std::nullopt, kReportedAt + seconds(1));
   ASSERT_EQ(movers.size(), 1U);
   EXPECT_NEAR(movers[0].frame_T_base.x_m, 2.5, 1e-9) << "frame of the robot's base";
   const FleetMotionParams params;
@@ -32,15 +32,15 @@ TEST(Neighbours, AReportedRobotIsBroughtOnByItsVelocityForTheTimeSince) {
 
 TEST(Neighbours, AnOldReportSaysNothing) {
   Neighbours neighbours(FleetMotionParams{});
-  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {0.5, 0.0}), kStart);
-  const RobotTime later = kStart + FleetMotionParams{}.max_age + milliseconds(1);
+  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {0.5, 0.0}), kReportedAt);
+  const RobotTime later = kReportedAt + FleetMotionParams{}.max_age + milliseconds(1);
   EXPECT_TRUE(neighbours.movers_base({}, std::nullopt, later).empty());
   EXPECT_NE(neighbours.fleet(), nullptr) << "where it was may still be asked";
 }
 
 TEST(Neighbours, AMapCorrectionMovesWhatIsKnownOfTheOthers) {
   Neighbours neighbours(FleetMotionParams{});
-  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kStart);
+  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kReportedAt);
   neighbours.map_moved(Pose2{0.0, 1.0, 0.0});
   EXPECT_NEAR(neighbours.fleet()->others[0].map_T_base.y_m, 1.0, 1e-9);
   EXPECT_NEAR(neighbours.fleet()->others[0].map_T_base.x_m, 3.0, 1e-9);
@@ -56,7 +56,7 @@ TEST(Neighbours, WithoutAnExplorationTheOwnReportIsInactive) {
 
 TEST(Neighbours, AnotherMapVoidsAllPlaces) {
   Neighbours neighbours(FleetMotionParams{});
-  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kStart);
+  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kReportedAt);
   neighbours.note_own(nullptr, Pose2{1.0, 2.0, 0.0}, {});
   neighbours.forget_places();
   EXPECT_EQ(neighbours.fleet(), nullptr);

@@ -99,7 +99,8 @@ TEST_F(MissionExecutorTest, PoliciesContinueFinishStepAndReturn) {
   EXPECT_EQ(end().outcome, api::Outcome::kLinkLost) << "coming home does not make the mission a success";
 }
 
-api::MissionEnd ended(api::Outcome outcome, const std::string& cause, const std::vector<Point2>& unreachable = {}) {
+api::MissionEnd ended(api::Outcome outcome, const std::string& cause,
+                      const std::vector<UnreachablePlace>& unreachable = {}) {
   return {.outcome = outcome, .cause = cause, .remedy = "", .unreachable = unreachable};
 }
 
@@ -112,7 +113,8 @@ TEST_F(MissionExecutorTest, AMissionThatIsOverKeepsItsEndWhenTheWayHomeIsCutShor
     situation.pose.quality = LocalisationQuality::kLocalised;
   };
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
-  script->pending = ended(api::Outcome::kUnreachable, "no way leads to what is left", {{7.0, 1.0}});
+  script->pending = ended(api::Outcome::kUnreachable, "no way leads to what is left",
+                          {{Point2(7.0, 1.0), UnreachableCause::kCutOff, 0.0, ""}});
   lose_the_robot();
   EXPECT_EQ(end().outcome, api::Outcome::kUnreachable);
   EXPECT_EQ(end().cause,
@@ -320,12 +322,12 @@ TEST_F(MissionExecutorTest, WayHomeOfALostClientsMissionKeepsToItsGroundAndTells
   script->next.end = api::MissionEnd{.outcome = api::Outcome::kUnreachable,
                                      .cause = "1 of 1 places cannot be reached",
                                      .remedy = "clear the way",
-                                     .unreachable = {Point2::Zero()}};
+                                     .unreachable = {{Point2::Zero(), UnreachableCause::kBlocked, 0.0, ""}}};
   static_cast<void>(tick());
   EXPECT_EQ(end().outcome, api::Outcome::kLinkLost);
   EXPECT_NE(end().cause.find("'anna' that started the mission is gone"), std::string::npos) << end().cause;
   EXPECT_NE(end().cause.find("1 of 1 places cannot be reached"), std::string::npos) << end().cause;
-  EXPECT_EQ(end().unreachable, std::vector<Point2>{Point2::Zero()});
+  EXPECT_EQ(positions_of(end().unreachable), std::vector<Point2>{Point2::Zero()});
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/log/log.hpp"
-#include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/robot_assembly.hpp"
 #include "server/app/robot/robot.hpp"
 #include "tests/support/data.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/store/atomic_file.hpp"
+#include "common/files/files.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
@@ -54,7 +54,7 @@ TEST(KeptFiles, DamageIsToldAndTheRestIsUsed) {
   EXPECT_FALSE(read_kept(folder.path(), "round", 0, trouble).map_T_base);
   EXPECT_TRUE(trouble.empty()) << "nothing was kept: " << trouble;
   ASSERT_TRUE(keep_place(folder.path(), "round", {}));
-  ASSERT_TRUE(store::write_file_atomically(folder.path() / "round.topology", "garbage"));
+  ASSERT_TRUE(files::write_file(folder.path() / "round.topology", "garbage"));
   const KeptState kept = read_kept(folder.path(), "round", 0, trouble);
   EXPECT_TRUE(kept.map_T_base);
   EXPECT_FALSE(kept.topology);

@@ -221,7 +221,7 @@ TEST(InventedClock, OdometryAndScansKeepTheOrderOfTheLog) {
     ++records;
   }
   EXPECT_EQ(records, 120U);
-  EXPECT_THAT(describe(reader->summary()), ::testing::HasSubstr("too coarse to tell"));
+  EXPECT_THAT(describe(reader->summary()), ::testing::HasSubstr("too coarse to show"));
 }
 
 TEST(InventedClock, AJumpOfTheOdometryStaysOne) {

@@ -79,7 +79,7 @@ double nees_of_uneven_wheels(const MakeTracker& make_tracker) {
   params.seeds = {1, 2, 3, 4, 5, 6};
   params.tour = office_tour();
   params.tour.resize(3);
-  params.wheels = {.way_sigma = 0.02, .bend_sigma_rad_per_m = 0.02, .base_sigma = 0.02};
+  params.wheels = {.scale_sigma = 0.02, .drift_sigma_rad_per_m = 0.02, .base_sigma = 0.02};
   const Result<sim::World> world = options::load_world(testing::source_file("config/worlds/office-no-target.yaml"));
   EXPECT_TRUE(world) << (world ? "" : world.error().message);
   const Result<NeesStudy> study = study_consistency(*world, {}, make_tracker, params);

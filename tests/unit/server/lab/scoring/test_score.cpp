@@ -146,7 +146,7 @@ TEST_F(Score, TheCommandNamesWhatDoesNotGoTogether) {
   options.relations = write("r", "0 1 1 0 0 0 0 0\nrubbish\n");
   options.json = true;
   ASSERT_TRUE(run_score(options, out, notes));
-  EXPECT_NE(out.str().find("\"relations\": 1"), std::string::npos);
+  EXPECT_NE(out.str().find("\"relations\":1"), std::string::npos);
   EXPECT_NE(notes.str().find("1 bad lines were skipped"), std::string::npos);
 }
 

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/image/files.hpp"
+#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/stereo_database/revisit_command.hpp"
 #include "tests/support/data.hpp"
@@ -37,7 +37,7 @@ TEST_F(Revisits, PicturesComeInTheOrderOfTheirNumbers) {
   for (const char* name : {"10.png", "2.png", "1.PNG", "a02_7.png", "a2_10.png", "a01_9.png"}) {
     write(name);
   }
-  ASSERT_TRUE(image::write_file(folder_ / "in" / "notes.txt", "3").has_value());
+  ASSERT_TRUE(files::write_file(folder_ / "in" / "notes.txt", "3").has_value());
   const auto found = ordered_pictures(folder_ / "in");
   ASSERT_TRUE(found.has_value());
   std::vector<std::string> names;
@@ -57,7 +57,7 @@ TEST_F(Revisits, AFolderWithoutPicturesIsRefusedByName) {
 
 TEST_F(Revisits, ADamagedPictureIsNamed) {
   write("1.png");
-  ASSERT_TRUE(image::write_file(folder_ / "in" / "2.jpg", "no picture").has_value());
+  ASSERT_TRUE(files::write_file(folder_ / "in" / "2.jpg", "no picture").has_value());
   const auto found = find_revisits({.folder = folder_ / "in", .out = folder_ / "out"});
   ASSERT_FALSE(found.has_value());
   EXPECT_EQ(found.error().code, Errc::kCorrupt);
@@ -71,7 +71,7 @@ TEST_F(Revisits, BarePicturesShowNothingAgain) {
   std::ostringstream text;
   const Status done = run_revisit({.folder = folder_ / "in", .out = folder_ / "out", .gap = 0, .json = true}, text);
   ASSERT_TRUE(done.has_value()) << done.error().message;
-  EXPECT_EQ(text.str(), "{\"revisits\": [\n]}\n");
+  EXPECT_EQ(text.str(), "{\n  \"revisits\": []\n}\n");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "revisits.csv"));
 }
 

@@ -133,7 +133,7 @@ TEST(S2Scene, ARobotThatTurnsTellsByHowMuch) {
       SeeingRobot::create(*load_laboratory(testing::source_file("config"), 2), sim::RobotModel{}, {}, start, 1);
   ASSERT_TRUE(robot) << robot.error().message;
   double told_rad = 0.0;
-  for (const Twist2& velocity : robot->turn(0.5)) {
+  for (const Twist2& velocity : robot->rotate(0.5)) {
     told_rad += velocity.omega_rad_s * kEncoderPeriod_s;
   }
   EXPECT_NEAR(told_rad, 0.5, 0.03);

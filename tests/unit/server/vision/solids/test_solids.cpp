@@ -31,11 +31,11 @@ TEST(HuInvariants, AreThoseOfOpenCv) {
   }
 }
 
-TEST(HuInvariants, DoNotChangeWithPlaceSizeAndTurn) {
+TEST(HuInvariants, DoNotChangeWithPlaceSizeAndRotation) {
   const cv::Mat small = drawn({{200, 200}, {300, 200}, {300, 250}, {200, 250}});
   cv::Mat turned;
-  const cv::Mat turn = cv::getRotationMatrix2D({250.0F, 225.0F}, 37.0, 2.2);
-  cv::warpAffine(small, turned, turn, small.size());
+  const cv::Mat rotation = cv::getRotationMatrix2D({250.0F, 225.0F}, 37.0, 2.2);
+  cv::warpAffine(small, turned, rotation, small.size());
   const auto a = hu_invariants(small);
   const auto b = hu_invariants(turned);
   EXPECT_NEAR(b[0] / a[0], 1.0, 0.03);
@@ -114,7 +114,7 @@ TEST(SegmentSolid, FindsTheDiscOfASphereInTurbidWater) {
   for (const double attenuation : {0.3, 1.0}) {
     sim::TurbidWater water;
     water.attenuation_per_m = attenuation;
-    water.lamp_turn_u = 0.4;
+    water.lamp_offset_u = 0.4;
     Rng rng(3);
     const Image picture = sim::render_solid(seen_from(SolidKind::kSphere, 40.0), water, rng);
     const auto sight = look_at_solid(picture, {});
@@ -138,7 +138,7 @@ TEST(SegmentSolid, SeesNothingInEmptyWater) {
   EXPECT_FALSE(look_at_solid(Image(), {}));
 }
 
-TEST(TurbidWater, TakesContrastWithTheWay) {
+TEST(TurbidWater, TakesContrastWithTheDistance) {
   const auto contrast = [](double attenuation) {
     sim::TurbidWater water;
     water.attenuation_per_m = attenuation;
@@ -193,7 +193,7 @@ TEST(SolidRecogniser, FindsWhatIsWantedAndKeepsSilentAboutTheRest) {
   EXPECT_FALSE(SolidRecogniser::make({SolidKind::kSphere}, SolidModel{}, {}));
 }
 
-/// What the camera of config/robots/tank.yaml is told about itself.
+/// What the camera of config/robots/tank.yaml is configured with.
 RecogniserParams tank_view() {
   RecogniserParams params;
   params.view.photo_fov_rad = deg_to_rad(49.13);
@@ -212,7 +212,7 @@ Image sphere_in_tank(double range_m, double bearing_rad) {
   return sim::render_tank({{SolidKind::kSphere, place, 0.1, 1.0, 0.75}}, eye, {}, {}, rng);
 }
 
-TEST(SolidRecogniser, TellsWhereTheSolidStandsByTheCamerasHeightAndTilt) {
+TEST(SolidRecogniser, LocatesTheSolidByTheCamerasHeightAndTilt) {
   const SolidModel model = quick_model();
   const WantedSolids all{kSolidKinds.begin(), kSolidKinds.end()};
   const auto recogniser = SolidRecogniser::make(all, model, tank_view().view);
@@ -262,7 +262,7 @@ TEST(TargetRecogniser, FindsPicturesAndSolidsOfOneListAndCountsInIt) {
   EXPECT_FALSE(make_target_recogniser({}, tank_view(), &model));
 }
 
-TEST(TargetRecogniser, RefusesSolidsWithTheRemedyWhereTheRobotCannotTellThem) {
+TEST(TargetRecogniser, RefusesSolidsWithTheRemedyWhereTheRobotCannotRecogniseThem) {
   TargetModel sphere;
   sphere.kind = TargetKind::kSolid;
   const auto no_model = make_target_recogniser({sphere}, tank_view(), nullptr);
