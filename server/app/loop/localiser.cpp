@@ -26,16 +26,16 @@ void Localiser::give_odometry(const drivers::OdometrySample& sample) {
 
 /// In the order of the stamps: a sweep arrives later than it was taken.
 void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbours, RobotTime now) {
-  const drivers::OdometrySample* odometry = sensing.odometry();
-  const LaserScan* scan = sensing.scan();
-  const bool late = sensing.fresh_odometry() && sensing.fresh_scan() && scan->stamp < odometry->stamp;
-  if (sensing.fresh_odometry()) {
+  const drivers::OdometrySample* odometry = sensing.new_odometry();
+  const LaserScan* scan = sensing.new_scan();
+  const bool late = odometry != nullptr && scan != nullptr && scan->stamp < odometry->stamp;
+  if (odometry != nullptr) {
     const std::optional<drivers::OdometrySample> then = late ? sensing.history().at(scan->stamp) : *odometry;
     if (!late || then->stamp > last_odometry_given_) {
       give_odometry(*then);
     }
   }
-  if (sensing.fresh_scan()) {
+  if (scan != nullptr) {
     const std::vector<nav::Mover> others =
         neighbours.movers_base(estimator_->estimate().map_T_base, odometry_pose(sensing), now);
     without_movers_.reset();
@@ -51,7 +51,7 @@ void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbou
 
 std::optional<MapShift> Localiser::localise(const Sensing& sensing, const Neighbours& neighbours, RobotTime now) {
   give_readings(sensing, neighbours, now);
-  if (!sensing.fresh_odometry() && !sensing.fresh_scan()) {
+  if (sensing.new_odometry() == nullptr && sensing.new_scan() == nullptr) {
     return std::nullopt;
   }
   const std::optional<Pose2> odom_T_base = odometry_pose(sensing);
@@ -92,12 +92,14 @@ void Localiser::map_readings(const Sensing& sensing) {
     return;
   }
   const OdometryHistory& history = sensing.history();
-  if (sensing.fresh_scan()) {
-    const LaserScan& scan = without_movers_ ? *without_movers_ : *sensing.scan();
-    diagnostics_.note_reading(map_.integrate(scan, pose_.map_T_base * history.now_T_then(scan.stamp)), "map-full");
-  } else if (sensing.fresh_sonar() && !sensing.has_lidar()) {
-    const SonarScan& sonar = *sensing.sonar();
-    diagnostics_.note_reading(map_.integrate(sonar, pose_.map_T_base * history.now_T_then(sonar.stamp)), "map-full");
+  const SonarScan* sonar = sensing.new_sonar();
+  if (const LaserScan* scan = sensing.new_scan()) {
+    const LaserScan& building = without_movers_ ? *without_movers_ : *scan;
+    const Pose2 map_T_then = pose_.map_T_base * history.now_T_then(building.stamp);
+    diagnostics_.note_reading(map_.integrate(building, map_T_then), "map-full");
+  } else if (sonar != nullptr && !sensing.has_lidar()) {
+    const Pose2 map_T_then = pose_.map_T_base * history.now_T_then(sonar->stamp);
+    diagnostics_.note_reading(map_.integrate(*sonar, map_T_then), "map-full");
   }
 }
 

@@ -22,10 +22,10 @@ void Publisher::publish() {
 
 void Publisher::publish_readings(RobotTime stamp) {
   const Sensing& sensing = sources_.sensing;
-  if ((sensing.fresh_scan() || republish_) && sensing.scan() != nullptr && hub_.wanted(api::Topic::kScan)) {
+  if ((sensing.new_scan() != nullptr || republish_) && sensing.scan() != nullptr && hub_.wanted(api::Topic::kScan)) {
     hub_.publish(api::Topic::kScan, stamp, *sensing.scan());
   }
-  if ((sensing.fresh_sonar() || republish_) && sensing.sonar() != nullptr && hub_.wanted(api::Topic::kSonar)) {
+  if ((sensing.new_sonar() != nullptr || republish_) && sensing.sonar() != nullptr && hub_.wanted(api::Topic::kSonar)) {
     hub_.publish(api::Topic::kSonar, stamp, *sensing.sonar());
   }
 }

@@ -111,9 +111,9 @@ void RobotLoop::tick(WallTime wall_now) {
 void RobotLoop::sense() {
   sensing_.read();
   // A recording cannot be slowed, and is to give the map that it gives offline.
-  if (sensing_.fresh_scan() && sensing_.odometry() != nullptr && !devices_.runs_without_mission) {
-    const LaserScan& scan = *sensing_.scan();
-    neighbours_.observe(scan, sensing_.history().at(scan.stamp)->odom_T_base, now());
+  const LaserScan* scan = sensing_.new_scan();
+  if (scan != nullptr && sensing_.odometry() != nullptr && !devices_.runs_without_mission) {
+    neighbours_.observe(*scan, sensing_.history().at(scan->stamp)->odom_T_base, now());
   }
 }
 

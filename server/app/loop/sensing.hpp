@@ -36,10 +36,10 @@ class Sensing {
   [[nodiscard]] const drivers::OdometrySample* odometry() const { return odometry_ ? &*odometry_ : nullptr; }
   [[nodiscard]] const LaserScan* scan() const { return scan_ ? &*scan_ : nullptr; }
   [[nodiscard]] const SonarScan* sonar() const { return sonar_ ? &*sonar_ : nullptr; }
-  /// These say whether the last read() brought a new one.
-  [[nodiscard]] bool fresh_odometry() const { return fresh_odometry_; }
-  [[nodiscard]] bool fresh_scan() const { return fresh_scan_; }
-  [[nodiscard]] bool fresh_sonar() const { return fresh_sonar_; }
+  /// These return what the last read() brought; null when it brought nothing new.
+  [[nodiscard]] const drivers::OdometrySample* new_odometry() const { return fresh_odometry_ ? odometry() : nullptr; }
+  [[nodiscard]] const LaserScan* new_scan() const { return fresh_scan_ ? scan() : nullptr; }
+  [[nodiscard]] const SonarScan* new_sonar() const { return fresh_sonar_ ? sonar() : nullptr; }
 
   [[nodiscard]] bool has_lidar() const { return devices_.lidar != nullptr; }
   [[nodiscard]] const OdometryHistory& history() const { return history_; }

@@ -48,11 +48,11 @@ class SensingTest : public ::testing::Test {
 TEST_F(SensingTest, AReadingIsFreshInTheTickThatBroughtItOnly) {
   base->next = testing::odometry_at(clock->time, Pose2{1.0, 0.0, 0.0}, {0.2, 0.0});
   read_after(milliseconds(100));
-  EXPECT_TRUE(sensing.fresh_odometry());
-  EXPECT_FALSE(sensing.fresh_scan());
+  EXPECT_NE(sensing.new_odometry(), nullptr);
+  EXPECT_EQ(sensing.new_scan(), nullptr);
   EXPECT_TRUE(sensing.moving());
   read_after(milliseconds(100));
-  EXPECT_FALSE(sensing.fresh_odometry());
+  EXPECT_EQ(sensing.new_odometry(), nullptr);
   ASSERT_NE(sensing.odometry(), nullptr) << "the newest stays known";
   EXPECT_EQ(sensing.odom_T_base().x_m, 1.0);
   EXPECT_EQ(sensing.scan(), nullptr);
