@@ -60,7 +60,7 @@ void FleetJudge::judge(const std::string& robot_id) {
   if (const std::optional<MemberMap> member = book_.begin_judgement(robot_id, std::chrono::steady_clock::now())) {
     std::vector<api::FleetNode>& before = judged_nodes_[member->slot];
     if (!same_frame(before, member->manifest.nodes)) {
-      pairs_.forget_pairs(member->slot);
+      pairs_.forget_map(member->slot);
     }
     before = member->manifest.nodes;
     Result<LineMap> map = unpack_map(member->manifest, member->pieces);
@@ -94,7 +94,7 @@ Status FleetJudge::take_own_map(Result<OwnMap> own) {
   }
   main_.take_map(*own, new_map && !before.nodes.empty());
   if (new_map) {
-    pairs_.forget_pairs(kMainSlot);
+    pairs_.forget_map(kMainSlot);
   }
   return pairs_.update(kMainSlot, std::move(own->map));
 }

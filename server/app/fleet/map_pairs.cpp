@@ -13,7 +13,8 @@ Status MapPairs::update(std::uint8_t slot, LineMap map) {
   return prepared.update(std::move(map));
 }
 
-void MapPairs::forget_pairs(std::uint8_t slot) {
+void MapPairs::forget_map(std::uint8_t slot) {
+  prepared_.erase(slot);
   std::erase_if(pairs_, [slot](const auto& pair) { return pair.first.first == slot || pair.first.second == slot; });
 }
 

@@ -23,8 +23,9 @@ class MapPairs {
 
   /// Takes the map of a robot as it is now. Errors as validate(LineMap).
   [[nodiscard]] Status update(std::uint8_t slot, LineMap map);
-  /// A robot has begun a new map: the answers for its pairs are dropped.
-  void forget_pairs(std::uint8_t slot);
+  /// A robot has begun a new map: its map before and the answers for its pairs are dropped. Nothing that was prepared
+  /// of the one may serve the other, however alike their numbers of local maps and keyframes are.
+  void forget_map(std::uint8_t slot);
   /// Takes up an answer from before a restart. It is dropped where the map of one of the two robots is not there.
   void recall(fleet::PairAnswer pair, WallTime now);
   /// Marks the answers that speak of local maps which are no more: they count for nothing but the next comparison.

@@ -84,7 +84,7 @@ TEST(FleetJudge, DropsWhatWasFoundOfAMapThatTheMainRobotHasLeft) {
   parts.join(packed(east()));
   parts.judge.judge("r1");
   static_cast<void>(parts.main.receive(app::OwnSeen{true, {}, {found_at(1, {1.0, 1.0})}, {}}, kStart));
-  parts.own = fleet::toy_map(fleet::office(12), fleet::drive(kWest), 31, {}, 15);
+  parts.own = fleet::toy_map(fleet::office(12), fleet::drive(kWest), 31);
   parts.judge.judge("r1");
   EXPECT_NE(parts.entry().state, api::FleetState::kMerged) << parts.entry().reason;
   EXPECT_TRUE(parts.entry(0).detections.empty()) << "that was in the frame of the map before";

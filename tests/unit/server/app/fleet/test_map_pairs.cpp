@@ -35,7 +35,7 @@ TEST(MapPairs, HoldTheAnswerOfTheMergerUntilAMapChanges) {
   EXPECT_EQ(pairs.all_answers().size(), 1U);
   pairs.compare(0, 1);
   EXPECT_EQ(pairs.fresh_answers().size(), 1U);
-  pairs.forget_pairs(1);
+  pairs.forget_map(1);
   EXPECT_TRUE(pairs.all_answers().empty());
 }
 
