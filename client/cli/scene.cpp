@@ -179,13 +179,9 @@ Status save_scene(const fs::path& path, const image::MapScene& scene) {
     const Result<Image> picture = image::draw_map(scene);
     return picture ? save_picture(path, *picture, image::kMapExport) : Status(tl::unexpected<Error>(picture.error()));
   }
-  Result<std::string> drawing = image::map_svg(scene);
-  if (!drawing) {
-    return tl::unexpected<Error>(drawing.error());
-  }
-  drawing->insert(drawing->find('\n') + 1, image::xml_mark(image::kMapExport));  // behind the declaration
-  Status ok = make_folder_of(path);
-  return ok ? files::write_file(path, *drawing) : ok;
+  const Result<std::string> drawing = image::map_svg(scene);
+  const Status ok = drawing ? make_folder_of(path) : Status(tl::unexpected<Error>(drawing.error()));
+  return ok ? files::write_file(path, image::with_xml_mark(*drawing, image::kMapExport)) : ok;
 }
 
 Result<std::vector<fs::path>> export_map(const Context& context, const std::string& name, const MapPictures& pictures) {

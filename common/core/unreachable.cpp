@@ -89,12 +89,12 @@ std::string describe(const std::vector<UnreachablePlace>& places) {
 }
 
 std::string remedies_of(const std::vector<UnreachablePlace>& places) {
-  std::vector<UnreachableCause> told;
+  std::vector<UnreachableCause> stated;
   std::string list;
   for (const UnreachablePlace& place : places) {
     const std::string remedy(remedy_of(place.cause));
-    if (!remedy.empty() && std::find(told.begin(), told.end(), place.cause) == told.end()) {
-      told.push_back(place.cause);
+    if (!remedy.empty() && std::find(stated.begin(), stated.end(), place.cause) == stated.end()) {
+      stated.push_back(place.cause);
       list += (list.empty() ? "" : "; ") + remedy;
     }
   }

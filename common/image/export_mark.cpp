@@ -28,6 +28,11 @@ std::string comment_mark(std::string_view mark) { return "# " + std::string(mark
 
 std::string xml_mark(std::string_view mark) { return "<!-- " + std::string(mark) + " -->\n"; }
 
+std::string with_xml_mark(std::string document, std::string_view mark) {
+  document.insert(document.find('\n') + 1, xml_mark(mark));
+  return document;
+}
+
 std::string json_mark(std::string_view mark) { return "\"generator\":\"" + std::string(mark) + "\""; }
 
 bool carries_mark(const std::filesystem::path& path, std::string_view mark) {

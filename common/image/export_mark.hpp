@@ -18,6 +18,8 @@ inline constexpr std::string_view kCameraPicture = "Seeker camera picture";
 [[nodiscard]] std::string comment_mark(std::string_view mark);
 /// The mark as a line of an XML file.
 [[nodiscard]] std::string xml_mark(std::string_view mark);
+/// An XML document, which begins with a line for its declaration, with the mark behind that line.
+[[nodiscard]] std::string with_xml_mark(std::string document, std::string_view mark);
 /// The mark as a member of a JSON object.
 [[nodiscard]] std::string json_mark(std::string_view mark);
 

@@ -108,11 +108,8 @@ Result<std::string> segments_svg(const SegmentScene& scene) {
   }
   draw_scale_bar(canvas, view);
   canvas.text({kMargin_px, kMargin_px / 2.0}, scene.title, {kBlack, 11.0});
-  Result<std::string> text = canvas.svg();
-  if (text) {
-    text->insert(text->find('\n') + 1, xml_mark(kMapExport));  // behind the declaration
-  }
-  return text;
+  const Result<std::string> svg = canvas.svg();
+  return svg ? Result<std::string>(with_xml_mark(*svg, kMapExport)) : svg;
 }
 
 std::string segments_geojson(const std::vector<MapSegment>& segments) {

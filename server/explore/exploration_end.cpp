@@ -143,12 +143,10 @@ Exploration::Impl::Left Exploration::Impl::what_is_left(const StrategyInput& inp
 
 ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last, const Point2& here_map) const {
   if (left.no_floor) {
-    const UnreachableCause cause =
-        request_.areas.allows(here_map) ? UnreachableCause::kRobotEnclosed : UnreachableCause::kRobotForbidden;
     return {EndKind::kUnreachable,
             left.no_floor->message,
             "set the robot on free floor inside the bound, then explore",
-            {{here_map, cause, 0.0, ""}}};
+            {{here_map, request_.areas.cause_of_no_floor(here_map), 0.0, ""}}};
   }
   std::vector<UnreachablePlace> unreachable;
   std::vector<UnreachablePlace> given_up = last.unreachable;

@@ -7,6 +7,7 @@
 
 #include "common/core/polygon.hpp"
 #include "common/core/pose2.hpp"
+#include "common/core/unreachable.hpp"
 
 namespace seeker::nav {
 
@@ -19,6 +20,10 @@ struct ForbiddenAreas {
   [[nodiscard]] bool in_keep_out(const Point2& p_map) const;
   [[nodiscard]] bool allows(const Point2& p_map) const { return !outside_bound(p_map) && !in_keep_out(p_map); }
   [[nodiscard]] bool empty() const { return !bound && keep_out.empty(); }
+  /// Why a robot at this place that has no floor around it to drive on cannot set out: for the areas, or for obstacles.
+  [[nodiscard]] UnreachableCause cause_of_no_floor(const Point2& p_map) const {
+    return allows(p_map) ? UnreachableCause::kRobotEnclosed : UnreachableCause::kRobotForbidden;
+  }
 };
 
 /// Distance along a ray to the first border that leads from allowed to forbidden ground. Nothing: there is none within

@@ -85,7 +85,7 @@ UnreachableCause PlannedDriver::cause_of_failure(const DriveInput& input) const 
   if (const auto floor = input.floors.view()) {
     return cause_of_no_path((*floor)->cost, here, goal_, params_.planner);
   }
-  return input.floors.areas().allows(here) ? UnreachableCause::kRobotEnclosed : UnreachableCause::kRobotForbidden;
+  return input.floors.areas().cause_of_no_floor(here);
 }
 
 bool PlannedDriver::plan(const DriveInput& input) {

@@ -10,12 +10,14 @@
 
 #include "tests/arch/rules.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/findings.hpp"
 
 namespace seeker::arch {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::IsEmpty;
+using testing::joined;
 
 std::string read(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -46,14 +48,6 @@ std::vector<SourceFile> files_of_tree(Wanted wanted) {
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
   return files;
-}
-
-std::string joined(const std::vector<std::string>& findings) {
-  std::string text;
-  for (const std::string& finding : findings) {
-    text += finding + "\n";
-  }
-  return text;
 }
 
 TEST(Architecture, EveryIncludeIsInTheTable) {

@@ -16,6 +16,7 @@
 #include "tests/docs/page.hpp"
 #include "tests/docs/source_path.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/findings.hpp"
 #include "tests/support/process.hpp"
 
 namespace seeker::docs {
@@ -23,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::IsEmpty;
+using testing::joined;
 
 constexpr std::size_t kColumns = 120;
 const std::map<std::string, std::size_t> kMostLines = {
@@ -153,14 +155,6 @@ std::vector<std::vector<std::string>> verbs_of(const HelpSource& source, const s
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;
-}
-
-std::string joined(const std::vector<std::string>& findings) {
-  std::string text;
-  for (const std::string& finding : findings) {
-    text += finding + "\n";
-  }
-  return text;
 }
 
 TEST(Documents, LinesAndPagesHaveTheirLimits) {

@@ -33,10 +33,10 @@ struct FakeDeck {
   FakeDeck& operator=(const FakeDeck&) = delete;
 
   /// One period passes: the devices are read and the pose is taken.
-  void tick() {
+  std::optional<MapShift> tick() {
     clock->time += std::chrono::milliseconds(100);
     sensing.read();
-    static_cast<void>(localiser.localise(sensing, neighbours, clock->time));
+    return localiser.localise(sensing, neighbours, clock->time);
   }
   [[nodiscard]] Devices devices() const {
     Devices all;

@@ -2,50 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/loop/localiser.hpp"
-#include "tests/unit/server/app/loop/fake_robot.hpp"
+#include "tests/unit/server/app/loop/fake_deck.hpp"
 
 namespace seeker::app {
 namespace {
 
 using std::chrono::milliseconds;
 
-class LocaliserTest : public ::testing::Test {
- protected:
-  LocaliserTest() {
-    for (const char* name : {"base", "lidar"}) {
-      diagnostics.components().add(name, "driver", "fake", {});
-    }
-    diagnostics.components().add("pose", "estimator", "fake", {});
-    diagnostics.components().activate_all();
-    estimator->pose.quality = LocalisationQuality::kLocalised;
-  }
-  static Devices devices_of(const LocaliserTest& test) {
-    Devices devices;
-    devices.type = "fake";
-    devices.clock = test.clock;
-    devices.base = test.base;
-    devices.lidar = test.lidar;
-    return devices;
-  }
-  std::optional<MapShift> tick() {
-    clock->time += milliseconds(100);
-    sensing.read();
-    return localiser.localise(sensing, neighbours, clock->time);
-  }
-
-  std::shared_ptr<testing::HandClock> clock = std::make_shared<testing::HandClock>();
-  std::shared_ptr<testing::FakeBase> base = std::make_shared<testing::FakeBase>();
-  std::shared_ptr<testing::FakeLidar> lidar = std::make_shared<testing::FakeLidar>();
-  UpdateHub hub;
-  LoopHooks hooks;
-  Diagnostics diagnostics{clock, hub, hooks};
-  WorldLink world{clock, "fake", milliseconds(100), std::chrono::seconds(10), diagnostics};
-  Sensing sensing{LoopParams{}, devices_of(*this), world, diagnostics};
-  Neighbours neighbours{FleetMotionParams{}};
-  testing::FakeEstimator* estimator = new testing::FakeEstimator;
-  Localiser localiser{LoopParams{}, nav::OccupancyParams{}, std::unique_ptr<Estimator>(estimator), diagnostics};
-};
+class LocaliserTest : public ::testing::Test, protected testing::FakeDeck {};
 
 TEST_F(LocaliserTest, AnEpochThatRisesMovesTheMapByWhatOdometryDoesNotExplain) {
   base->next = testing::odometry_at(clock->time, {});

@@ -2,40 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/loop/motion_control.hpp"
-#include "tests/unit/server/app/loop/fake_robot.hpp"
+#include "tests/unit/server/app/loop/fake_deck.hpp"
 
 namespace seeker::app {
 namespace {
 
-using std::chrono::milliseconds;
-
-class MotionControlTest : public ::testing::Test {
- protected:
-  MotionControlTest() {
-    diagnostics.components().add("base", "driver", "fake", {});
-    diagnostics.components().activate_all();
-  }
-  static Devices devices_of(const MotionControlTest& test) {
-    Devices devices;
-    devices.type = "fake";
-    devices.clock = test.clock;
-    devices.base = test.base;
-    return devices;
-  }
-
-  std::shared_ptr<testing::HandClock> clock = std::make_shared<testing::HandClock>();
-  std::shared_ptr<testing::FakeBase> base = std::make_shared<testing::FakeBase>();
-  UpdateHub hub;
-  LoopHooks hooks;
-  Diagnostics diagnostics{clock, hub, hooks};
-  WorldLink world{clock, "fake", milliseconds(100), std::chrono::seconds(10), diagnostics};
-  Sensing sensing{LoopParams{}, devices_of(*this), world, diagnostics};
-  Neighbours neighbours{FleetMotionParams{}};
-  Localiser localiser{LoopParams{}, nav::OccupancyParams{}, std::make_unique<testing::FakeEstimator>(), diagnostics};
-  SituationSource situation{world, sensing, localiser, neighbours, false};
-  MotionControl motion{SafetyParams{}, base, sensing, situation, world, diagnostics};
-};
+class MotionControlTest : public ::testing::Test, protected testing::FakeDeck {};
 
 TEST_F(MotionControlTest, ADisarmedRobotIsNotEvenCommandedToStand) {
   motion.act({0.3, 0.0});

@@ -4,45 +4,21 @@
 
 #include <gtest/gtest.h>
 
-#include "server/app/loop/sensing.hpp"
-#include "tests/unit/server/app/loop/fake_robot.hpp"
+#include "tests/unit/server/app/loop/fake_deck.hpp"
 
 namespace seeker::app {
 namespace {
 
 using std::chrono::milliseconds;
 
-class SensingTest : public ::testing::Test {
+class SensingTest : public ::testing::Test, protected testing::FakeDeck {
  protected:
-  SensingTest() {
-    for (const char* name : {"base", "lidar"}) {
-      diagnostics.components().add(name, "driver", "fake", {});
-    }
-    diagnostics.components().activate_all();
-    sensing.restart_patience();
-  }
-  static Devices devices_of(const SensingTest& test) {
-    Devices devices;
-    devices.type = "fake";
-    devices.clock = test.clock;
-    devices.base = test.base;
-    devices.lidar = test.lidar;
-    return devices;
-  }
+  SensingTest() { sensing.restart_patience(); }
   void read_after(Duration passed) {
     clock->time += passed;
     sensing.read();
   }
   [[nodiscard]] bool has_fault(const std::string& id) const { return diagnostics.faults().find(id).has_value(); }
-
-  std::shared_ptr<testing::HandClock> clock = std::make_shared<testing::HandClock>();
-  std::shared_ptr<testing::FakeBase> base = std::make_shared<testing::FakeBase>();
-  std::shared_ptr<testing::FakeLidar> lidar = std::make_shared<testing::FakeLidar>();
-  UpdateHub hub;
-  LoopHooks hooks;
-  Diagnostics diagnostics{clock, hub, hooks};
-  WorldLink world{clock, "fake", milliseconds(100), std::chrono::seconds(10), diagnostics};
-  Sensing sensing{LoopParams{}, devices_of(*this), world, diagnostics};
 };
 
 TEST_F(SensingTest, AReadingIsFreshInTheTickThatBroughtItOnly) {
