@@ -234,6 +234,8 @@ void SearchMission::Impl::finish_covered(const StrategyStep& step, const Strateg
   if (step.trapped || walled_in) {
     const std::string cause = walled_in ? "the robot is walled in: there is no floor around it to drive on" : covered;
     finish(EndKind::kUnreachable, step.activity + "; " + cause, "free the robot or move it, then start again", out);
+    const Point2 here = input.map_T_base.translation();
+    end_->unreachable.insert(end_->unreachable.begin(), {here, request_.areas.cause_of_no_floor(here), 0.0, ""});
     return;
   }
   const std::vector<UnreachablePlace> unreachable = unreachable_places();

@@ -108,6 +108,24 @@ TEST(BlockedSearch, HemmedInAfterManyCellsItTellsThatItCannotGetOut) {
   ASSERT_TRUE(at && run.end);
   EXPECT_GT(run.lists.searched.size(), 1U);
   EXPECT_EQ(run.end->kind, EndKind::kUnreachable) << run.end->cause;
+  ASSERT_FALSE(run.end->unreachable.empty());
+  EXPECT_EQ(run.end->unreachable.front().cause, UnreachableCause::kRobotEnclosed);
+}
+
+/// Neither the laser nor the sonars show what holds the robot.
+TEST(BlockedSearch, WhatWasGivenUpIsListedWithTheWidthOfWhatIsLeftThere) {
+  auto mission = planned_search();
+  ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 5);
+  robot.between = [&](double t_s) { robot.held = t_s > 20.0; };
+  const ToyRun run = robot.run(mission, 3600.0);
+  print("held", run);
+  ASSERT_TRUE(run.end.has_value());
+  ASSERT_FALSE(run.end->unreachable.empty()) << run.end->cause;
+  EXPECT_EQ(run.end->unreachable.size(), run.lists.unreachable.size());
+  for (const UnreachablePlace& place : run.end->unreachable) {
+    EXPECT_EQ(place.cause, UnreachableCause::kBlocked);
+    EXPECT_GT(place.size_m, 0.0) << describe(place);
+  }
 }
 
 }  // namespace

@@ -43,6 +43,8 @@ TEST(TightSpace, InABoxWithoutRoomItTellsThatNothingCanBeReached) {
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kUnreachable) << run.end->cause;
   EXPECT_NE(run.end->cause.find("walled in"), std::string::npos) << run.end->cause;
+  ASSERT_FALSE(run.end->unreachable.empty());
+  EXPECT_EQ(run.end->unreachable.front().cause, UnreachableCause::kRobotEnclosed);
 }
 
 }  // namespace

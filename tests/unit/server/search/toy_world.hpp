@@ -71,6 +71,7 @@ class ToyRobot : public seeker::testing::ToyBase {
   MapViews map_views;                       ///< handed to the mission
   std::function<void(double t_s)> between;  ///< called before each step: people, who are walls of world()
   std::size_t pictures_at_once = 1;         ///< that answer for one
+  bool held = false;                        ///< the base does not move for any command
 
   ToyRun run(SearchMission& mission, double limit_s, const std::optional<Polygon>& bound = {}) {
     ToyRun out;
@@ -105,7 +106,7 @@ class ToyRobot : public seeker::testing::ToyBase {
                                              {now, pose_, Matrix3::Zero(), recognise(), laser_or_none, &sonar_scan}));
         }
       }
-      drive(step.command);
+      drive(held ? Twist2{} : step.command);
       out.least_clearance_m = std::min(out.least_clearance_m, world_.clearance(pose_.translation()));
       out.left_bound = out.left_bound || (bound && !contains(*bound, pose_.translation()));
     }
