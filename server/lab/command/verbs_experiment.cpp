@@ -256,7 +256,7 @@ Verb add_compare(CLI::App& app) {
 Verb add_reproduce(CLI::App& app) {
   auto o = std::make_shared<ReproduceOptions>();
   CLI::App* verb =
-      app.add_subcommand("reproduce", "Figures, tables and pass conditions of a paper; PASS and FAIL lines");
+      app.add_subcommand("reproduce", "Figures, tables and pass conditions of a paper; PASS, FAIL and FINDING lines");
   verb->add_option(
           "paper", o->name,
           "search: autonomous search (s3); active-slam: active exploration (s1); stereo-database: localisation "

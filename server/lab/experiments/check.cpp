@@ -8,8 +8,15 @@
 
 namespace seeker::lab {
 
+std::string verdict_of(const Check& check) {
+  if (check.passed) {
+    return "PASS";
+  }
+  return check.finding ? "FINDING" : "FAIL";
+}
+
 std::string line_of(const Check& check) {
-  std::string line = (check.passed ? "PASS " : "FAIL ") + check.id;
+  std::string line = verdict_of(check) + " " + check.id;
   for (const auto& [name, value] : check.figures) {
     line.append(" ").append(name).append("=").append(value);
   }
@@ -24,7 +31,7 @@ void Report::add(Check check) {
 }
 
 bool Report::passed() const {
-  return std::all_of(checks_.begin(), checks_.end(), [](const Check& check) { return check.passed; });
+  return std::all_of(checks_.begin(), checks_.end(), [](const Check& check) { return check.passed || check.finding; });
 }
 
 std::string Report::json() const {
@@ -33,6 +40,7 @@ std::string Report::json() const {
     nlohmann::ordered_json& row = list.emplace_back();
     row["id"] = check.id;
     row["passed"] = check.passed;
+    row["verdict"] = verdict_of(check);
     for (const auto& [name, value] : check.figures) {
       row[name] = value;
     }

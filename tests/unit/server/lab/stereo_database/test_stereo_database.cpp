@@ -1,3 +1,5 @@
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -102,6 +104,18 @@ TEST(S2Checks, Table3HasARowForEveryDatabase) {
   for (const char* name : {"all", "sparse", "salient", "updated"}) {
     EXPECT_THAT(table, HasSubstr(std::string("default,1,") + name));
   }
+}
+
+TEST(Report, FindingOfThePrintedMethodIsNoFailure) {
+  std::ostringstream lines;
+  Report report(&lines);
+  report.add({.id = "R1", .passed = true, .figures = {{"a", "1"}}, .finding = true});
+  report.add({.id = "R2", .passed = false, .figures = {{"b", "2"}}, .finding = true});
+  EXPECT_TRUE(report.passed());
+  report.add({.id = "R3", .passed = false, .figures = {}});
+  EXPECT_FALSE(report.passed());
+  EXPECT_EQ(lines.str(), "PASS R1 a=1\nFINDING R2 b=2\nFAIL R3\n");
+  EXPECT_THAT(report.json(), HasSubstr("\"verdict\":\"FINDING\""));
 }
 
 TEST(S2Scene, SurveyStandsInFivePlacesWithRoomAroundThem) {
