@@ -310,6 +310,7 @@ void FastExtractor::extract(const LaserScan& scan, ScanLines& found) {
   SEEKER_ASSERT(scan.quality.empty() || scan.quality.size() == scan.ranges_m.size());
   SEEKER_ASSERT(std::isfinite(scan.angle_min_rad) && std::isfinite(scan.angle_step_rad));
   found.lines.clear();
+  found.history.clear();
   found.line_of_beam.assign(scan.ranges_m.size(), kNoLine);
   use_geometry(scan);
   load(scan);
@@ -324,13 +325,8 @@ void FastExtractor::extract(const LaserScan& scan, ScanLines& found) {
   doubt_corners();
   write(scan, found);
   const Eigen::Map<const Eigen::ArrayXf> ranges(range_.data(), static_cast<Eigen::Index>(range_.size()));
+  found.noise = noise_;
   found.range_sigma_m = noise_.sigma_m(range_.empty() ? 0.0 : static_cast<double>(ranges.mean()));
-}
-
-ScanLines FastExtractor::extract(const LaserScan& scan) {
-  ScanLines found;
-  extract(scan, found);
-  return found;
 }
 
 }  // namespace seeker::lines

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "server/lines/extractor.hpp"
 #include "server/lines/line.hpp"
 #include "server/lines/line_fit.hpp"
 #include "server/lines/range_noise.hpp"
@@ -41,13 +42,12 @@ struct FastParams {
 
 /// Keeps its buffers and the sines of the scanner's beams, so that each scanner needs its own. The result depends on
 /// the scan alone.
-class FastExtractor {
+class FastExtractor final : public Extractor {
  public:
   explicit FastExtractor(const FastParams& params = {}) : params_(params) {}
 
-  /// Extracts the lines of a scan that has passed validate(). `found` is overwritten; its memory is reused.
-  void extract(const LaserScan& scan, ScanLines& found);
-  [[nodiscard]] ScanLines extract(const LaserScan& scan);
+  void extract(const LaserScan& scan, ScanLines& found) override;
+  using Extractor::extract;
 
   [[nodiscard]] const FastParams& params() const { return params_; }
   /// Range noise of the most recently extracted scan.

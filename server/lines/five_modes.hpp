@@ -2,7 +2,11 @@
 /// The state machine of the paper's line detector on one packet of points (spec S5.3).
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "server/lines/paper_extractor.hpp"
+#include "server/lines/point_row.hpp"
 
 namespace seeker::lines {
 

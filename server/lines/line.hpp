@@ -8,6 +8,7 @@
 
 #include "common/core/pose2.hpp"
 #include "common/core/scan.hpp"
+#include "server/lines/range_noise.hpp"
 
 namespace seeker::lines {
 
@@ -33,11 +34,27 @@ struct Line {
 /// The entry of ScanLines::line_of_beam for a beam without a line.
 inline constexpr std::int32_t kNoLine = -1;
 
+/// The two thresholds that the paper's detector adapts automatically (spec S5.4).
+struct LineThresholds {
+  double gap_m = 0.150;     ///< Delta kappa_A: neighbours farther apart are in different packets
+  double corner_m = 0.025;  ///< delta_line: a point farther from the line may be a corner (the paper's mode "turn")
+};
+
+/// The adaptation of the thresholds of one packet of neighbouring points.
+struct PacketHistory {
+  std::size_t first_beam = 0;  ///< index of the first beam, counter-clockwise
+  std::size_t last_beam = 0;
+  std::vector<LineThresholds> rounds;  ///< thresholds of the rounds, in their order
+  std::vector<double> worst_error_m;   ///< largest E_l of each round
+};
+
 /// The lines extracted from one scan.
 struct ScanLines {
   std::vector<Line> lines;                 ///< counter-clockwise by start
   std::vector<std::int32_t> line_of_beam;  ///< per beam the index of its line, or kNoLine
-  double range_sigma_m = 0.0;              ///< range noise used by the extractor: given, or estimated from this scan
+  RangeNoise noise;                        ///< law of the range noise: given, or estimated from this scan
+  double range_sigma_m = 0.0;              ///< `noise` at the mean range of the scan
+  std::vector<PacketHistory> history;      ///< of an extractor that adapts its thresholds; empty for the others
 };
 
 }  // namespace seeker::lines

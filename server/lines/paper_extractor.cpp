@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "server/lines/five_modes.hpp"
+#include "server/lines/point_row.hpp"
 
 namespace seeker::lines {
 namespace {
@@ -49,8 +50,8 @@ bool is_kept(const PointRow& row, const PaperParams& params, const Indices& line
 
 }  // namespace
 
-PaperLines PaperExtractor::extract(const LaserScan& scan) const {
-  PaperLines result;
+ScanLines PaperExtractor::extract(const LaserScan& scan) const {
+  std::vector<PacketHistory> packets;
   const PointRow row = point_row(scan, params_.noise);
   const double spacing_rad = std::abs(scan.angle_step_rad);
   std::vector<Indices> lines;
@@ -69,13 +70,14 @@ PaperLines PaperExtractor::extract(const LaserScan& scan) const {
         lines.push_back(std::move(line));
       }
     }
-    result.history.push_back(std::move(history));
+    packets.push_back(std::move(history));
     first = i;
   }
   lines =
       merge_lines(scan, row, std::move(lines), params_.merge_distance, params_.merge_gap_m, params_.bearing_sigma_rad);
-  result.found = build_lines(scan, row, std::move(lines), params_.bearing_sigma_rad);
-  return result;
+  ScanLines found = build_lines(scan, row, std::move(lines), params_.bearing_sigma_rad);
+  found.history = std::move(packets);
+  return found;
 }
 
 }  // namespace seeker::lines

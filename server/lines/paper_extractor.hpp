@@ -3,20 +3,10 @@
 /// by packet until every line fits, and merging by Mahalanobis distance.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "server/lines/line.hpp"
-#include "server/lines/point_row.hpp"
 #include "server/lines/range_noise.hpp"
 
 namespace seeker::lines {
-
-/// The two thresholds that are adapted automatically.
-struct LineThresholds {
-  double gap_m = 0.150;     ///< Delta kappa_A: neighbours farther apart are in different packets
-  double corner_m = 0.025;  ///< delta_line: a point farther from the line may be a corner (the paper's mode "turn")
-};
 
 struct PaperParams {
   LineThresholds start;
@@ -39,25 +29,12 @@ struct PaperParams {
   double merge_gap_m = 0.2;
 };
 
-/// The adaptation of the thresholds of one packet.
-struct PacketHistory {
-  std::size_t first_beam = 0;  ///< index of the first beam, counter-clockwise
-  std::size_t last_beam = 0;
-  std::vector<LineThresholds> rounds;  ///< thresholds of the rounds, in their order
-  std::vector<double> worst_error_m;   ///< largest E_l of each round
-};
-
-struct PaperLines {
-  ScanLines found;
-  std::vector<PacketHistory> history;
-};
-
 class PaperExtractor {
  public:
   explicit PaperExtractor(const PaperParams& params = {}) : params_(params) {}
 
-  /// Extracts the lines of a scan that has passed validate(), with the adaptation of the thresholds.
-  [[nodiscard]] PaperLines extract(const LaserScan& scan) const;
+  /// Extracts the lines of a scan that has passed validate(), with the history of the thresholds.
+  [[nodiscard]] ScanLines extract(const LaserScan& scan) const;
   [[nodiscard]] const PaperParams& params() const { return params_; }
 
  private:

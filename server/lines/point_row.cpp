@@ -9,13 +9,11 @@
 namespace seeker::lines {
 namespace {
 
-/// Nearer returns are the scanner's own housing.
-constexpr double kMinRange_m = 0.01;
-
-bool is_usable(const LaserScan& scan, std::size_t beam) {
+bool is_usable(const LaserScan& scan, const RangeLimits& limits, std::size_t beam) {
   const double range = static_cast<double>(scan.ranges_m[beam]);
-  const double limit = scan.range_max_m > 0.0 ? scan.range_max_m : std::numeric_limits<float>::max();
-  return range >= std::max(scan.range_min_m, kMinRange_m) && range <= limit &&
+  const double scanner_m = scan.range_max_m > 0.0 ? scan.range_max_m : std::numeric_limits<float>::max();
+  const double max_m = limits.max_m > 0.0 ? std::min(limits.max_m, scanner_m) : scanner_m;
+  return range >= std::max(scan.range_min_m, limits.min_m) && range <= max_m &&
          (scan.quality.empty() || scan.quality[beam] > 0);
 }
 
@@ -55,12 +53,12 @@ double end_gap_m(const Line& a, const Line& b) {
 
 }  // namespace
 
-PointRow point_row(const LaserScan& scan, const NoiseParams& noise) {
+PointRow point_row(const LaserScan& scan, const NoiseParams& noise, const RangeLimits& limits) {
   PointRow row;
   const std::size_t n = scan.ranges_m.size();
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t beam = scan.angle_step_rad < 0.0 ? n - 1 - k : k;
-    if (is_usable(scan, beam)) {
+    if (is_usable(scan, limits, beam)) {
       row.beams.push_back(beam);
       row.polar.push_back({.range_m = static_cast<double>(scan.ranges_m[beam]),
                            .angle_rad = scan.angle_rad(beam),
@@ -115,6 +113,7 @@ ScanLines build_lines(const LaserScan& scan, const PointRow& row, std::vector<In
   std::sort(lines.begin(), lines.end(),
             [&](const Indices& a, const Indices& b) { return start_rad(a) < start_rad(b); });
   ScanLines found;
+  found.noise = row.noise;
   found.range_sigma_m = row.noise.sigma_m(row.mean_range_m);
   found.line_of_beam.assign(scan.ranges_m.size(), kNoLine);
   for (const Indices& line : lines) {

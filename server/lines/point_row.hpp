@@ -25,8 +25,14 @@ struct PointRow {
   [[nodiscard]] double gap_m(std::size_t i) const { return (points[i] - points[i - 1]).norm(); }
 };
 
-/// Returns within the scanner's limits with a quality above 0.
-[[nodiscard]] PointRow point_row(const LaserScan& scan, const NoiseParams& noise);
+/// Limits of the ranges in addition to those of the scanner.
+struct RangeLimits {
+  double min_m = 0.01;  ///< nearer returns are the scanner's own housing
+  double max_m = 0.0;   ///< 0: the scanner's own limit
+};
+
+/// Returns within the limits with a quality above 0; the quality is the weight of a point.
+[[nodiscard]] PointRow point_row(const LaserScan& scan, const NoiseParams& noise, const RangeLimits& limits = {});
 
 /// Ascending indices into a row.
 using Indices = std::vector<std::size_t>;

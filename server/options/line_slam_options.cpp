@@ -122,7 +122,6 @@ void describe(config::Fields& f, RotationSenseParams& params) {
 
 void describe(config::Fields& f, LineSlamParams& params) {
   f.section("odometry", params.odometry);
-  f.section("extractor", params.extractor);
   f.section("observation", params.observation);
   f.section("lines", params.lines);
   f.section("points", params.points);

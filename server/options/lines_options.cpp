@@ -87,4 +87,46 @@ void describe(config::Fields& f, PaperParams& params) {
   f.check("shrink", params.shrink > 0.0 && params.shrink < 1.0, "must lie between 0 and 1");
 }
 
+void describe(config::Fields& f, RegressionParams& params) {
+  f.section("noise", params.noise);
+  f.angle_deg("bearing_sigma_deg", params.bearing_sigma_rad);
+  f.field("min_range_m", params.min_range_m);
+  f.field("max_range_m", params.max_range_m);
+  f.field("max_gap_m", params.max_gap_m);
+  f.field("max_gap_spacings", params.max_gap_spacings);
+  f.field("max_missing_beams", params.max_missing_beams);
+  f.field("min_group", params.min_group);
+  f.field("window_points", params.window_points);
+  f.field("max_fidelity", params.max_fidelity);
+  f.field("merge_chi2", params.merge_chi2);
+  f.field("merge_gap_m", params.merge_gap_m);
+  f.field("outlier_sigmas", params.outlier_sigmas);
+  f.field("min_points", params.min_points);
+  f.field("min_length_m", params.min_length_m);
+  f.check("window_points", params.window_points >= 3, "a window has at least 3 points");
+  f.check("min_group", params.min_group >= 3, "a group has at least 3 points");
+  f.check("max_fidelity", params.max_fidelity > 0.0, "must be positive");
+  f.check("outlier_sigmas", params.outlier_sigmas > 0.0, "must be positive");
+}
+
+void describe(config::Fields& f, SplitParams& params) {
+  f.section("noise", params.noise);
+  f.angle_deg("bearing_sigma_deg", params.bearing_sigma_rad);
+  f.field("gap_m", params.gap_m);
+  f.field("split_m", params.split_m);
+  f.field("merge_gap_m", params.merge_gap_m);
+  f.field("min_points", params.min_points);
+  f.field("min_length_m", params.min_length_m);
+  f.check("gap_m", params.gap_m > 0.0, "must be positive");
+  f.check("split_m", params.split_m > 0.0, "must be positive");
+}
+
+void describe(config::Fields& f, ExtractorParams& params) {
+  f.choice("extractor", params.kind, config::choices_of(kExtractorKinds));
+  f.section("fast", params.fast);
+  f.section("five_modes", params.five_modes);
+  f.section("regression", params.regression);
+  f.section("split", params.split);
+}
+
 }  // namespace seeker::lines

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "common/config/fields.hpp"
-#include "server/lines/fast_extractor.hpp"
+#include "server/lines/make_extractor.hpp"
 #include "server/lines/observation.hpp"
-#include "server/lines/paper_extractor.hpp"
 
 namespace seeker::lines {
 
@@ -14,5 +13,9 @@ void describe(config::Fields& f, FastParams& params);
 void describe(config::Fields& f, ObservationParams& params);
 void describe(config::Fields& f, LineThresholds& params);
 void describe(config::Fields& f, PaperParams& params);
+void describe(config::Fields& f, RegressionParams& params);
+void describe(config::Fields& f, SplitParams& params);
+/// The section `lines` of a robot file.
+void describe(config::Fields& f, ExtractorParams& params);
 
 }  // namespace seeker::lines

@@ -60,7 +60,7 @@ struct LineSlam::Scan {
 
 LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
     : params_(params),
-      extractor_(params.extractor),
+      extractor_(lines::make_extractor(params.extractor)),
       matcher_(params.points.match),
       far_matcher_(far_search(params.points)),
       odometry_scale_(params.odometry_scale),
@@ -193,8 +193,9 @@ Status LineSlam::update(const LaserScan& scan) {
   const double sigma_m = std::sqrt(motion.covariance.topLeftCorner<2, 2>().maxCoeff());
   step.gap = jumped || moved({}, motion.a_T_b, params_.points.gap_m, params_.points.gap_rad) ||
              (step.silent && sigma_m > params_.points.gap_m);
-  extractor_.extract(scan, step.found);
-  step.all_points = oriented_points(scan, params_.points.normals, extractor_.noise());
+  extractor_->extract(scan, step.found);
+  noise_ = step.found.noise;
+  step.all_points = oriented_points(scan, params_.points.normals, noise_);
   Status outcome;
   if (step.all_points.size() < static_cast<std::size_t>(params_.points.match.min_pairs)) {
     quality_ = LocalisationQuality::kDegraded;
@@ -306,7 +307,7 @@ void LineSlam::use_points(const Scan& scan, const MatchResult& match) {
 void LineSlam::use_leftover(const Scan& scan, const Association& association) {
   const LaserScan rest = without_paired_lines(scan.scan, scan.found, scan.observations, association);
   const std::vector<OrientedPoint> points =
-      thin_out(oriented_points(rest, params_.points.normals, extractor_.noise()), params_.points.match_points);
+      thin_out(oriented_points(rest, params_.points.normals, noise_), params_.points.match_points);
   const MatchResult match = matcher_.match(cloud_.around(lines_->robot()), points, lines_->robot());
   const Matrix3 covariance = with_floor(match.covariance, params_.points.map_sigma_m, params_.points.map_sigma_rad);
   if (match.pairs >= params_.points.match.min_pairs &&

@@ -102,7 +102,8 @@ class LineSlam final : public MapTracker {
   void append_newest(std::vector<MapSegment>& all) const;
 
   LineSlamParams params_;
-  lines::FastExtractor extractor_;
+  std::unique_ptr<lines::Extractor> extractor_;
+  lines::RangeNoise noise_;  ///< of the last scan whose lines were extracted
   ScanMatcher matcher_;
   ScanMatcher far_matcher_;
   OdometryScale odometry_scale_;

@@ -2,7 +2,7 @@
 /// Parameters of line SLAM: one set for every building and every laser.
 #pragma once
 
-#include "server/lines/fast_extractor.hpp"
+#include "server/lines/make_extractor.hpp"
 #include "server/lines/observation.hpp"
 #include "server/slam/jump_witness.hpp"
 #include "server/slam/local_cloud.hpp"
@@ -136,7 +136,8 @@ struct LineSlamParams {
   OdometryBiasParams odometry_bias;
   UnseenMotionParams unseen;
   RotationSenseParams rotation_sense;
-  lines::FastParams extractor;
+  /// In a robot file the section `lines`, because every estimator that uses lines shares it.
+  lines::ExtractorParams extractor;
   lines::ObservationParams observation = kRealWalls;
   SpMapParams lines;
   PointNetParams points;

@@ -110,7 +110,7 @@ bool LineSlam::stands_still(const LaserScan& scan) const {
     const auto now_m = static_cast<double>(scan.ranges_m[beam]);
     const auto then_m = static_cast<double>(used_ranges_[beam]);
     if (std::isfinite(now_m) && std::isfinite(then_m)) {
-      const double noise_m = kNoiseSigmas * std::sqrt(2.0) * extractor_.noise().sigma_m(now_m);
+      const double noise_m = kNoiseSigmas * std::sqrt(2.0) * noise_.sigma_m(now_m);
       ++compared;
       changed += std::abs(now_m - then_m) > std::max(least_m, noise_m) ? 1U : 0U;
     }
@@ -131,7 +131,8 @@ void LineSlam::look_again(const LaserScan& scan) {
   ++stood_;
   ++counts_.stood;
   lines::ScanLines found;
-  extractor_.extract(scan, found);
+  extractor_->extract(scan, found);
+  noise_ = found.noise;
   const std::vector<lines::SegmentObservation> observations = lines::observe(scan, found, params_.observation);
   update_lines(observations, lines_->associate(observations));
 }

@@ -94,7 +94,7 @@ void paper_rooms(benchmark::State& state, const ScannerModel& model) {
   params.min_length_m = fast_params().min_length_m;
   const lines::PaperExtractor extractor(params);
   run_rooms(state, model, [&](const LaserScan& scan) { benchmark::DoNotOptimize(extractor.extract(scan)); });
-  report_quality(state, make_rooms(model), [&](const LaserScan& scan) { return extractor.extract(scan).found; });
+  report_quality(state, make_rooms(model), [&](const LaserScan& scan) { return extractor.extract(scan); });
 }
 
 void fast_rooms(benchmark::State& state, const ScannerModel& model) {

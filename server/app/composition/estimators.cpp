@@ -37,7 +37,9 @@ std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotO
     case EstimatorType::kScanMatch: return std::make_unique<slam::ScanMapTracker>(options.tracking);
     default: break;
   }
-  return std::make_unique<slam::LineSlam>(options.slam);
+  slam::LineSlamParams slam = options.slam;
+  slam.extractor = options.lines;
+  return std::make_unique<slam::LineSlam>(slam);
 }
 
 Result<std::unique_ptr<Estimator>> make_estimator(const RobotOptions& options, const Devices& devices,

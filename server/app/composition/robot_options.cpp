@@ -6,6 +6,7 @@
 #include "server/options/explore_options.hpp"
 #include "server/options/fleet_options.hpp"
 #include "server/options/line_slam_options.hpp"
+#include "server/options/lines_options.hpp"
 #include "server/options/nav_options.hpp"
 #include "server/options/search_options.hpp"
 #include "server/options/sim_options.hpp"
@@ -276,6 +277,7 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("loop", options.loop);
   f.choice("estimator", options.estimator, estimator_names());
   f.section("tracking", options.tracking);
+  f.section("lines", options.lines);
   f.section("slam", options.slam);
   f.section("occupancy", options.occupancy);
   f.section("goto", options.go);

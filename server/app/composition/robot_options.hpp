@@ -21,6 +21,7 @@
 #include "server/drivers/sim/sim_devices.hpp"
 #include "server/explore/explore_params.hpp"
 #include "server/fleet/topological_strategy.hpp"
+#include "server/lines/make_extractor.hpp"
 #include "server/net/server.hpp"
 #include "server/sim/robot_model.hpp"
 #include "server/slam/line_slam_params.hpp"
@@ -79,7 +80,8 @@ struct RobotOptions {
   LoopParams loop;
   EstimatorType estimator = EstimatorType::kLineSlam;
   slam::ScanMapParams tracking;  ///< its `odometry` part also drives pure dead reckoning
-  slam::LineSlamParams slam;
+  lines::ExtractorParams lines;  ///< of every estimator that uses lines, and of the topic `lines`
+  slam::LineSlamParams slam;     ///< its `extractor` is the section `lines`
   nav::OccupancyParams occupancy;
   GotoParams go;
   SearchBehaviourParams search;

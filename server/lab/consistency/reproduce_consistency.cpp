@@ -28,7 +28,7 @@ const std::array<Case, 4> kCases = {Case{"odometry", 1.0, {}, &sp_tracker, "r2.c
 
 slam::LineSlamParams line_slam_params(const sim::RobotModel& model) {
   slam::LineSlamParams params;
-  params.extractor.bearing_sigma_rad = model.lidar.sigma_bearing_rad;
+  params.extractor.fast.bearing_sigma_rad = model.lidar.sigma_bearing_rad;
   params.odometry.along_sigma_m_per_sqrt_m = model.odometry.sigma_distance;
   params.odometry.across_sigma_m_per_sqrt_m = 0.0;
   params.odometry.theta_sigma_rad_per_sqrt_m = model.odometry.sigma_rotation_per_distance;

@@ -5,7 +5,7 @@
 namespace seeker::lab {
 
 SpTracker::SpTracker(const SpTrackerParams& params)
-    : params_(params), extractor_(params.lines), map_({}, Matrix3::Zero(), params.map) {}
+    : params_(params), extractor_(lines::make_extractor(params.lines)), map_({}, Matrix3::Zero(), params.map) {}
 
 Matrix3 SpTracker::increment_covariance(const Pose2& increment) const {
   const double distance_m = std::hypot(increment.x_m, increment.y_m);
@@ -34,7 +34,7 @@ Status SpTracker::predict(const Pose2& odom_T_base, RobotTime stamp) {
 }
 
 Status SpTracker::update(const LaserScan& scan) {
-  extractor_.extract(scan, found_);
+  extractor_->extract(scan, found_);
   const std::vector<lines::SegmentObservation> observations = lines::observe(scan, found_, params_.observation);
   report_ = map_.update(observations, map_.associate(observations));
   map_.observe_free_space(scan);

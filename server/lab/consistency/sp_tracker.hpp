@@ -2,9 +2,10 @@
 /// The SPmap alone as a pose tracker, for experiment R2: lines of each scan are added to one map that is never divided.
 #pragma once
 
+#include <memory>
 #include <optional>
 
-#include "server/lines/fast_extractor.hpp"
+#include "server/lines/make_extractor.hpp"
 #include "server/lines/observation.hpp"
 #include "server/sim/robot_model.hpp"
 #include "server/slam/pose_tracker.hpp"
@@ -13,7 +14,7 @@
 namespace seeker::lab {
 
 struct SpTrackerParams {
-  lines::FastParams lines;
+  lines::ExtractorParams lines;
   lines::ObservationParams observation;
   slam::SpMapParams map;
   sim::OdometryModel odometry;  ///< its random part is the noise model of the increments
@@ -37,7 +38,7 @@ class SpTracker final : public slam::PoseTracker {
   [[nodiscard]] Matrix3 increment_covariance(const Pose2& increment) const;
 
   SpTrackerParams params_;
-  lines::FastExtractor extractor_;
+  std::unique_ptr<lines::Extractor> extractor_;
   lines::ScanLines found_;
   slam::SpMap map_;
   slam::SpUpdateReport report_;

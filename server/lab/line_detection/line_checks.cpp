@@ -67,7 +67,7 @@ void add_row(const LaserScan& scan, const lines::ScanLines& found, const TableLi
 
 void add_scan(const LaserScan& scan, Tally& tally) {
   const lines::PaperParams params = printed_line_params();
-  const lines::ScanLines found = lines::PaperExtractor(params).extract(scan).found;
+  const lines::ScanLines found = lines::PaperExtractor(params).extract(scan);
   std::vector<std::size_t> indices;
   for (const TableLine& row : kTable1) {
     if (const std::optional<std::size_t> index = find_row(found, row)) {
@@ -147,7 +147,7 @@ struct Comparison {
 };
 
 void compare(const LaserScan& scan, double scale, Comparison& comparison) {
-  const auto by_paper = [&](double s) { return lines::PaperExtractor(scaled_paper(s)).extract(scan).found; };
+  const auto by_paper = [&](double s) { return lines::PaperExtractor(scaled_paper(s)).extract(scan); };
   const auto by_split = [&](double s) { return lines::SplitAndMerge(scaled_split(s)).extract(scan); };
   add_change(
       by_paper(1.0), [&] { return by_paper(scale); }, comparison.paper);

@@ -53,7 +53,7 @@ Status reproduce_line_detection(const ReproduceParams& params, Report& report) {
   }
   Rng rng(params.seeds.front());
   const LaserScan scan = table1_scan(rng);
-  const lines::ScanLines found = lines::PaperExtractor(printed_line_params()).extract(scan).found;
+  const lines::ScanLines found = lines::PaperExtractor(printed_line_params()).extract(scan);
   if (Status ok = image::write_png(params.out / "fig3-lines.png", table1_figure(scan, found)); !ok) {
     return ok;
   }

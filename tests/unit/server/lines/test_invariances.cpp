@@ -16,7 +16,7 @@ using Extract = std::function<ScanLines(const LaserScan&)>;
 const std::vector<std::pair<std::string, Extract>>& extractors() {
   static const std::vector<std::pair<std::string, Extract>> kExtractors{
       {"fast", [](const LaserScan& scan) { return FastExtractor().extract(scan); }},
-      {"paper", [](const LaserScan& scan) { return PaperExtractor().extract(scan).found; }}};
+      {"paper", [](const LaserScan& scan) { return PaperExtractor().extract(scan); }}};
   return kExtractors;
 }
 

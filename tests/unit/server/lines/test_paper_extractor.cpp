@@ -93,7 +93,7 @@ TEST(PaperExtractor, AgreesWithTheFastExtractorOnCleanScenes) {
     PaperParams paper_params;
     paper_params.noise.sigma_m = 0.002;
     const ScanLines fast = FastExtractor(fast_params).extract(scan);
-    const ScanLines paper = PaperExtractor(paper_params).extract(scan).found;
+    const ScanLines paper = PaperExtractor(paper_params).extract(scan);
     // The paper's rules keep lines of 0.1 m, the fast ones begin at 0.3 m.
     std::vector<Line> long_lines;
     std::copy_if(paper.lines.begin(), paper.lines.end(), std::back_inserter(long_lines),
@@ -114,7 +114,7 @@ TEST(PaperExtractor, ReportsHowItsThresholdsShrank) {
   const testing::Room room{{{1.0, -1.0}, {1.04, 0.0}}, {{1.04, 0.0}, {1.0, 1.0}}};
   PaperParams params;
   params.noise.sigma_m = 0.001;
-  const PaperLines lines = PaperExtractor(params).extract(scan_of(room, ScannerModel::half_circle(361, 0.0), 0.001));
+  const ScanLines lines = PaperExtractor(params).extract(scan_of(room, ScannerModel::half_circle(361, 0.0), 0.001));
   ASSERT_EQ(lines.history.size(), 1U);
   const PacketHistory& history = lines.history.front();
   ASSERT_GT(history.rounds.size(), 1U);
@@ -132,8 +132,8 @@ TEST(PaperExtractor, CollinearWallsStayApartWhenTheirEndsAre) {
     PaperParams params;
     params.start.gap_m = 0.05;
     params.noise.sigma_m = 0.002;
-    const PaperLines lines = PaperExtractor(params).extract(scan_of(room, ScannerModel::half_circle(721, 0.0), 0.002));
-    EXPECT_EQ(lines.found.lines.size(), gap_m < 0.2 ? 1U : 2U);
+    const ScanLines lines = PaperExtractor(params).extract(scan_of(room, ScannerModel::half_circle(721, 0.0), 0.002));
+    EXPECT_EQ(lines.lines.size(), gap_m < 0.2 ? 1U : 2U);
   }
 }
 
@@ -143,12 +143,12 @@ TEST(PaperExtractor, TakesScansWithoutLines) {
   scan.range_max_m = 10.0;
   for (const std::size_t beams : {0U, 1U, 2U, 7U}) {
     scan.ranges_m.assign(beams, 1.0F);
-    EXPECT_TRUE(PaperExtractor().extract(scan).found.lines.empty());
+    EXPECT_TRUE(PaperExtractor().extract(scan).lines.empty());
     EXPECT_TRUE(SplitAndMerge().extract(scan).lines.empty());
     EXPECT_TRUE(Iepf().extract(scan).lines.empty());
   }
   scan.ranges_m.assign(300, kNoReturn);
-  EXPECT_TRUE(PaperExtractor().extract(scan).found.lines.empty());
+  EXPECT_TRUE(PaperExtractor().extract(scan).lines.empty());
 }
 
 TEST(PointByPointExtractors, NeverGiveNaN) {
@@ -161,7 +161,7 @@ TEST(PointByPointExtractors, NeverGiveNaN) {
       scan.ranges_m.push_back(rng.uniform() < 0.5 ? 2.0F : static_cast<float>(rng.uniform(0.0, 3.0)));
     }
     for (const ScanLines& found :
-         {PaperExtractor().extract(scan).found, SplitAndMerge().extract(scan), Iepf().extract(scan)}) {
+         {PaperExtractor().extract(scan), SplitAndMerge().extract(scan), Iepf().extract(scan)}) {
       for (const Line& line : found.lines) {
         EXPECT_TRUE(is_finite(line)) << "scan " << scan_number;
       }

@@ -29,7 +29,23 @@ TEST(LinesOptions, ReadWhatAFileSaysAndKeepTheRest) {
   EXPECT_DOUBLE_EQ(observation.wall_sigma_m, 0.02);
 }
 
+TEST(LinesOptions, NameTheExtractorAndTheParametersOfEach) {
+  ExtractorParams params;
+  ASSERT_TRUE(read("extractor: regression\nregression: {window_points: 11}\nsplit: {split_m: 0.03}\n", params));
+  EXPECT_EQ(params.kind, ExtractorKind::kRegression);
+  EXPECT_EQ(params.regression.window_points, 11);
+  EXPECT_DOUBLE_EQ(params.split.split_m, 0.03);
+  for (const ExtractorKind kind : kExtractorKinds) {
+    ASSERT_TRUE(read("extractor: " + std::string(to_string(kind)) + "\n", params));
+    EXPECT_EQ(params.kind, kind);
+  }
+}
+
 TEST(LinesOptions, RefuseWhatMakesNoSense) {
+  ExtractorParams extractor;
+  EXPECT_FALSE(read("extractor: hough\n", extractor));
+  EXPECT_FALSE(read("regression: {window_points: 2}\n", extractor));
+
   FastParams fast;
   EXPECT_FALSE(read("min_points: 2\n", fast));
   EXPECT_FALSE(read("splitsigmas: 3\n", fast));
