@@ -32,11 +32,18 @@ void describe(config::Fields& f, LidarModel& model) {
   f.field("base_T_laser", model.base_T_laser);
   f.field("height_m", model.height_m);
   f.field("sigma_range_m", model.sigma_range_m);
+  f.field("sigma_relative", model.sigma_relative);
+  f.field("quality_max", model.quality_max);
+  f.field("quality_range_m", model.quality_range_m);
   f.angle_deg("sigma_bearing_deg", model.sigma_bearing_rad);
   f.field("quantisation_m", model.quantisation_m);
   f.field("dropout", model.dropout);
   f.angle_deg("grazing_deg", model.grazing_rad);
   f.angle_deg("grazing_certain_deg", model.grazing_certain_rad);
+  constexpr int kByte = 255;
+  f.check("sigma_relative", model.sigma_relative >= 0.0, "must not be negative");
+  f.check("quality_max", model.quality_max >= 0 && model.quality_max <= kByte, "must be from 0 to 255");
+  f.check("quality_range_m", model.quality_range_m > 0.0, "must be above 0");
 }
 
 void describe(config::Fields& f, SonarModel& model) {

@@ -19,7 +19,9 @@ double grazing_loss(const LidarModel& model, double cos_incidence) {
 float laser_range(const LidarModel& model, const std::optional<RayHit>& hit, Rng& rng) {
   // The same number of draws for each beam keeps beams comparable between worlds.
   const double luck = rng.uniform();
-  const double noise_m = rng.normal(model.sigma_range_m);
+  const double sigma_m =
+      hit ? std::hypot(model.sigma_range_m, model.sigma_relative * hit->distance_m) : model.sigma_range_m;
+  const double noise_m = rng.normal(sigma_m);
   if (!hit || luck < model.dropout + grazing_loss(model, hit->cos_incidence)) {
     return kNoReturn;
   }
@@ -28,6 +30,16 @@ float laser_range(const LidarModel& model, const std::optional<RayHit>& hit, Rng
     range_m = std::round(range_m / model.quantisation_m) * model.quantisation_m;
   }
   return range_m > model.range_max_m ? kNoReturn : static_cast<float>(std::max(range_m, model.range_min_m));
+}
+
+/// The received power of a diffuse surface, in the scanner's own units. A beam without return is a measurement, too.
+std::uint8_t laser_quality(const LidarModel& model, const std::optional<RayHit>& hit, float range_m) {
+  if (!hit || !std::isfinite(range_m)) {
+    return 1;
+  }
+  const double share = model.quality_range_m / std::max(hit->distance_m, model.quality_range_m);
+  const double quality = std::round(model.quality_max * hit->cos_incidence * share * share);
+  return static_cast<std::uint8_t>(std::clamp(quality, 1.0, static_cast<double>(model.quality_max)));
 }
 
 /// Nearest echo in the cone of a transducer at `world_T_sonar`; nothing when all goes elsewhere.
@@ -74,13 +86,17 @@ LaserScan sweep(const LidarModel& model, const Scene& scene, const Pose2& world_
   const Pose2 world_T_laser = world_T_base * model.base_T_laser;
   // Walls a little beyond the range may come into it by noise.
   constexpr double kReachSigmas = 4.0;
-  const double reach_m = model.range_max_m + kReachSigmas * model.sigma_range_m;
+  const double reach_m =
+      model.range_max_m + kReachSigmas * std::hypot(model.sigma_range_m, model.sigma_relative * model.range_max_m);
   for (int i = 0; i < model.beams; ++i) {
     const double angle =
         world_T_laser.theta_rad + scan.angle_rad(static_cast<std::size_t>(i)) + rng.normal(model.sigma_bearing_rad);
     const Point2 direction(std::cos(angle), std::sin(angle));
-    scan.ranges_m.push_back(
-        laser_range(model, scene.nearest(world_T_laser.translation(), direction, reach_m, model.height_m), rng));
+    const auto hit = scene.nearest(world_T_laser.translation(), direction, reach_m, model.height_m);
+    scan.ranges_m.push_back(laser_range(model, hit, rng));
+    if (model.quality_max > 0) {
+      scan.quality.push_back(laser_quality(model, hit, scan.ranges_m.back()));
+    }
   }
   return scan;
 }

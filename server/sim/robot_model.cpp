@@ -1,7 +1,9 @@
 #include "server/sim/robot_model.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <string>
 
 #include "common/core/image.hpp"
@@ -54,8 +56,10 @@ Status check_lidar(const LidarModel& l) {
   }
   if (!positive({l.range_max_m, l.grazing_rad, l.grazing_certain_rad}) || l.grazing_certain_rad < l.grazing_rad ||
       !not_negative({l.range_min_m, l.height_m, l.sigma_range_m, l.sigma_bearing_rad, l.quantisation_m}) ||
-      l.range_min_m >= l.range_max_m || !probability(l.dropout) || !is_finite(l.base_T_laser) ||
-      !std::isfinite(l.angle_min_rad) || !std::isfinite(l.angle_step_rad) || l.angle_step_rad == 0.0) {
+      !not_negative({l.sigma_relative}) || !positive({l.quality_range_m}) || l.quality_max < 0 ||
+      l.quality_max > std::numeric_limits<std::uint8_t>::max() || l.range_min_m >= l.range_max_m ||
+      !probability(l.dropout) || !is_finite(l.base_T_laser) || !std::isfinite(l.angle_min_rad) ||
+      !std::isfinite(l.angle_step_rad) || l.angle_step_rad == 0.0) {
     return refuse("lidar", "has a value outside its range");
   }
   return {};
@@ -150,7 +154,7 @@ Status validate(const RobotModel& model) {
 RobotModel without_errors(RobotModel model) {
   model.odometry = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
   LidarModel& lidar = model.lidar;
-  lidar.sigma_range_m = lidar.sigma_bearing_rad = lidar.quantisation_m = lidar.dropout = 0.0;
+  lidar.sigma_range_m = lidar.sigma_relative = lidar.sigma_bearing_rad = lidar.quantisation_m = lidar.dropout = 0.0;
   lidar.grazing_rad = lidar.grazing_certain_rad = kPi / 2.0;
   SonarModel& sonar = model.sonar;
   sonar.sigma_m = sonar.sigma_relative = sonar.cross_talk = sonar.dropout = 0.0;

@@ -34,6 +34,11 @@ struct LidarModel {
   Pose2 base_T_laser{0.021, 0.0, 0.0};
   double height_m = 0.30;
   double sigma_range_m = 0.010;
+  double sigma_relative = 0.0;  ///< part of the noise that grows with the range: sigma^2 = sigma_range^2 + (this r)^2
+  /// Signal quality of a wall met at a right angle within quality_range_m; 0: the scanner reports none. It falls with
+  /// the cosine of the incidence and with the square of the range, to 1 at least.
+  int quality_max = 0;
+  double quality_range_m = 1.0;
   double sigma_bearing_rad = 0.0008;
   double quantisation_m = 0.001;
   double dropout = 0.002;                         ///< probability that a beam has no return

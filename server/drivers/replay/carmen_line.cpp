@@ -1,5 +1,6 @@
 #include "server/drivers/replay/carmen_line.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -91,9 +92,13 @@ Result<std::optional<CarmenRecord>> parse_stated_laser(Words& words, bool with_r
     scan.range_max_m = range_max_m;
   }
   words.skip(kAfterRange);
-  std::vector<float> remissions;
-  if (!read_ranges(words, scan.ranges_m) || !read_ranges(words, remissions)) {
+  if (!read_ranges(words, scan.ranges_m) || !read_ranges(words, scan.strengths)) {
     return fail(Errc::kTooLarge, "a laser line states an impossible number of beams");
+  }
+  const bool graded = scan.strengths.size() == scan.ranges_m.size() &&
+                      std::any_of(scan.strengths.begin(), scan.strengths.end(), [](float s) { return s > 0.0F; });
+  if (!graded) {
+    scan.strengths.clear();  // loggers write zeros, or another number of them, for scanners that measure none
   }
   scan.angle_step_rad = settled_step(*scan.angle_step_rad, field_of_view_rad, scan.ranges_m.size());
   if (with_robot) {

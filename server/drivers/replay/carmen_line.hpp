@@ -24,6 +24,7 @@ struct CarmenOdometry {
 struct CarmenScan {
   double stamp_s = 0.0;
   std::vector<float> ranges_m;          ///< as logged, with codes for "none"; 0 for nan, infinity for inf
+  std::vector<float> strengths;         ///< signal quality or remission, one per range; empty: not logged
   std::optional<double> angle_min_rad;  ///< stated by RAWLASER1 and ROBOTLASER1 only
   std::optional<double> angle_step_rad;
   std::optional<double> range_max_m;  ///< stated likewise, or by PARAM: a reading of this range is no echo

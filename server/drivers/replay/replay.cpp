@@ -26,6 +26,17 @@ double front_laser_view_rad(std::size_t beams) {
                     })->view_deg);
 }
 
+/// The signal quality of a beam with a usable range: as logged, or 1 where the log has none. Logs whose strengths are
+/// shares of 1 are scaled to a byte.
+std::uint8_t quality_of(const CarmenScan& scan, std::size_t beam, float strongest) {
+  constexpr float kLargest = 255.0F;
+  if (scan.strengths.empty()) {
+    return 1;
+  }
+  const float scale = strongest <= 1.0F ? kLargest : 1.0F;
+  return static_cast<std::uint8_t>(std::clamp(std::round(scale * scan.strengths[beam]), 1.0F, kLargest));
+}
+
 tl::unexpected<Error> refused() {
   return fail(Errc::kRefused,
               "this robot replays a log, which cannot be driven; use the simulator or hardware to move");
@@ -50,10 +61,13 @@ LaserScan to_laser_scan(const CarmenScan& scan, const ReplayParams& params, Robo
   result.base_T_laser = params.base_T_laser;
   result.ranges_m.reserve(beams);
   result.quality.reserve(beams);
-  for (const float range_m : scan.ranges_m) {
+  const float strongest =
+      scan.strengths.empty() ? 0.0F : *std::max_element(scan.strengths.begin(), scan.strengths.end());
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    const float range_m = scan.ranges_m[beam];
     const bool usable = range_m >= params.range_min_m;
     result.ranges_m.push_back(usable && range_m < reach_m ? range_m : kNoReturn);
-    result.quality.push_back(usable ? 1 : 0);
+    result.quality.push_back(usable ? quality_of(scan, beam, strongest) : std::uint8_t{0});
   }
   return result;
 }

@@ -63,15 +63,27 @@ Result<CarmenScan> parse_scan_csv_line(std::string_view line) {
     if (scan.ranges_m.size() == kMaxScanBeams) {
       return fail(Errc::kTooLarge, "a scan line has an impossible number of beams");
     }
-    const std::optional<double> range_m = number_in<double>(*field);
-    if (!field->empty() && !range_m) {
+    const std::size_t colon = field->find(':');
+    const std::string_view range_text = field->substr(0, colon);
+    const std::optional<double> range_m = number_in<double>(range_text);
+    if (!range_text.empty() && !range_m) {
       return fail(Errc::kParse, "a range of a scan line is no number");
+    }
+    if (colon != std::string_view::npos) {
+      const std::optional<double> quality = finite_in(field->substr(colon + 1));
+      if (!quality || *quality < 0.0) {
+        return fail(Errc::kParse, "a signal quality of a scan line is no number from 0 on");
+      }
+      scan.strengths.push_back(static_cast<float>(*quality));
     }
     const bool usable = range_m && std::isfinite(*range_m);
     scan.ranges_m.push_back(usable ? static_cast<float>(*range_m) : 0.0F);
   }
   if (scan.ranges_m.empty()) {
     return fail(Errc::kParse, "a scan line has no ranges");
+  }
+  if (!scan.strengths.empty() && scan.strengths.size() != scan.ranges_m.size()) {
+    return fail(Errc::kParse, "a scan line has a signal quality for some of its ranges only");
   }
   return scan;
 }

@@ -1,5 +1,6 @@
 /// \file
-/// One line of a comma-separated scanner log: `t,odom_x,odom_y,odom_theta,r0,r1,...`. The functions have no state.
+/// One line of a comma-separated scanner log: `t,odom_x,odom_y,odom_theta,r0,r1,...`. A range may carry the signal
+/// quality of its beam behind a colon, as in `2.31:47`. The functions have no state.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,7 @@ namespace seeker::drivers {
 [[nodiscard]] bool is_scan_csv(std::string_view line);
 
 /// Parses one line. `inf`, `nan` and an empty field mean a beam without return (range 0). kParse: malformed, cut off or
-/// without a range; kTooLarge: more beams than kMaxScanBeams.
+/// without a range, or with the quality of some of the ranges only; kTooLarge: more beams than kMaxScanBeams.
 [[nodiscard]] Result<CarmenScan> parse_scan_csv_line(std::string_view line);
 
 /// Parses a line of either kind of log, which it recognises by the content; otherwise as parse_carmen_line().

@@ -64,6 +64,22 @@ RC_GTEST_PROP(Lidar, GridFindsTheSameFaceAsTryingAll, ()) {
   }
 }
 
+TEST(Lidar, SignalQualityFallsWithRangeAndIncidence) {
+  LidarModel model = without_errors(RobotModel{}).lidar;
+  const Scene scene(square_room(6.0));
+  Rng rng(1);
+  EXPECT_TRUE(sweep(model, scene, {}, RobotTime{}, rng).quality.empty()) << "unless the scanner reports one";
+  model.quality_max = 47;
+  model.quality_range_m = 1.0;
+  const LaserScan near = sweep(model, scene, {2.5, 0.0, 0.0}, RobotTime{}, rng);
+  const LaserScan far = sweep(model, scene, {}, RobotTime{}, rng);
+  ASSERT_EQ(far.quality.size(), far.ranges_m.size());
+  EXPECT_EQ(near.quality[180], 47) << "a wall half a metre ahead";
+  EXPECT_NEAR(far.quality[180], 47.0 / 9.0, 1.0) << "three metres";
+  EXPECT_LT(far.quality[120], far.quality[180]) << "farther, and met askew";
+  EXPECT_GE(far.quality[120], 1);
+}
+
 TEST(Lidar, NoiseQuantisationAndDropoutFollowTheModel) {
   RobotModel model;
   model.lidar.dropout = 0.05;

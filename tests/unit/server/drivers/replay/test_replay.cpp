@@ -302,5 +302,24 @@ TEST(Replay, ReadsTheRecordedLogsWhole) {
   EXPECT_LT((*other)->summary().bad, 50U) << describe((*other)->summary());
 }
 
+TEST(SignalQuality, OfTheLogIsThatOfTheScan) {
+  CarmenScan logged;
+  logged.ranges_m = {1.0F, 2.0F, 0.001F, 90.0F};
+  EXPECT_EQ(to_laser_scan(logged, {}, {}).quality, (std::vector<std::uint8_t>{1, 1, 0, 1})) << "the log has none";
+  logged.strengths = {47.0F, 300.0F, 9.0F, 0.0F};
+  EXPECT_EQ(to_laser_scan(logged, {}, {}).quality, (std::vector<std::uint8_t>{47, 255, 0, 1}));
+  logged.strengths = {1.0F, 0.5F, 0.2F, 0.0F};
+  EXPECT_EQ(to_laser_scan(logged, {}, {}).quality, (std::vector<std::uint8_t>{255, 128, 0, 1})) << "shares of 1";
+}
+
+TEST(SignalQuality, IsReadFromTheRemissionsOfARobotLaser) {
+  const auto record = parse_carmen_line("RAWLASER1 0 -0.1 0.2 0.1 8 0.01 0 3 1.0 1.1 1.2 3 12 0 40 7.5 host 7.5");
+  ASSERT_TRUE(record && *record);
+  EXPECT_EQ(std::get<CarmenScan>(**record).strengths, (std::vector<float>{12.0F, 0.0F, 40.0F}));
+  const auto none = parse_carmen_line("RAWLASER1 0 -0.1 0.2 0.1 8 0.01 0 3 1.0 1.1 1.2 3 0 0 0 7.5 host 7.5");
+  ASSERT_TRUE(none && *none);
+  EXPECT_TRUE(std::get<CarmenScan>(**none).strengths.empty()) << "zeros stand for none";
+}
+
 }  // namespace
 }  // namespace seeker::drivers

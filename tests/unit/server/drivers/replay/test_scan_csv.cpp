@@ -21,6 +21,16 @@ TEST(ScanCsv, ALineIsATimeAPoseAndRanges) {
   EXPECT_FALSE(scan->corrected_T_laser);
 }
 
+TEST(ScanCsv, ARangeMayCarryItsSignalQuality) {
+  const auto scan = parse_scan_csv_line("1.5,0,0,0,0.5:47,2.25:3,:0");
+  ASSERT_TRUE(scan) << scan.error().message;
+  EXPECT_EQ(scan->ranges_m, (std::vector<float>{0.5F, 2.25F, 0.0F}));
+  EXPECT_EQ(scan->strengths, (std::vector<float>{47.0F, 3.0F, 0.0F}));
+  for (const char* line : {"1.5,0,0,0,0.5:47,2.25", "1.5,0,0,0,0.5:x", "1.5,0,0,0,0.5:-1"}) {
+    EXPECT_EQ(parse_scan_csv_line(line).error().code, Errc::kParse) << line;
+  }
+}
+
 TEST(ScanCsv, MalformedLinesAreRefused) {
   for (const char* line :
        {"1,2,3", "1,2,3,4", "1,2,nan,4,5", "x,2,3,4,5", "1,2,3,4,5,six", "1,,3,4,5", "1,2,3,inf,5"}) {
