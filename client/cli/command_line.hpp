@@ -164,6 +164,9 @@ struct GridVerb {
   std::string evidence;
 };
 struct DetectionsVerb {};
+struct LinesVerb {
+  std::string out;  ///< picture to write; empty: none
+};
 struct CameraGrabVerb {
   std::string camera;  ///< name; empty: the camera by which the robot searches for targets
   std::string out;
@@ -187,7 +190,7 @@ using Verb =
                  MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb,
                  LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksRevertVerb,
                  LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
-                 DetectionsVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+                 DetectionsVerb, LinesVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

@@ -330,10 +330,10 @@ void add_reports(Parse& parse) {
                                         "seeker watch --topics status,event --json");
   watch
       ->add_option("--topics", w->topics,
-                   "Of status, scan, sonar, tiles, grid, image, mission, event, detection, segments")
+                   "Of status, scan, sonar, tiles, grid, image, mission, event, detection, segments, lines")
       ->delimiter(',')
       ->check(CLI::IsMember(
-          {"status", "scan", "sonar", "tiles", "grid", "image", "mission", "event", "detection", "segments"}));
+          {"status", "scan", "sonar", "tiles", "grid", "image", "mission", "event", "detection", "segments", "lines"}));
   watch->add_option("--rate", w->rate_hz, "Highest rate of each topic, Hz")
       ->check(config::number_above_zero, "above 0")
       ->capture_default_str();
@@ -342,6 +342,9 @@ void add_reports(Parse& parse) {
                                       "seeker grid --evidence out/evidence.png");
   grid->add_option("--evidence", g->evidence, "Write the picture of what was seen and the gaps (.png or .svg)");
   add_verb<DetectionsVerb>(parse, parse.app, "detections", "What was found and where", "seeker detections --json");
+  auto [lines, l] = add_verb<LinesVerb>(parse, parse.app, "lines", "The straight lines in the newest laser scan",
+                                        "seeker lines --json\n  seeker lines --out out/lines.svg");
+  lines->add_option("--out", l->out, "Write the picture of the scan with its lines (.png or .svg)");
   CLI::App* camera = parse.app.add_subcommand("camera", "Cameras");
   camera->require_subcommand(1);
   camera->fallthrough();

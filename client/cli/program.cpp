@@ -114,6 +114,9 @@ class Dispatch {
   VerbResult operator()(const DetectionsVerb&) {
     return with_robot([&] { return show_detections(context_); });
   }
+  VerbResult operator()(const LinesVerb& verb) {
+    return with_robot([&] { return show_lines(context_, verb); });
+  }
   VerbResult operator()(const CameraGrabVerb& verb) {
     return with_robot([&] { return grab_image(context_, verb); });
   }

@@ -250,6 +250,43 @@ void to_json(Json& json, const SegmentUpdate& update) {
           {"removed", update.removed}};
 }
 
+void to_json(Json& json, const ScanLine& line) {
+  json = {{"theta_rad", line.normal_rad},
+          {"theta_start_rad", line.start_rad},
+          {"theta_end_rad", line.end_rad},
+          {"distance_m", line.distance_m},
+          {"length_m", line.length_m},
+          {"slope", or_null(line.slope)},
+          {"intercept_m", or_null(line.intercept_m)},
+          {"start", line.start},
+          {"end", line.end},
+          {"points", line.points},
+          {"fit_error_m", line.fit_error_m},
+          {"distance_sigma_m", line.distance_sigma_m},
+          {"theta_sigma_rad", line.normal_sigma_rad}};
+}
+
+void to_json(Json& json, const LinePacket& packet) {
+  Json rounds = Json::array();
+  for (const LineRound& round : packet.rounds) {
+    rounds.push_back({{"gap_m", round.gap_m}, {"corner_m", round.corner_m}, {"worst_error_m", round.worst_error_m}});
+  }
+  json = {{"first_beam", packet.first_beam}, {"last_beam", packet.last_beam}, {"rounds", std::move(rounds)}};
+}
+
+void to_json(Json& json, const LineReport& report) {
+  // Without a signal quality of the scanner all usable beams have 1.
+  const auto& quality = report.scan.quality;
+  const bool has_quality = std::any_of(quality.begin(), quality.end(), [](std::uint8_t q) { return q > 1; });
+  json = {{"extractor", report.extractor},
+          {"scan_stamp_s", to_seconds(report.scan.stamp)},
+          {"beams", report.scan.ranges_m.size()},
+          {"has_quality", has_quality},
+          {"range_sigma_m", report.range_sigma_m},
+          {"lines", report.lines},
+          {"packets", report.packets}};
+}
+
 namespace {
 
 /// The payload of an update. Bulk data (pixels, cells) is summed up: `map export` and `camera grab` have it.
@@ -258,7 +295,8 @@ struct PayloadJson {
     return {{"beams", scan.ranges_m.size()},
             {"angle_min_rad", scan.angle_min_rad},
             {"angle_step_rad", scan.angle_step_rad},
-            {"ranges_m", scan.ranges_m}};
+            {"ranges_m", scan.ranges_m},
+            {"quality", scan.quality}};
   }
   Json operator()(const SonarScan& sonar) const {
     Json ranges_m = Json::array();

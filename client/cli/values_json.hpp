@@ -35,6 +35,10 @@ void to_json(nlohmann::ordered_json& json, const GridReport& grid);
 void to_json(nlohmann::ordered_json& json, const MapSummary& map);
 void to_json(nlohmann::ordered_json& json, const LandmarkSummary& database);
 void to_json(nlohmann::ordered_json& json, const SegmentUpdate& update);
+void to_json(nlohmann::ordered_json& json, const ScanLine& line);
+void to_json(nlohmann::ordered_json& json, const LinePacket& packet);
+/// The scan itself is summed up: the topic `scan` has it.
+void to_json(nlohmann::ordered_json& json, const LineReport& report);
 /// {"topic", "sequence", "dropped", "stamp_s", "data"}; pictures and tiles are given by their sizes, not their content.
 void to_json(nlohmann::ordered_json& json, const Update& update);
 

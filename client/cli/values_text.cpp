@@ -57,6 +57,9 @@ struct Describe {
     return (update.full ? "all: " : "") + count_of(update.changed.size(), "segment") + " changed, " +
            std::to_string(update.removed.size()) + " removed, revision " + std::to_string(update.revision);
   }
+  std::string operator()(const api::LineReport& report) const {
+    return count_of(report.lines.size(), "line") + " by " + report.extractor;
+  }
   std::string operator()(const api::Detection& detection) const {
     return (detection.withdrawn ? "withdrawn: " : "") + text_of(detection);
   }

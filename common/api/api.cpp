@@ -364,6 +364,7 @@ std::string_view to_string(Topic topic) {
     case Topic::kEvent: return "event";
     case Topic::kDetection: return "detection";
     case Topic::kSegments: return "segments";
+    case Topic::kLines: return "lines";
   }
   return "status";
 }

@@ -17,6 +17,7 @@
 #include "common/api/mission.hpp"
 #include "common/api/perception.hpp"
 #include "common/api/robot_state.hpp"
+#include "common/api/scan_lines.hpp"
 #include "common/core/result.hpp"
 
 namespace seeker::api {
@@ -38,8 +39,9 @@ enum class Topic : std::uint8_t {
   kEvent,      ///< Event                            RELIABLE
   kDetection,  ///< Detection (new, refined, gone)   RELIABLE
   kSegments,   ///< SegmentUpdate                    RELIABLE
+  kLines,      ///< LineReport                       LATEST
 };
-inline constexpr std::size_t kTopicCount = 10;
+inline constexpr std::size_t kTopicCount = 11;
 
 /// LATEST: a slow receiver gets the newest item and the number of items it missed. RELIABLE: the items are numbered,
 /// complete, and resumable after a reconnect.
@@ -48,7 +50,7 @@ enum class StreamClass : std::uint8_t { kLatest, kReliable };
 [[nodiscard]] std::string_view to_string(Topic topic);
 
 using Payload = std::variant<RobotStatus, LaserScan, SonarScan, TileUpdate, GridReport, ImageFrame, MissionStatus,
-                             Event, Detection, SegmentUpdate>;
+                             Event, Detection, SegmentUpdate, LineReport>;
 
 /// One item of a stream. Immutable and shared between all who receive it.
 struct Update {

@@ -13,6 +13,7 @@ namespace seeker::image {
 inline constexpr std::string_view kMapExport = "Seeker map export";
 inline constexpr std::string_view kLandmarksExport = "Seeker landmarks export";
 inline constexpr std::string_view kCameraPicture = "Seeker camera picture";
+inline constexpr std::string_view kLinesPicture = "Seeker picture of lines";
 
 /// The mark as a line of a text file whose comments begin with '#'.
 [[nodiscard]] std::string comment_mark(std::string_view mark);

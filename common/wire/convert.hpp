@@ -48,6 +48,9 @@ void read(const pb::SonarScan& from, SonarScan& to, Check& check);
 void read(const pb::Image& from, Image& to, Check& check);
 void read(const pb::ImageFrame& from, api::ImageFrame& to, Check& check);
 
+void write(const api::LineReport& from, pb::LineReport* to);
+void read(const pb::LineReport& from, api::LineReport& to, Check& check);
+
 void write(const OccupancyTile& from, pb::Tile* to);
 void write(const api::TileUpdate& from, pb::TileUpdate* to);
 void read(const pb::Tile& from, OccupancyTile& to, Check& check);

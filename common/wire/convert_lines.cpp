@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kMaxLines = kMaxScanBeams;
 constexpr std::size_t kMaxRounds = 64;
 
-void write(const api::ScanLine& from, pb::ScanLine* to) {
+void write_line(const api::ScanLine& from, pb::ScanLine* to) {
   to->set_normal_rad(from.normal_rad);
   to->set_start_rad(from.start_rad);
   to->set_end_rad(from.end_rad);
@@ -29,7 +29,7 @@ void write(const api::ScanLine& from, pb::ScanLine* to) {
   to->set_normal_sigma_rad(from.normal_sigma_rad);
 }
 
-void read(const pb::ScanLine& from, api::ScanLine& to, Check& check) {
+void read_line(const pb::ScanLine& from, api::ScanLine& to, Check& check) {
   to.normal_rad = check.finite("normal_rad", from.normal_rad());
   to.start_rad = check.finite("start_rad", from.start_rad());
   to.end_rad = check.finite("end_rad", from.end_rad());
@@ -49,7 +49,7 @@ void read(const pb::ScanLine& from, api::ScanLine& to, Check& check) {
   to.normal_sigma_rad = check.finite("normal_sigma_rad", from.normal_sigma_rad());
 }
 
-void write(const api::LinePacket& from, pb::LinePacket* to) {
+void write_packet(const api::LinePacket& from, pb::LinePacket* to) {
   to->set_first_beam(from.first_beam);
   to->set_last_beam(from.last_beam);
   for (std::size_t k = 0; k < std::min(from.rounds.size(), kMaxRounds); ++k) {
@@ -60,7 +60,7 @@ void write(const api::LinePacket& from, pb::LinePacket* to) {
   }
 }
 
-void read(const pb::LinePacket& from, api::LinePacket& to, Check& check) {
+void read_packet(const pb::LinePacket& from, api::LinePacket& to, Check& check) {
   if (!check.count("rounds", static_cast<std::size_t>(from.rounds_size()), kMaxRounds)) {
     return;
   }
@@ -80,11 +80,11 @@ void write(const api::LineReport& from, pb::LineReport* to) {
   to->set_extractor(clean_text(from.extractor, kMaxNameBytes));
   write(from.scan, to->mutable_scan());
   for (std::size_t k = 0; k < std::min(from.lines.size(), kMaxLines); ++k) {
-    write(from.lines[k], to->add_lines());
+    write_line(from.lines[k], to->add_lines());
   }
   to->set_range_sigma_m(from.range_sigma_m);
   for (std::size_t k = 0; k < std::min(from.packets.size(), kMaxLines); ++k) {
-    write(from.packets[k], to->add_packets());
+    write_packet(from.packets[k], to->add_packets());
   }
 }
 
@@ -97,12 +97,12 @@ void read(const pb::LineReport& from, api::LineReport& to, Check& check) {
   read_required(from.has_scan(), from.scan(), to.scan, "scan", check);
   for (int k = 0; k < from.lines_size(); ++k) {
     const auto scope = check.in("lines", static_cast<std::size_t>(k));
-    read(from.lines(k), to.lines.emplace_back(), check);
+    read_line(from.lines(k), to.lines.emplace_back(), check);
   }
   to.range_sigma_m = check.finite("range_sigma_m", from.range_sigma_m());
   for (int k = 0; k < from.packets_size(); ++k) {
     const auto scope = check.in("packets", static_cast<std::size_t>(k));
-    read(from.packets(k), to.packets.emplace_back(), check);
+    read_packet(from.packets(k), to.packets.emplace_back(), check);
   }
 }
 

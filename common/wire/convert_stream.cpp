@@ -16,6 +16,7 @@ struct PayloadWriter {
   void operator()(const api::Event& from) const { write(from, to->mutable_event()); }
   void operator()(const api::Detection& from) const { write(from, to->mutable_detection()); }
   void operator()(const api::SegmentUpdate& from) const { write(from, to->mutable_segments()); }
+  void operator()(const api::LineReport& from) const { write(from, to->mutable_lines()); }
 };
 
 template <class T, class M>
@@ -38,7 +39,7 @@ void write(const api::Update& from, pb::StreamUpdate* to) {
 }
 
 void read(const pb::StreamUpdate& from, api::Update& to, Check& check) {
-  check.enumerator("topic", from.topic(), api::Topic::kSegments, to.topic);
+  check.enumerator("topic", from.topic(), api::Topic::kLines, to.topic);
   to.sequence = from.sequence();
   to.dropped = from.dropped();
   to.stamp = RobotTime(Duration(from.stamp_ns()));
@@ -55,6 +56,7 @@ void read(const pb::StreamUpdate& from, api::Update& to, Check& check) {
     case P::kEvent: return read_payload<api::Event>(from.event(), T::kEvent, "event", to, check);
     case P::kDetection: return read_payload<api::Detection>(from.detection(), T::kDetection, "detection", to, check);
     case P::kSegments: return read_payload<api::SegmentUpdate>(from.segments(), T::kSegments, "segments", to, check);
+    case P::kLines: return read_payload<api::LineReport>(from.lines(), T::kLines, "lines", to, check);
     case P::PAYLOAD_NOT_SET: check.refuse("payload", Errc::kInvalidArgument, "is missing"); return;
   }
 }
@@ -66,7 +68,7 @@ void write(const api::TopicRequest& from, pb::TopicRequest* to) {
 }
 
 void read(const pb::TopicRequest& from, api::TopicRequest& to, Check& check) {
-  check.enumerator("topic", from.topic(), api::Topic::kSegments, to.topic);
+  check.enumerator("topic", from.topic(), api::Topic::kLines, to.topic);
   to.max_rate_hz = check.finite("max_rate_hz", from.max_rate_hz());
   if (to.max_rate_hz < 0.0 || to.max_rate_hz > kMaxStreamRate_hz) {
     check.refuse("max_rate_hz", Errc::kInvalidArgument, "must be from 0 to 1000");

@@ -53,7 +53,7 @@ std::vector<pb::TopicReply> StreamSender::subscribe(std::uint64_t id, const std:
 void StreamSender::offer(api::Topic topic, std::uint64_t sequence, const SharedBody& body) {
   for (auto& [id, subscription] : subscriptions_) {
     for (TopicState& state : subscription.topics) {
-      if (state.request.topic == topic) {
+      if (state.request.topic == topic && sequence > state.sent_sequence) {
         state.dropped += state.sent_sequence == 0 && state.slot ? 1 : 0;
         state.slot = body;
         state.slot_sequence = sequence;

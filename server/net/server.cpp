@@ -61,7 +61,7 @@ class Server::Impl {
         tick_(*io_),
         mailbox_(std::make_shared<Mailbox>(2 * params_.backlog.items)),
         backlogs_(make_backlogs(params_.backlog, std::make_index_sequence<api::kTopicCount>())),
-        hub_{params_, host, io_, backlogs_, {}, net::random_id(), {}, {}, {}, {}} {
+        hub_{params_, host, io_, backlogs_, {}, net::random_id(), {}, {}, {}, {}, {}} {
     hub_.robot_now = [this] { return params_.robot_now ? params_.robot_now() : newest_; };
     hub_.opened = [this](const std::shared_ptr<Session>& session) { on_opened(session); };
     hub_.ended = [this](const std::shared_ptr<Session>& session, const wire::Ending& end) { on_ended(session, end); };
@@ -238,6 +238,9 @@ class Server::Impl {
     }
     for (const api::UpdatePtr& update : mailbox_->drain()) {
       newest_ = std::max(newest_, update->stamp);
+      if (update->topic == api::Topic::kLines) {
+        hub_.newest_lines = update;
+      }
       if (api::stream_class(update->topic) == api::StreamClass::kReliable) {
         publish_reliable(*update);
       } else if (wanted()) {

@@ -33,6 +33,8 @@ struct SessionHub {
   std::function<void(const std::shared_ptr<Session>&)> opened;
   std::function<void(const std::shared_ptr<Session>&, const wire::Ending&)> ended;
   ServerStats stats;
+  /// What a new subscriber gets at once: a robot that stands still in a simulation takes no other scan.
+  api::UpdatePtr newest_lines;
 };
 
 /// All methods run on the network thread.

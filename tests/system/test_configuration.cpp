@@ -12,7 +12,10 @@ namespace {
 
 TEST(RobotFiles, EveryShippedOneIsReadAndPrintsBackTheSame) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(source_file("config/robots"))) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_file("config/robots"))) {
+    if (entry.is_directory()) {
+      continue;
+    }
     const Result<app::RobotOptions> options = app::load_robot_options(entry.path());
     ASSERT_TRUE(options) << options.error().message;
     const std::string text = config::print(*options);

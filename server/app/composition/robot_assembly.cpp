@@ -64,6 +64,7 @@ Result<Assembly> complete(const RobotOptions& options, LandmarkStorage landmarks
   }
   parts.estimator_type = to_string(options.estimator);
   parts.occupancy = options.occupancy;
+  parts.lines = options.lines;
   parts.forget_places = [memory = tools->memory] { memory->reset(); };
   parts.behaviours = RobotBehaviours(options, *tools, parts.devices.camera != nullptr, std::move(stereo));
   return assembly;

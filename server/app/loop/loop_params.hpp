@@ -13,6 +13,7 @@
 #include "server/app/missions/mission_executor.hpp"
 #include "server/app/runtime/devices.hpp"
 #include "server/app/safety/safety_supervisor.hpp"
+#include "server/lines/make_extractor.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/vision/stereo_features.hpp"
 
@@ -50,6 +51,7 @@ struct LoopParts {
   std::string estimator_type;
   BehaviourFactory behaviours;
   nav::OccupancyParams occupancy;
+  lines::ExtractorParams lines;         ///< of the lines that clients follow
   std::function<void()> forget_places;  ///< called when another map takes over, so that missions forget their places
 };
 

@@ -5,8 +5,9 @@
 
 namespace seeker::app {
 
-Publisher::Publisher(const LoopParams& params, const Sources& sources, UpdateHub& hub)
-    : tile_period_(params.tile_period), grid_period_(params.grid_period), sources_(sources), hub_(hub) {}
+Publisher::Publisher(const LoopParams& params, const lines::ExtractorParams& lines, const Sources& sources,
+                     UpdateHub& hub)
+    : tile_period_(params.tile_period), grid_period_(params.grid_period), sources_(sources), hub_(hub), lines_(lines) {}
 
 void Publisher::publish() {
   const RobotTime stamp = sources_.world.now();
@@ -22,8 +23,12 @@ void Publisher::publish() {
 
 void Publisher::publish_readings(RobotTime stamp) {
   const Sensing& sensing = sources_.sensing;
-  if ((sensing.new_scan() != nullptr || republish_) && sensing.scan() != nullptr && hub_.wanted(api::Topic::kScan)) {
+  const bool scan_due = (sensing.new_scan() != nullptr || republish_) && sensing.scan() != nullptr;
+  if (scan_due && hub_.wanted(api::Topic::kScan)) {
     hub_.publish(api::Topic::kScan, stamp, *sensing.scan());
+  }
+  if (scan_due && hub_.wanted(api::Topic::kLines)) {
+    hub_.publish(api::Topic::kLines, stamp, lines_.report(*sensing.scan()));
   }
   if ((sensing.new_sonar() != nullptr || republish_) && sensing.sonar() != nullptr && hub_.wanted(api::Topic::kSonar)) {
     hub_.publish(api::Topic::kSonar, stamp, *sensing.sonar());

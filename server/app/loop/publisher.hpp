@@ -7,6 +7,7 @@
 #include "common/api/robot_api.hpp"
 #include "common/core/time.hpp"
 #include "server/app/loop/diagnostics.hpp"
+#include "server/app/loop/line_reporter.hpp"
 #include "server/app/loop/localiser.hpp"
 #include "server/app/loop/mission_resumption.hpp"
 #include "server/app/loop/motion_control.hpp"
@@ -31,7 +32,7 @@ class Publisher {
     const Diagnostics& diagnostics;
   };
 
-  Publisher(const LoopParams& params, const Sources& sources, UpdateHub& hub);
+  Publisher(const LoopParams& params, const lines::ExtractorParams& lines, const Sources& sources, UpdateHub& hub);
 
   /// Publishes what is new and due. A topic without subscribers is not built.
   void publish();
@@ -51,6 +52,7 @@ class Publisher {
   Duration grid_period_;
   Sources sources_;
   UpdateHub& hub_;
+  LineReporter lines_;
   bool republish_ = false;
   std::uint64_t published_revision_ = 0;
   std::uint64_t published_segments_ = 0;

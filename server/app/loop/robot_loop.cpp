@@ -20,7 +20,8 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
       maps_({world_, sensing_, motion_, localiser_, neighbours_, executor_, diagnostics_}, parts.forget_places),
       missions_(params.map,
                 {executor_, world_, sensing_, situation_, localiser_, maps_, motion_, diagnostics_, hooks_}),
-      publisher_(params, {world_, sensing_, localiser_, motion_, executor_, missions_.resumption(), diagnostics_}, hub),
+      publisher_(params, parts.lines,
+                 {world_, sensing_, localiser_, motion_, executor_, missions_.resumption(), diagnostics_}, hub),
       commands_({world_, sensing_, perception_, motion_, executor_, missions_, maps_, publisher_, diagnostics_}) {
   register_components(parts);
 }

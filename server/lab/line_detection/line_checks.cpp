@@ -5,6 +5,7 @@
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/line_detection/line_scene.hpp"
 #include "server/lab/line_detection/reproduce_line_detection.hpp"
+#include "server/lines/polar_fit.hpp"
 #include "server/lines/split_extractors.hpp"
 
 namespace seeker::lab {

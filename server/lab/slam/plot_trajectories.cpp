@@ -6,6 +6,7 @@
 #include "common/image/map_layers.hpp"
 #include "common/image/map_view.hpp"
 #include "common/image/png.hpp"
+#include "common/image/scan_picture.hpp"
 #include "server/app/composition/robot_options.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/scoring/score_reference.hpp"
@@ -130,40 +131,11 @@ Result<Image> draw_trajectories(const std::vector<NamedTrajectory>& trajectories
 Result<Image> draw_scan(const LaserScan& scan, const lines::ScanLines& found, const std::string& title) {
   LaserScan in_laser = scan;
   in_laser.base_T_laser = {};
-  image::MapScene scene;
-  const std::vector<Point2> points = points_in_base(in_laser);
-  if (points.empty()) {
-    return fail(Errc::kNotReady, "the scan has no returns to draw");
+  image::ScanScene scene{.title = title, .points = points_in_base(in_laser), .lines = {}};
+  for (const lines::Line& line : found.lines) {
+    scene.lines.emplace_back(line.start, line.end);
   }
-  for (const Point2& point : points) {
-    scene.trajectory.push_back({point.x(), point.y(), 0.0});
-  }
-  scene.trajectory.push_back({});  // the sensor is in the picture too
-  const Result<image::MapView> view = image::fit_view(scene, {});
-  if (!view) {
-    return tl::unexpected<Error>(view.error());
-  }
-  constexpr double kPoint_px = 2.0;
-  const std::vector<Row> rows = {{title, {image::kGrey, kPoint_px, image::LineStyle::kDotted}},
-                                 {std::to_string(found.lines.size()) + " lines", stroke_of(0)}};
-  image::Canvas canvas = new_canvas(*view, rows);
-  for (const Point2& point : points) {
-    canvas.fill_circle(view->to_px(point), kPoint_px, image::kGrey);
-  }
-  for (std::size_t k = 0; k < found.lines.size(); ++k) {
-    constexpr double kEnd_px = 3.5;
-    const Point2 start = view->to_px(found.lines[k].start);
-    const Point2 end = view->to_px(found.lines[k].end);
-    canvas.line(start, end, stroke_of(k));
-    canvas.fill_circle(start, kEnd_px, stroke_of(k).colour);
-    canvas.fill_circle(end, kEnd_px, stroke_of(k).colour);
-  }
-  constexpr double kSensor_px = 6.0;
-  canvas.arrow(view->to_px(Point2::Zero()), view->to_px(Point2(0.5, 0.0)), {image::kBlack, 1.5});
-  canvas.circle(view->to_px(Point2::Zero()), kSensor_px, {image::kBlack, 1.5});
-  image::draw_scale_bar(canvas, *view);
-  draw_legend(canvas, *view, rows);
-  return canvas.image();
+  return image::draw_scan(scene);
 }
 
 Status run_plot(const PlotOptions& options, std::ostream& out) {

@@ -47,6 +47,7 @@ class ValueMaker {
   api::TileUpdate tiles();
   MapSegment segment();
   api::SegmentUpdate segments();
+  api::LineReport lines();
   api::MapSummary map_summary();
   api::LandmarkSummary landmark_summary();
   api::LandmarkPoint landmark();

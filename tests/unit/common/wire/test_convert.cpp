@@ -40,6 +40,7 @@ RC_GTEST_PROP(Convert, EveryValueComesBackUnchanged, (std::uint64_t seed)) {
   expect_round_trip<pb::LeaseState>(make.lease());
   expect_round_trip<pb::Event>(make.event());
   expect_round_trip<pb::DriveCommand>(make.drive());
+  expect_round_trip<pb::LineReport>(make.lines());
   expect_round_trip<pb::Segment>(make.segment());
   expect_round_trip<pb::SegmentUpdate>(make.segments());
   expect_round_trip<pb::MapSummary>(make.map_summary());
@@ -53,7 +54,7 @@ RC_GTEST_PROP(Convert, EveryValueComesBackUnchanged, (std::uint64_t seed)) {
 RC_GTEST_PROP(Convert, AnUpdateEncodedOnceIsReadByEveryReceiver, (std::uint64_t seed)) {
   ValueMaker make(seed);
   api::Update update;
-  update.topic = make.one_of(api::Topic::kSegments);
+  update.topic = make.one_of(api::Topic::kLines);
   update.sequence = seed + 1;
   update.stamp = make.time();
   update.payload = make.payload(update.topic);

@@ -298,6 +298,37 @@ api::LandmarkPoint ValueMaker::landmark() {
   return {rng_.bits() | 1U, {number(), number()}, number(), number(), static_cast<std::uint32_t>(rng_.bits())};
 }
 
+api::LineReport ValueMaker::lines() {
+  api::LineReport report{
+      .extractor = "five_modes", .scan = scan(), .lines = {}, .range_sigma_m = number(), .packets = {}};
+  report.lines.resize(static_cast<std::size_t>(count(6)));
+  for (api::ScanLine& line : report.lines) {
+    line = {number(),
+            number(),
+            number(),
+            number(),
+            number(),
+            std::nullopt,
+            std::nullopt,
+            {number(), number()},
+            {number(), number()},
+            count(300),
+            number(),
+            number(),
+            number()};
+    if (flag()) {
+      line.slope = number();
+      line.intercept_m = number();
+    }
+  }
+  report.packets.resize(static_cast<std::size_t>(count(4)));
+  for (api::LinePacket& packet : report.packets) {
+    packet = {static_cast<std::uint32_t>(count(360)), static_cast<std::uint32_t>(count(360)), {}};
+    packet.rounds.resize(static_cast<std::size_t>(count(9)), {number(), number(), number()});
+  }
+  return report;
+}
+
 api::LineMapStatus ValueMaker::line_map() {
   return {text(), one_of(api::MapUse::kLocalise), static_cast<std::uint32_t>(rng_.bits()), rng_.bits(), flag()};
 }
@@ -336,6 +367,7 @@ api::Payload ValueMaker::payload(api::Topic topic) {
     case api::Topic::kSegments: return segments();
     case api::Topic::kEvent: return event();
     case api::Topic::kDetection: return detection();
+    case api::Topic::kLines: return lines();
   }
   return status();
 }

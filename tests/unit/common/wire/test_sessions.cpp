@@ -294,8 +294,9 @@ class SenderTest : public ::testing::Test {
     }
     return out;
   }
-  Backlogs backlogs_{Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000),
-                     Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000)};
+  Backlogs backlogs_{Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000),
+                     Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000),
+                     Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000)};
   StreamSender sender_;
 };
 

@@ -30,6 +30,7 @@ class PublisherTest : public ::testing::Test {
 
   testing::FakeDeck deck;
   Publisher publisher{deck.params,
+                      {},
                       {deck.world, deck.sensing, deck.localiser, deck.motion, deck.executor, deck.missions.resumption(),
                        deck.diagnostics},
                       deck.hub};
@@ -48,6 +49,18 @@ TEST_F(PublisherTest, AScanIsPublishedOnceAndAgainForANewcomer) {
   publisher.publish();
   EXPECT_EQ(updates[api::Topic::kScan], 2);
   EXPECT_FALSE(publisher.republishes());
+}
+
+TEST_F(PublisherTest, TheLinesOfAScanComeWithIt) {
+  subscribe({api::Topic::kLines});
+  tick_with_sweep();
+  EXPECT_EQ(updates[api::Topic::kLines], 1);
+  deck.tick();
+  publisher.publish();
+  EXPECT_EQ(updates[api::Topic::kLines], 1) << "nothing new has come";
+  publisher.republish();
+  publisher.publish();
+  EXPECT_EQ(updates[api::Topic::kLines], 2);
 }
 
 TEST_F(PublisherTest, TilesComeAtTheirOwnPace) {
