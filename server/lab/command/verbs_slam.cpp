@@ -133,6 +133,8 @@ Verb add_lines(CLI::App& app) {
   auto o = std::make_shared<LinesOptions>();
   CLI::App* verb = app.add_subcommand("lines", "The line extractor over a recorded log");
   verb->add_option("log", o->log, "CARMEN log, or scans as numbers with commas; plain or .gz")->required();
+  verb->add_option("--extractor", o->extractor, "How lines are found (default: as the robot file says)")
+      ->check(CLI::IsMember({"fast", "five_modes", "regression", "split_and_merge", "iepf"}));
   CLI::Option* scan = verb->add_option("--scan", o->scan, "Draw this scan instead; the first is 0");
   scan->needs(verb->add_option("--out", o->out, "PNG of that scan")->needs(scan));
   add_geometry(*verb, *o);

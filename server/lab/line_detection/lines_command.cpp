@@ -10,12 +10,12 @@
 #include "server/lab/slam/plot_trajectories.hpp"
 #include "server/lab/slam/slam_command.hpp"
 #include "server/lab/slam/slam_report.hpp"
-#include "server/lines/fast_extractor.hpp"
 
 namespace seeker::lab {
 
 // Not in an unnamed namespace: argument-dependent look-up would not find it from Fields.
 void describe(config::Fields& f, LineStatistics& s) {
+  f.field("extractor", s.extractor);
   f.field("scans", s.scans);
   f.field("beams", s.beams);
   f.field("lines", s.lines);
@@ -58,6 +58,7 @@ Result<drivers::ReplaySummary> walk(const std::filesystem::path& log, const driv
 
 std::string text_of(const LineStatistics& s) {
   Table table({"figure", "value"});
+  table.add({"extractor", s.extractor});
   table.add({"scans", std::to_string(s.scans)});
   table.add({"beams", std::to_string(s.beams)});
   table.add({"lines per scan", fixed(s.lines_per_scan, 2)});
@@ -81,7 +82,7 @@ struct DrawnScan {
 };
 void describe(config::Fields& f, DrawnScan& drawn) { f.field("file", drawn.file); }
 
-Status draw_one(const LinesOptions& o, const drivers::ReplayParams& geometry) {
+Status draw_one(const LinesOptions& o, const drivers::ReplayParams& geometry, const lines::ExtractorParams& params) {
   std::optional<LaserScan> chosen;
   std::uint64_t number = 0;
   const auto walked = walk(o.log, geometry, [&](const LaserScan& scan) {
@@ -96,25 +97,27 @@ Status draw_one(const LinesOptions& o, const drivers::ReplayParams& geometry) {
   if (!chosen) {
     return fail(Errc::kNotFound, o.log.string() + " has " + std::to_string(number) + " scans; the first is number 0");
   }
-  lines::FastExtractor extractor;
-  const std::string title = o.log.filename().string() + ", scan " + std::to_string(*o.scan);
-  const Result<Image> picture = draw_scan(*chosen, extractor.extract(*chosen), title);
+  const std::string title = o.log.filename().string() + ", scan " + std::to_string(*o.scan) + ", " +
+                            std::string(lines::to_string(params.kind));
+  const Result<Image> picture = draw_scan(*chosen, lines::make_extractor(params)->extract(*chosen), title);
   return picture ? image::write_png(o.out, *picture) : Status(tl::unexpected<Error>(picture.error()));
 }
 
 }  // namespace
 
-Result<LineStatistics> measure_lines(const std::filesystem::path& log, const drivers::ReplayParams& geometry) {
-  lines::FastExtractor extractor;
+Result<LineStatistics> measure_lines(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
+                                     const lines::ExtractorParams& params) {
+  const std::unique_ptr<lines::Extractor> extractor = lines::make_extractor(params);
   lines::ScanLines found;
   LineStatistics s;
+  s.extractor = lines::to_string(params.kind);
   Stopwatch watch;
   std::vector<double> sigmas_m;
   double returns = 0.0;
   double on_lines = 0.0;
   const auto walked = walk(log, geometry, [&](const LaserScan& scan) {
     watch.start();
-    extractor.extract(scan, found);
+    extractor->extract(scan, found);
     watch.stop();
     watch.lap();
     s.beams = s.scans++ == 0 ? scan.ranges_m.size() : s.beams;
@@ -145,18 +148,22 @@ Status run_lines(const LinesOptions& o, std::ostream& out) {
   if (!robot_file) {
     return tl::unexpected<Error>(robot_file.error());
   }
-  const Result<app::RobotOptions> options = app::load_robot_options(*robot_file, o.overrides);
+  std::vector<std::string> overrides = o.overrides;
+  if (!o.extractor.empty()) {
+    overrides.push_back("lines.extractor=" + o.extractor);
+  }
+  const Result<app::RobotOptions> options = app::load_robot_options(*robot_file, overrides);
   if (!options) {
     return tl::unexpected<Error>(options.error());
   }
   if (o.scan) {
-    const Status drawn = draw_one(o, options->replay.params);
+    const Status drawn = draw_one(o, options->replay.params, options->lines);
     if (drawn) {
       out << (o.json ? to_json(DrawnScan{o.out.string()}) : "wrote " + o.out.string() + "\n");
     }
     return drawn;
   }
-  const Result<LineStatistics> statistics = measure_lines(o.log, options->replay.params);
+  const Result<LineStatistics> statistics = measure_lines(o.log, options->replay.params, options->lines);
   if (!statistics) {
     return tl::unexpected<Error>(statistics.error());
   }

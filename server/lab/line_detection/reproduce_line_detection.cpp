@@ -1,10 +1,15 @@
 #include "server/lab/line_detection/reproduce_line_detection.hpp"
 
+#include <cstdlib>
+#include <filesystem>
+
 #include "common/core/angle.hpp"
 #include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/experiments/table.hpp"
+#include "server/lab/line_detection/line_history.hpp"
 #include "server/lab/line_detection/line_scene.hpp"
+#include "server/lab/line_detection/line_sensitivity.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -35,6 +40,27 @@ std::string table1_csv(const LaserScan& scan, const lines::ScanLines& found) {
   return table.csv();
 }
 
+/// Scenes drawn from the seeds, and the recorded RPLIDAR where it is there.
+Status compare_scenes(const ReproduceParams& params, Report& report) {
+  std::vector<LaserScan> scenes;
+  for (const std::uint64_t seed : params.seeds) {
+    scenes.push_back(scene_scan(seed));
+  }
+  std::string csv = check_sensitivity("scenes", scenes, report);
+  const char* data = std::getenv("SEEKER_DATA");
+  const std::filesystem::path log =
+      std::filesystem::path(data == nullptr ? "" : data) / "lidar/rplidar_a1/scans.csv.gz";
+  if (data != nullptr && std::filesystem::exists(log)) {
+    const std::size_t step = params.smallest ? 60 : 4;
+    const Result<std::vector<LaserScan>> scans = scans_of_log(log, params.config / "robots/replay-rplidar.yaml", step);
+    if (!scans) {
+      return tl::unexpected<Error>(scans.error());
+    }
+    csv += check_sensitivity("rplidar_a1", *scans, report);
+  }
+  return files::write_file(params.out / "sensitivity.csv", csv);
+}
+
 }  // namespace
 
 lines::PaperParams printed_line_params() {
@@ -63,8 +89,19 @@ Status reproduce_line_detection(const ReproduceParams& params, Report& report) {
   if (Status ok = files::write_file(params.out / "table1.csv", table1_csv(scan, found)); !ok) {
     return ok;
   }
+  check_rows(params.seeds, report);
   check_table1(params.seeds, report);
-  return files::write_file(params.out / "thresholds.csv", check_thresholds(params.seeds, report));
+  if (Status ok = files::write_file(params.out / "thresholds.csv", check_thresholds(params.seeds, report)); !ok) {
+    return ok;
+  }
+  const ThresholdHistory history = check_history(params.seeds, report);
+  if (Status ok = files::write_file(params.out / "history.csv", history.csv); !ok) {
+    return ok;
+  }
+  if (Status ok = image::write_png(params.out / "fig-thresholds.png", history.figure); !ok) {
+    return ok;
+  }
+  return compare_scenes(params, report);
 }
 
 }  // namespace seeker::lab

@@ -9,7 +9,9 @@
 
 namespace seeker::lab {
 
-/// Writes fig3-lines.png, fig4-fits.png, table1.csv, thresholds.csv, and one line for each condition to the report.
+/// Writes fig3-lines.png, fig4-fits.png, fig-thresholds.png, table1.csv, thresholds.csv, history.csv, sensitivity.csv,
+/// and one line for each row of Table 1 and for each condition to the report. Recorded scans are compared, too, where
+/// the environment variable SEEKER_DATA names the folder of the recordings.
 [[nodiscard]] Status reproduce_line_detection(const ReproduceParams& params, Report& report);
 
 /// The paper's detector as printed: the error limit is 5 mm for any noise.
@@ -20,6 +22,8 @@ namespace seeker::lab {
 /// Fig 4: distances of the points of each line from the line.
 [[nodiscard]] Image table1_fit_figure(const LaserScan& scan, const lines::ScanLines& found);
 
+/// Each row of Table 1 as printed and as found, mean over the seeds.
+void check_rows(const std::vector<std::uint64_t>& seeds, Report& report);
 /// Checks R10 for the seeds.
 void check_table1(const std::vector<std::uint64_t>& seeds, Report& report);
 /// Checks R10: initial thresholds times 0.5 to 2 against split-and-merge with the same thresholds. Returns the table as
