@@ -53,7 +53,7 @@ std::vector<Point2> office_tour() {
 MakeTracker sp_tracker() {
   return [](const sim::RobotModel& model) {
     SpTrackerParams params;
-    params.lines.bearing_sigma_rad = model.lidar.sigma_bearing_rad;
+    params.lines.fast.bearing_sigma_rad = model.lidar.sigma_bearing_rad;
     params.odometry = model.odometry;
     return std::make_unique<SpTracker>(params);
   };
