@@ -6,9 +6,11 @@
 namespace seeker::slam {
 
 void describe(config::Fields& f, PointNetParams& params) {
-  f.choice(
-      "use", params.use,
-      config::Choices<PointUse>{{"none", PointUse::kNone}, {"leftover", PointUse::kLeftover}, {"all", PointUse::kAll}});
+  f.choice("use", params.use,
+           config::Choices<PointUse>{{"off", PointUse::kOff},
+                                     {"none", PointUse::kNone},
+                                     {"leftover", PointUse::kLeftover},
+                                     {"all", PointUse::kAll}});
   f.section("normals", params.normals);
   f.section("match", params.match);
   f.section("cloud", params.cloud);
@@ -129,6 +131,7 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.section("loops", params.loops);
   f.section("relocalise", params.relocalise);
   f.section("fusion", params.fusion);
+  f.field("observation_period_s", params.observation_period_s);
   f.field("min_move_m", params.min_move_m);
   f.angle_deg("min_rotation_deg", params.min_rotation_rad);
   f.field("still_range_m", params.still_range_m);

@@ -88,6 +88,9 @@ void describe(config::Fields& f, ScanMapParams& params) {
 }
 
 void describe(config::Fields& f, SpAssociationParams& params) {
+  f.choice<SpAssociationMethod>(
+      "method", params.method,
+      {{"joint", SpAssociationMethod::kJoint}, {"nearest_neighbour", SpAssociationMethod::kNearestNeighbour}});
   f.field("gate", params.gate);
   f.field("nearest_gate", params.nearest_gate);
   f.field("end_gate", params.end_gate);
@@ -132,8 +135,9 @@ void describe(config::Fields& f, SpExistenceParams& params) {
 }
 
 void describe(config::Fields& f, SpMapParams& params) {
-  f.choice<SpMode>("mode", params.mode, {{"joint", SpMode::kJoint}, {"paper", SpMode::kPaper}});
   f.section("association", params.association);
+  f.choice<SpUpdateMethod>("update", params.update,
+                           {{"joint", SpUpdateMethod::kJoint}, {"sequential", SpUpdateMethod::kSequential}});
   f.section("features", params.features);
   f.section("existence", params.existence);
   f.field("relinearise_m", params.relinearise_m);

@@ -91,6 +91,7 @@ void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
   rotation_sense_.clear();
   jump_.clear();
   travelled_.correct({}, Matrix3::Zero());
+  at_last_scan_ = {};
   next_id_ = 1;
   forget_places();
   hint_map_T_node_.reset();
@@ -130,31 +131,6 @@ std::optional<LocalBelief> LineSlam::local_belief() const {
   return LocalBelief{lines_.get(), backend_.pose(backend_.maps().back().id)};
 }
 
-PoseEstimate LineSlam::estimate() const {
-  const PoseEstimate travelled = travelled_.estimate();
-  const Pose2& map_T_node = backend_.pose(backend_.maps().back().id);
-  const Pose2& node_T_base = lines_->robot();
-  const Pose2 increment = odometry_bias_.corrected(travelled.map_T_base);
-  const Pose2 node_T_now = node_T_base * increment;
-  const Matrix3 to_a = compose_jacobian_a(node_T_base, increment);
-  const Matrix3 to_b = compose_jacobian_b(node_T_base, increment);
-  const Matrix3 moved = travelled.covariance + odometry_bias_.covariance_of(travelled.map_T_base);
-  const Matrix3 in_node = to_a * lines_->robot_covariance_map() * to_a.transpose() + to_b * moved * to_b.transpose();
-  const Matrix3 node_a = compose_jacobian_a(map_T_node, node_T_now);
-  const Matrix3 node_b = compose_jacobian_b(map_T_node, node_T_now);
-  PoseEstimate estimate;
-  estimate.stamp = travelled.stamp;
-  estimate.map_T_base = map_T_node * node_T_now;
-  estimate.covariance =
-      node_a * backend_.newest_covariance() * node_a.transpose() + node_b * in_node * node_b.transpose();
-  // During relocalisation the pose in the whole map is unknown, whatever the quality in the local map is.
-  const bool looked_for = backend_.apart() && quality_ != LocalisationQuality::kLost;
-  estimate.quality = looked_for ? LocalisationQuality::kUnknown : quality_;
-  estimate.cause = cause_;
-  estimate.map_epoch = backend_.epoch();
-  return estimate;
-}
-
 Status LineSlam::update(const LaserScan& scan) {
   if (Status valid = validate(scan); !valid) {
     return valid;
@@ -168,6 +144,9 @@ Status LineSlam::update(const LaserScan& scan) {
   ++counts_.scans;
   const PoseEstimate travelled = travelled_.estimate();
   const bool jumped = odometry_jumped();
+  if (is_early(scan)) {
+    return {};
+  }
   if (stands_still(scan)) {
     ++counts_.still;
     look_again(scan);
@@ -197,7 +176,7 @@ Status LineSlam::update(const LaserScan& scan) {
   noise_ = step.found.noise;
   step.all_points = oriented_points(scan, params_.points.normals, noise_);
   Status outcome;
-  if (step.all_points.size() < static_cast<std::size_t>(params_.points.match.min_pairs)) {
+  if (uses_points() && step.all_points.size() < static_cast<std::size_t>(params_.points.match.min_pairs)) {
     quality_ = LocalisationQuality::kDegraded;
     cause_ = "too few returns: the pose goes on by odometry";
     outcome = fail(Errc::kNotReady, "the scan has too few returns on surfaces to say where the robot is");
@@ -207,6 +186,11 @@ Status LineSlam::update(const LaserScan& scan) {
     counts_.lines += step.observations.size();
     follow(step);
   }
+  recover_place();
+  return outcome;
+}
+
+void LineSlam::recover_place() {
   if (backend_.apart()) {
     look_for_robot();
   } else if (failures_ >= params_.relocalise.lost_scans) {
@@ -215,10 +199,14 @@ Status LineSlam::update(const LaserScan& scan) {
   } else if (backend_.loops().contradictions >= params_.relocalise.contradictions) {
     (void)relocalise(std::nullopt);
   }
-  return outcome;
 }
 
 void LineSlam::follow(Scan& scan) {
+  if (!uses_points()) {
+    follow_lines(scan.observations, scan.scan);
+    keep(scan, 0.0);
+    return;
+  }
   if (cloud_.empty()) {
     update_lines(scan.observations, lines_->associate(scan.observations));
     quality_ = LocalisationQuality::kLocalised;

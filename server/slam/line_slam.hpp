@@ -66,17 +66,22 @@ class LineSlam final : public MapTracker {
   /// Whether the odometry has jumped since the last scan that was used.
   [[nodiscard]] bool odometry_jumped() const;
   [[nodiscard]] bool stands_still(const LaserScan& scan) const;
+  /// Whether the next observation is not due yet: LineSlamParams::observation_period_s.
+  [[nodiscard]] bool is_early(const LaserScan& scan);
   /// The motion since the last scan that was used, in the frame of `base` at that scan; its covariance is in the frame
   /// of `base` now.
   [[nodiscard]] UncertainPose expected_motion(const PoseEstimate& travelled, bool silent, double dt_s);
   void note_distance(const Pose2& motion);
   /// Uses the lines of one more scan of a standing robot.
   void look_again(const LaserScan& scan);
+  [[nodiscard]] bool uses_points() const { return params_.points.use != PointUse::kOff; }
   /// Updates the lines; every update is a new revision of the map.
   SpUpdateReport update_lines(const std::vector<lines::SegmentObservation>& observations,
                               const Association& association);
   void learn_odometry(const MatchResult& match, const Matrix3& covariance);
   void follow(Scan& scan);
+  /// Follows by the lines alone.
+  void follow_lines(const std::vector<lines::SegmentObservation>& observations, const LaserScan& scan);
   [[nodiscard]] MatchResult match_points(Scan& scan);
   [[nodiscard]] bool believable(const Scan& scan, const MatchResult& match);
   void correct(Scan& scan, const MatchResult& match);
@@ -90,6 +95,8 @@ class LineSlam final : public MapTracker {
   void store_local_map();
   [[nodiscard]] bool map_is_full() const;
   void start_local_map();
+  /// Searches for the place of a robot that has lost it, where it has.
+  void recover_place();
   void look_for_robot();
   [[nodiscard]] std::vector<SeenPoints> seen_lately() const;
   /// The whole map, ready for a search; a map that cannot be searched is not prepared again at every attempt.
@@ -118,6 +125,7 @@ class LineSlam final : public MapTracker {
   LocalisationQuality quality_ = LocalisationQuality::kUnknown;
   std::string cause_;
   std::optional<RobotTime> last_scan_;
+  Pose2 at_last_scan_;                ///< motion from the last scan that was used to the last scan
   RobotTime used_stamp_;              ///< time of the last scan that was used, from which on the motion is estimated
   std::vector<float> newest_ranges_;  ///< ranges of the last scan
   std::vector<float> used_ranges_;    ///< ranges of the last scan that was not a repetition

@@ -23,7 +23,8 @@ namespace seeker::slam {
 
 /// Which points of a scan correct the pose besides its lines.
 enum class PointUse : std::uint8_t {
-  kNone,      ///< lines only, as in the paper; points still verify and bridge gaps
+  kOff,       ///< lines alone, as in the paper: no match verifies a scan, bridges a gap or closes a loop
+  kNone,      ///< lines only correct the pose; points still verify and bridge gaps
   kLeftover,  ///< points that lie on no line: independent of the lines, so that the covariance stays consistent
   kAll,       ///< every point
 };
@@ -145,6 +146,9 @@ struct LineSlamParams {
   LoopPolicy loops;
   RelocaliseParams relocalise;
   FusionParams fusion;
+  /// Time from one observation to the next, as in the paper's stop-and-go: before it is over, only a scan of a robot
+  /// that has come to a stop is used. 0: every scan is.
+  double observation_period_s = 0.0;
   double min_move_m = 0.02;        ///< a scan after less motion than this is not used
   double min_rotation_rad = 0.01;  ///< or after less rotation than this
   /// Such a scan is used when more than this share of its ranges changed by more than this and their noise.

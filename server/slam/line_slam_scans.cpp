@@ -44,6 +44,31 @@ Status LineSlam::check_direction() {
               "their signs, and begin a new map");
 }
 
+PoseEstimate LineSlam::estimate() const {
+  const PoseEstimate travelled = travelled_.estimate();
+  const Pose2& map_T_node = backend_.pose(backend_.maps().back().id);
+  const Pose2& node_T_base = lines_->robot();
+  const Pose2 increment = odometry_bias_.corrected(travelled.map_T_base);
+  const Pose2 node_T_now = node_T_base * increment;
+  const Matrix3 to_a = compose_jacobian_a(node_T_base, increment);
+  const Matrix3 to_b = compose_jacobian_b(node_T_base, increment);
+  const Matrix3 moved = travelled.covariance + odometry_bias_.covariance_of(travelled.map_T_base);
+  const Matrix3 in_node = to_a * lines_->robot_covariance_map() * to_a.transpose() + to_b * moved * to_b.transpose();
+  const Matrix3 node_a = compose_jacobian_a(map_T_node, node_T_now);
+  const Matrix3 node_b = compose_jacobian_b(map_T_node, node_T_now);
+  PoseEstimate estimate;
+  estimate.stamp = travelled.stamp;
+  estimate.map_T_base = map_T_node * node_T_now;
+  estimate.covariance =
+      node_a * backend_.newest_covariance() * node_a.transpose() + node_b * in_node * node_b.transpose();
+  // During relocalisation the pose in the whole map is unknown, whatever the quality in the local map is.
+  const bool looked_for = backend_.apart() && quality_ != LocalisationQuality::kLost;
+  estimate.quality = looked_for ? LocalisationQuality::kUnknown : quality_;
+  estimate.cause = cause_;
+  estimate.map_epoch = backend_.epoch();
+  return estimate;
+}
+
 bool LineSlam::odometry_jumped() const { return travelled_.estimate().quality == LocalisationQuality::kDegraded; }
 
 UncertainPose LineSlam::expected_motion(const PoseEstimate& travelled, bool silent, double dt_s) {
@@ -61,6 +86,7 @@ UncertainPose LineSlam::expected_motion(const PoseEstimate& travelled, bool sile
 
 void LineSlam::note_distance(const Pose2& motion) {
   travelled_.correct({}, Matrix3::Zero());
+  at_last_scan_ = {};
   travelled_.set_quality(LocalisationQuality::kLocalised, "");  // a jump is over once a scan has been used
   const double distance_m = std::hypot(motion.x_m, motion.y_m);
   distance_m_ += distance_m;
@@ -84,11 +110,29 @@ SpUpdateReport LineSlam::update_lines(const std::vector<lines::SegmentObservatio
   return lines_->update(observations, association);
 }
 
+void LineSlam::follow_lines(const std::vector<lines::SegmentObservation>& observations, const LaserScan& scan) {
+  if (map_is_full()) {
+    begin_next_map(scan.stamp, params_.points.carried_keyframes);
+  }
+  const SpUpdateReport report = update_lines(observations, lines_->associate(observations));
+  counts_.paired += static_cast<std::uint64_t>(report.paired);
+  lines_->observe_free_space(scan);
+  matched_ = true;
+  quality_ = LocalisationQuality::kLocalised;
+  cause_.clear();
+}
+
 void LineSlam::note_quality(const MatchResult& match) {
   const bool corridor = match.degenerate_direction && lines_->observability().degenerate_direction;
   counts_.corridor += corridor ? 1 : 0;
   quality_ = corridor ? LocalisationQuality::kDegraded : LocalisationQuality::kLocalised;
   cause_ = corridor ? "the scan says nothing along the corridor: odometry only in that direction" : "";
+}
+
+bool LineSlam::is_early(const LaserScan& scan) {
+  const Pose2 now = travelled_.estimate().map_T_base;
+  const bool drives = moved(std::exchange(at_last_scan_, now), now, params_.unseen.still_m, params_.unseen.still_rad);
+  return drives && to_seconds(scan.stamp - used_stamp_) < params_.observation_period_s;
 }
 
 bool LineSlam::stands_still(const LaserScan& scan) const {

@@ -76,6 +76,9 @@ double present_d2(const SpState& state, const SpPair& pair, const SegmentObserva
 void update_sequentially(SpState& state, const std::vector<SegmentObservation>& observations, std::vector<SpPair> pairs,
                          SpUpdateReport& report) {
   Matrix3 information = Matrix3::Zero();
+  const SpAssociationParams& association = state.params.association;
+  const bool nearest_neighbour = association.method == SpAssociationMethod::kNearestNeighbour;
+  const double gate = nearest_neighbour ? association.nearest_gate : association.near_gate;
   while (!pairs.empty()) {
     std::size_t nearest = 0;
     double nearest_d2 = 0.0;
@@ -88,7 +91,7 @@ void update_sequentially(SpState& state, const std::vector<SegmentObservation>& 
     }
     const SpPair pair = pairs[nearest];
     pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(nearest));
-    if (nearest_d2 > state.params.association.nearest_gate) {
+    if (nearest_d2 > gate) {
       ++report.rejected;
       continue;
     }
@@ -233,8 +236,8 @@ void SpMap::predict(const Pose2& increment, const Matrix3& covariance) {
 }
 
 Association SpMap::associate(const std::vector<SegmentObservation>& observations) const {
-  return state_->params.mode == SpMode::kJoint ? associate_jointly(*state_, observations)
-                                               : associate_nearest(*state_, observations);
+  return state_->params.association.method == SpAssociationMethod::kJoint ? associate_jointly(*state_, observations)
+                                                                          : associate_nearest(*state_, observations);
 }
 
 SpUpdateReport SpMap::update(const std::vector<SegmentObservation>& observations, const Association& association) {
@@ -252,7 +255,7 @@ SpUpdateReport SpMap::update(const std::vector<SegmentObservation>& observations
     touched.push_back(state.segments[pair.segment].id);
     report.ends += static_cast<int>(pair.ends[0]) + static_cast<int>(pair.ends[1]);
   }
-  if (state.params.mode == SpMode::kJoint) {
+  if (state.params.update == SpUpdateMethod::kJoint) {
     update_at_once(state, observations, pairs, report);
   } else {
     update_sequentially(state, observations, pairs, report);

@@ -6,18 +6,25 @@
 
 namespace seeker::slam {
 
-/// The method of association and update.
-enum class SpMode : std::uint8_t {
-  kJoint,  ///< joint compatibility, one joint update
-  kPaper,  ///< nearest neighbour, one update per pair (spec S1.6, S1.7)
+/// How observations are associated with segments.
+enum class SpAssociationMethod : std::uint8_t {
+  kJoint,             ///< the largest set of pairs that are compatible with each other
+  kNearestNeighbour,  ///< each observation with its nearest segment, as printed (spec S1.6)
+};
+
+/// How the pairs of a scan correct the map.
+enum class SpUpdateMethod : std::uint8_t {
+  kJoint,       ///< all pairs at once
+  kSequential,  ///< pair by pair, the nearest first, centring after each, as printed (spec S1.7)
 };
 
 struct SpAssociationParams {
+  SpAssociationMethod method = SpAssociationMethod::kJoint;
   /// Gate of a pair's (y, theta): 2 dof, 99.9 %. It is wide, since the pairs that a gate rejects are not random: they
   /// hold the information about a large error of the robot (with a gate of 95 % its NEES is 3.21 instead of 3.01: R2,
   /// odometry, seeds 1-200).
   double gate = 13.816;
-  double nearest_gate = 5.991;  ///< the same in paper mode: 95 % (spec S1.6)
+  double nearest_gate = 5.991;  ///< the same for the nearest neighbour: 95 % (spec S1.6)
   double end_gate = 6.635;      ///< gate of an endpoint: 1 dof, 99 %
   /// No new segment is created where an observation is within this gate of an existing one.
   double near_gate = 36.0;
@@ -68,8 +75,8 @@ struct SpExistenceParams {
 };
 
 struct SpMapParams {
-  SpMode mode = SpMode::kJoint;
   SpAssociationParams association;
+  SpUpdateMethod update = SpUpdateMethod::kJoint;
   SpFeatureParams features;
   SpExistenceParams existence;
   /// The joint update is linearised once more when the robot's correction exceeds this.

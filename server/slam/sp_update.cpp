@@ -233,7 +233,7 @@ void update_jointly(SpState& state, const std::vector<SegmentObservation>& obser
   report.dof += static_cast<int>(stacked.f.size());
   Eigen::VectorXd p = -(stacked.pht * stacked.f);
   const bool far = std::hypot(p(0), p(1)) > state.params.relinearise_m || std::abs(p(2)) > state.params.relinearise_rad;
-  if (far && state.params.mode == SpMode::kJoint) {
+  if (far && state.params.update == SpUpdateMethod::kJoint) {
     groups = linearise(state, observations, pairs, p);
     stacked = stack(state, groups);
     const bool solved = solve(stacked.pht, stacked.s, stacked.f);

@@ -55,6 +55,38 @@ TEST(LineSlamStanding, AStandMakesTheDirectionsOfWallsBetterForAWhile) {
   EXPECT_EQ(stand.sigma_rad(), after_rad) << "what does not change is no noise: it must not be averaged for ever";
 }
 
+TEST(LineSlamStanding, WithAnObservationPeriodOnlyAStopOrItsEndMakesAnObservation) {
+  Trip trip(12);
+  LineSlamParams params;
+  params.observation_period_s = 4.0;
+  params.stand_scans = 0;
+  params.points.use = PointUse::kOff;
+  LineSlam slam(params, trip.truth());
+  ASSERT_TRUE(trip.feed(slam));
+  EXPECT_EQ(slam.local_map().scans(), 1U);
+  for (int tick = 0; tick < 20; ++tick) {
+    trip.step();
+    ASSERT_TRUE(trip.feed(slam));
+  }
+  EXPECT_EQ(slam.local_map().scans(), 1U) << "2 s of driving";
+  for (int tick = 1; tick <= 3; ++tick) {
+    LaserScan scan = trip.scan();
+    scan.stamp = trip.time() + seconds(0.1 * tick);
+    ASSERT_TRUE(slam.predict(trip.odom(), scan.stamp));
+    ASSERT_TRUE(slam.update(scan));
+  }
+  EXPECT_EQ(slam.local_map().scans(), 2U) << "one for the stop";
+  EXPECT_LT(distance_m(slam.estimate().map_T_base, trip.truth()), 0.05) << "by lines alone";
+  for (int tick = 0; tick < 3; ++tick) {  // the time that the stop took
+    trip.move({});
+  }
+  for (int tick = 0; tick < 45; ++tick) {
+    trip.step();
+    ASSERT_TRUE(trip.feed(slam));
+  }
+  EXPECT_EQ(slam.local_map().scans(), 3U) << "more than 4 s of driving";
+}
+
 TEST(LineSlamStanding, AStandInACorridorIsOneToo) {
   const std::vector<Wall> walls{{{-50.0, 0.0}, {50.0, 0.0}}, {{50.0, 2.0}, {-50.0, 2.0}}};
   Rng rng(8);

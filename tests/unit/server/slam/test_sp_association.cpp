@@ -165,9 +165,9 @@ struct Niche {
                               test::wall_between({3.0, 2.0}, {3.0, -2.0})};
   Pose2 truth{0.0, 0.25, 0.0};  ///< the map believes (0, 0, 0)
 
-  [[nodiscard]] SpMap map(SpMode mode) const {
+  [[nodiscard]] SpMap map(SpAssociationMethod method) const {
     SpMapParams params;
-    params.mode = mode;
+    params.association.method = method;
     SpMap map = map_of(walls, {}, {false, false}, params);
     map.predict({}, Eigen::Vector3d(0.01, 0.04, 1e-6).asDiagonal().toDenseMatrix());
     return map;
@@ -179,12 +179,12 @@ struct Niche {
 
 TEST(SpAssociation, JointCompatibilityIsRightWhereTheNearestNeighbourIsWrong) {
   const Niche niche;
-  const SpMap joint = niche.map(SpMode::kJoint);
+  const SpMap joint = niche.map(SpAssociationMethod::kJoint);
   const Association together = joint.associate(niche.seen());
   EXPECT_EQ(together.matches[0].segment, joint.segments()[0].id);
   EXPECT_EQ(together.matches[1].segment, joint.segments()[1].id);
   EXPECT_FALSE(together.capped);
-  const SpMap nearest = niche.map(SpMode::kPaper);
+  const SpMap nearest = niche.map(SpAssociationMethod::kNearestNeighbour);
   const Association alone = nearest.associate(niche.seen());
   EXPECT_EQ(alone.matches[1].segment, nearest.segments()[0].id) << "the far wall, 0.15 m from where the near one is";
 }

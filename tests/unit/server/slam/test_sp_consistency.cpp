@@ -103,7 +103,8 @@ TEST(SpConsistency, EndsThatGrowAndBecomeReal) {
 
 TEST(SpConsistency, ThePapersModeIsConsistentToo) {
   SpMapParams params;
-  params.mode = SpMode::kPaper;
+  params.association.method = SpAssociationMethod::kNearestNeighbour;
+  params.update = SpUpdateMethod::kSequential;
   params.features.real_scans = 1;
   params.association.nearest_gate = 1e9;  // known pairs
   const MeanNees whole = run_with_real_ends(params);
