@@ -8,9 +8,6 @@
 namespace seeker::explore {
 namespace {
 
-/// A new segment alone is not growth: bits of walls come and go. It must bring this much of a wall.
-constexpr double kNewSegment_m = 0.2;
-
 constexpr const char* kExplorePhase = "explore";
 
 }  // namespace
@@ -75,7 +72,7 @@ void ActiveStrategy::decide(const StrategyInput& input, StrategyStep& out) {
     return;
   }
   const auto view = input.floors.view();
-  const MapSize size = size_of(input.segments, view ? view->get() : nullptr);
+  const MapSize size = size_of(input.segments, view && params_.one_step.use_floor ? view->get() : nullptr);
   out.step_done = true;
   if (mode_ == Mode::kWall) {
     follow_wall(input, size, out);
@@ -101,6 +98,7 @@ void ActiveStrategy::explore(const StrategyInput& input, const MapSize& size, St
 
 void ActiveStrategy::begin_wall(const StrategyInput& input, const MapSize& size, StrategyStep& out) {
   if (!follower_.start(input.map_T_base, believed(input.segments))) {
+    why_ = "no wall leads to an open end";
     begin_path(input, out);
     return;
   }
@@ -112,17 +110,21 @@ void ActiveStrategy::begin_wall(const StrategyInput& input, const MapSize& size,
 
 void ActiveStrategy::follow_wall(const StrategyInput& input, const MapSize& size, StrategyStep& out) {
   const double grown_m = size.walls_m - wall_size_.walls_m;
-  const bool new_segment = size.segments > wall_size_.segments && grown_m >= kNewSegment_m;
+  const bool new_segment = size.segments > wall_size_.segments && grown_m >= params_.wall.new_segment_m;
   if (grown_m >= params_.wall.leave_growth_m || new_segment) {
     mode_ = Mode::kExplore;
     watch_.reset();
     explore(input, size, out);
     return;
   }
+  if (params_.wall.growth_per_step) {
+    wall_size_ = size;
+  }
   wall_size_.segments = std::max(wall_size_.segments, size.segments);
   const std::vector<MapSegment> segments = believed(input.segments);
   const SightScene scene = scene_around(input, segments, params_.one_step, nullptr);
-  const ControlCheck check(input, scene, params_.one_step.swept_radius_m, longest_step_m(params_.one_step));
+  const ControlCheck check(input, scene, params_.one_step.swept_radius_m, longest_step_m(params_.one_step),
+                           params_.one_step.use_floor);
   WallChoice choice = follower_.decide(input.map_T_base, segments, check);
   wall_goal_map_ = choice.goal_map ? choice.goal_map : wall_goal_map_;
   const bool late = to_seconds(input.now - wall_since_) > params_.wall.time_limit_s;
@@ -148,7 +150,7 @@ void ActiveStrategy::begin_path(const StrategyInput& input, StrategyStep& out) {
   hold_.cancel(input.now);
   if (!params_.one_step.escape_by_path) {
     mode_ = Mode::kDone;
-    why_ = "no wall leads to an open end: nothing is left to explore";
+    why_ += ": nothing is left to explore";
     return;
   }
   mode_ = Mode::kPath;

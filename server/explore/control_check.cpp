@@ -17,9 +17,10 @@ constexpr double kFar_m = 1e3;
 
 }  // namespace
 
-ControlCheck::ControlCheck(const StrategyInput& input, const SightScene& scene, double radius_m, double longest_path_m)
+ControlCheck::ControlCheck(const StrategyInput& input, const SightScene& scene, double radius_m, double longest_path_m,
+                           bool use_floor)
     : map_T_base_(input.map_T_base), radius_m_(radius_m), areas_(input.floors.areas()) {
-  if (const auto view = input.floors.view()) {
+  if (const auto view = input.floors.view(); use_floor && view) {
     floor_ = *view;
   }
   const double reach_m = longest_path_m + 2.0 * radius_m;

@@ -144,12 +144,18 @@ Status validate(const ExploreParams& params) {
   if (!(params.floor_cell_m >= kTileResolution_m)) {
     return fail(Errc::kInvalidArgument, "floor_cell_m must not be below the cells of the occupancy, 0.05 m");
   }
+  if (const Status wall =
+          none_negative({{"wall.ahead_m", params.wall.ahead_m}, {"wall.new_segment_m", params.wall.new_segment_m}});
+      !wall) {
+    return wall;
+  }
   if (params.driver.max_failures < 0) {
     return fail(Errc::kInvalidArgument, "driver.max_failures must not be negative");
   }
   return all_positive({{"wall.distance_m", params.wall.distance_m},
                        {"wall.switch_m", params.wall.switch_m},
                        {"wall.adjacency_m", params.wall.adjacency_m},
+                       {"wall.max_offset_m", params.wall.max_offset_m},
                        {"wall.leave_growth_m", params.wall.leave_growth_m},
                        {"wall.time_limit_s", params.wall.time_limit_s},
                        {"roam.v_m_s", params.roam.v_m_s},

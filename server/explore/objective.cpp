@@ -220,11 +220,13 @@ double least_uncertainty(const Belief& belief, const SensorModel& sensor) {
 
 Terms combine(double least_uncertainty, double uncertainty, const Growth& growth, const SightScene& scene,
               const OneStepParams& params) {
-  double length_m = 0.0;
-  for (const SightWall& wall : scene.walls()) {
-    length_m += wall.length_m;
+  double length_m = scene.map_length_m();
+  auto walls = static_cast<double>(scene.map_segments());
+  if (!params.all_segments) {
+    length_m = std::accumulate(scene.walls().begin(), scene.walls().end(), 0.0,
+                               [](double sum, const SightWall& wall) { return sum + wall.length_m; });
+    walls = static_cast<double>(scene.walls().size());
   }
-  const auto walls = static_cast<double>(scene.walls().size());
   Terms terms;
   terms.j1 = std::max(least_uncertainty, kLeast) / std::max(uncertainty, kLeast);
   terms.j21 = length_m > 0.0 ? growth.extension_m / length_m : 0.0;

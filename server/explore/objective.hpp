@@ -103,8 +103,8 @@ struct Terms {
   [[nodiscard]] bool gains_nothing(double log_floor) const { return j21 <= log_floor && j22 <= log_floor; }
 };
 
-/// Eqs (18)-(22) from the predictions. The sums of (20) and (21) run over the walls of the scene, that is around the
-/// robot: over a whole building they would fall below the floor of the logarithm as the number of walls grows.
+/// Eqs (18)-(22) from the predictions. The denominators of (20) and (21) run over the walls of the scene, that is
+/// around the robot, or as printed over all of the map (OneStepParams::all_segments).
 [[nodiscard]] Terms combine(double least_uncertainty, double uncertainty, const Growth& growth, const SightScene& scene,
                             const OneStepParams& params);
 

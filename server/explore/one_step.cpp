@@ -76,7 +76,7 @@ OneStepChoice choose_one_step(const StrategyInput& input, const std::vector<MapS
   const auto view = input.floors.view();
   const std::shared_ptr<const nav::FloorView> floor = view ? *view : nullptr;
   const SightScene scene = scene_around(input, segments, params, floor);
-  const ControlCheck check(input, scene, params.swept_radius_m, longest_step_m(params));
+  const ControlCheck check(input, scene, params.swept_radius_m, longest_step_m(params), params.use_floor);
   OneStepChoice choice;
   choice.decision.rule = "one-step";
   choice.sees_walls = !scene.walls().empty();

@@ -52,18 +52,34 @@ struct OneStepParams {
   int max_observed = 32;
   /// True: when no wall leads on, drive to the remaining openings by planned paths; false: as printed.
   bool escape_by_path = true;
-  /// Whether the known floor is used too: walls do not extend where the floor was observed to be free, and obstacles
-  /// that are no walls hide what is behind them. false: as printed, mapped segments only.
+  /// Whether the known floor is used too: walls do not extend where the floor was observed to be free, obstacles that
+  /// are no walls hide what is behind them, and controls keep to floor that is known to be free. false: as printed,
+  /// mapped segments and the present scan only.
   bool use_floor = true;
+  /// Whether the denominators of eqs (20) and (21) run over all segments of the map, as printed; false: over those
+  /// around the robot, because over a whole building every gain falls below log_floor.
+  bool all_segments = false;
   SensorModel sensor;
   slam::OdometryParams odometry;  ///< odometry model of the predictions; only its noise is used
 };
 
 struct WallParams {
-  double distance_m = 0.6;  ///< d_w
-  double switch_m = 0.6;    ///< d_sw
-  double adjacency_m = 1.0;
-  double leave_growth_m = 0.5;
+  double distance_m = 0.6;    ///< d_w
+  double switch_m = 0.6;      ///< d_sw
+  double adjacency_m = 1.0;   ///< largest gap between the end of a wall and the wall that continues it
+  double max_offset_m = 4.0;  ///< walls farther from the robot are not followed
+  /// Off its line the robot heads for the point of the line that lies this far ahead. 0: in the line's own direction,
+  /// from which no control of the set brings a robot nearer that is parallel to its line but far from it.
+  double ahead_m = 1.0;
+  double leave_growth_m = 0.5;  ///< growth of the length of all walls at which the robot leaves the wall
+  /// A new segment is a reason to leave the wall, too, when the walls have grown by at least this: parts of walls come
+  /// and go. 0: every new segment is.
+  double new_segment_m = 0.2;
+  /// Whether the growth is that of one step, as in spec S1.12, or that since the robot began to follow walls.
+  bool growth_per_step = false;
+  /// Spec S1.12 without planned paths: where no wall leads to an open end, the robot follows the walls all the same,
+  /// counter-clockwise for one lap, and it rounds every end that no wall continues. false: wall following ends there.
+  bool whole_lap = false;
   double time_limit_s = 300.0;  ///< time limit of one escape along walls, after which planned paths are used
 };
 

@@ -53,8 +53,9 @@ bool surely_free(const Grid<nav::CellState>& floor, const Point2& p_map) {
 
 SightScene::SightScene(const std::vector<MapSegment>& segments, const Point2& place_map, double reach_m,
                        const OneStepParams& params, const Grid<nav::CellState>* floor)
-    : sensor_(params.sensor), corner_gap_m_(params.corner_gap_m), floor_(floor) {
+    : sensor_(params.sensor), corner_gap_m_(params.corner_gap_m), floor_(floor), map_segments_(segments.size()) {
   for (const MapSegment& segment : segments) {
+    map_length_m_ += segment.length_m;
     if (distance_to_segment_m(segment.left(), segment.right(), place_map) <= reach_m) {
       walls_.push_back({segment.map_T_segment, segment.length_m, {segment.left_real, segment.right_real}});
     }

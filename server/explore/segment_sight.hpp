@@ -67,6 +67,10 @@ class SightScene {
 
   [[nodiscard]] const std::vector<SightWall>& walls() const { return walls_; }
   [[nodiscard]] const std::vector<OpenEnd>& open_ends() const { return ends_; }
+  /// Number of all segments of the map, also of those out of reach.
+  [[nodiscard]] std::size_t map_segments() const { return map_segments_; }
+  /// Sum of their lengths.
+  [[nodiscard]] double map_length_m() const { return map_length_m_; }
   /// What is observed from a pose; valid as long as the scene. The pose must be near enough to the scene's place for
   /// the reach to cover its view.
   [[nodiscard]] SightView look(const Pose2& map_T_base) const;
@@ -88,6 +92,8 @@ class SightScene {
   SensorModel sensor_;
   double corner_gap_m_;
   const Grid<nav::CellState>* floor_;
+  std::size_t map_segments_ = 0;
+  double map_length_m_ = 0.0;
   std::vector<SightWall> walls_;
   std::vector<OpenEnd> ends_;
   std::vector<Meeting> meetings_;  ///< nearest first

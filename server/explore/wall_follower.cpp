@@ -12,16 +12,14 @@ namespace {
 
 /// Half the heading's error counts as much as the distance's (spec S1.12, step 3).
 constexpr double kHeadingWeight_m_rad = 0.5;
-/// Off the line the robot heads for a point so far ahead on it. The paper aims at the line's own direction, from which
-/// no control of the set ever brings a robot nearer that is parallel to its line but far from it.
-constexpr double kAhead_m = 1.0;
 constexpr double kProgress_1 = 0.1;  ///< worth of a metre of path length, so that of equal controls the faster one wins
 constexpr double kRotation_rad = 0.35;  ///< beyond this heading error, rotate on the spot where no arc helps
+constexpr double kBefore_m = 0.1;       ///< so far before a wall the robot is on its free side
 constexpr double kPast_m = 0.3;         ///< so far beyond an open end there is nothing that continues the wall
-constexpr double kMaxOff_m = 4.0;       ///< walls farther off are not followed
 constexpr int kMaxSwitches = 8;
 constexpr std::size_t kPlaces = 10;  ///< so many decisions
 constexpr double kNowhere_m = 0.3;   ///< within this: stuck
+constexpr double kLapBegun = 2.0;    ///< so many times the switching distance from its start the robot is on its lap
 
 Pose2 in_segment(const MapSegment& segment, const Pose2& map_T_base) {
   return inverse(segment.map_T_segment) * map_T_base;
@@ -46,11 +44,13 @@ bool WallFollower::start(const Pose2& map_T_base, const std::vector<MapSegment>&
   const double along_m = in_segment(segments[*nearest], map_T_base).x_m;
   const auto left = route_to_open_end(segments, *nearest, along_m, WallSide::kLeft, params_.adjacency_m);
   const auto right = route_to_open_end(segments, *nearest, along_m, WallSide::kRight, params_.adjacency_m);
-  if (!left && !right) {
+  if (!left && !right && !params_.whole_lap) {
     return false;
   }
-  side_ = left && (!right || left->cost_m <= right->cost_m) ? WallSide::kLeft : WallSide::kRight;
+  side_ = right && (!left || right->cost_m < left->cost_m) ? WallSide::kRight : WallSide::kLeft;
   followed_ = segments[*nearest].id;
+  lap_start_map_ = segments[*nearest].map_T_segment * Point2(along_m, -params_.distance_m);
+  lap_begun_ = false;
   return true;
 }
 
@@ -58,7 +58,7 @@ bool WallFollower::start(const Pose2& map_T_base, const std::vector<MapSegment>&
 std::optional<std::size_t> WallFollower::find_followed(const Pose2& map_T_base,
                                                        const std::vector<MapSegment>& segments) const {
   std::optional<std::size_t> nearest;
-  double nearest_m = kMaxOff_m;
+  double nearest_m = params_.max_offset_m;
   for (std::size_t k = 0; k < segments.size(); ++k) {
     if (segments[k].id == followed_) {
       return k;
@@ -73,19 +73,27 @@ std::optional<std::size_t> WallFollower::find_followed(const Pose2& map_T_base,
   return nearest;
 }
 
+std::optional<std::size_t> WallFollower::next_segment(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
+                                                      std::size_t followed) const {
+  const double along_m = in_segment(segments[followed], map_T_base).x_m;
+  const auto route = route_to_open_end(segments, followed, along_m, side_, params_.adjacency_m);
+  const auto next = route && route->segments.size() > 1
+                        ? std::optional(route->segments[1])
+                        : adjacent_segment(segments, followed, side_, params_.adjacency_m);
+  // Round a door post the wall goes on behind the robot's back: its line is not to be headed for through the post.
+  const bool behind = next && in_segment(segments[*next], map_T_base).y_m > -kBefore_m;
+  return params_.whole_lap && behind ? std::nullopt : next;
+}
+
 /// Step 2: near the end ahead the next wall is followed.
 std::size_t WallFollower::switch_segment(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
                                          std::size_t followed) const {
   for (int k = 0; k < kMaxSwitches; ++k) {
     const double left_m = to_end_m(segments[followed], side_, map_T_base);
-    if (left_m > params_.switch_m || !is_real(segments[followed], side_)) {
+    if (left_m > params_.switch_m || (!params_.whole_lap && !is_real(segments[followed], side_))) {
       return followed;
     }
-    const double along_m = in_segment(segments[followed], map_T_base).x_m;
-    const auto route = route_to_open_end(segments, followed, along_m, side_, params_.adjacency_m);
-    const auto next = route && route->segments.size() > 1
-                          ? std::optional(route->segments[1])
-                          : adjacent_segment(segments, followed, side_, params_.adjacency_m);
+    const auto next = next_segment(map_T_base, segments, followed);
     if (!next) {
       return followed;
     }
@@ -99,8 +107,7 @@ WallFollower::Track WallFollower::track_of(const Pose2& map_T_base, const std::v
   const MapSegment& wall = segments[followed];
   const Pose2 along{0.0, 0.0, side_ == WallSide::kLeft ? kPi : 0.0};
   Track track{wall.map_T_segment * Pose2{0.0, -params_.distance_m, 0.0} * along, std::nullopt};
-  const bool loose = is_real(wall, side_) && !adjacent_segment(segments, followed, side_, params_.adjacency_m);
-  if (!loose || to_end_m(wall, side_, map_T_base) > 0.0) {
+  if (!ends_loose(map_T_base, segments, followed) || to_end_m(wall, side_, map_T_base) > 0.0) {
     return track;
   }
   // Round the end: the tangent of a circle about it, at the robot's bearing; the end stays on the wall's hand.
@@ -116,7 +123,8 @@ WallFollower::Track WallFollower::track_of(const Pose2& map_T_base, const std::v
 
 double WallFollower::heading_error_rad(const Track& track, const Pose2& map_T_base) const {
   const Pose2 place = inverse(track.map_T_line) * map_T_base;
-  return wrap_angle(place.theta_rad + std::atan2(place.y_m, kAhead_m));
+  const double to_line_rad = params_.ahead_m > 0.0 ? std::atan2(place.y_m, params_.ahead_m) : 0.0;
+  return wrap_angle(place.theta_rad + to_line_rad);
 }
 
 double WallFollower::error(const Track& track, const Pose2& map_T_base) const {
@@ -172,6 +180,33 @@ bool WallFollower::gets_nowhere(const Pose2& map_T_base) {
                      [&](const Point2& p) { return (p - places_.back()).norm() < kNowhere_m; });
 }
 
+bool WallFollower::ends_loose(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
+                              std::size_t followed) const {
+  const bool ends = params_.whole_lap || is_real(segments[followed], side_);
+  return ends && !next_segment(map_T_base, segments, followed);
+}
+
+bool WallFollower::lap_is_over(const Pose2& map_T_base) {
+  const double from_start_m = (map_T_base.translation() - lap_start_map_).norm();
+  lap_begun_ = lap_begun_ || from_start_m > kLapBegun * params_.switch_m;
+  return lap_begun_ && from_start_m <= params_.switch_m;
+}
+
+std::string WallFollower::end_of_path(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
+                                      std::size_t followed, const std::optional<WallRoute>& route) {
+  if (params_.whole_lap) {
+    return lap_is_over(map_T_base) ? "one lap along the walls has shown nothing new" : "";
+  }
+  if (!route && !ends_loose(map_T_base, segments, followed)) {
+    return "the walls lead to no open end";
+  }
+  const MapSegment& wall = segments[followed];
+  if (!is_real(wall, side_) && to_end_m(wall, side_, map_T_base) < -kPast_m) {
+    return "the open end was passed and the wall does not go on";
+  }
+  return gets_nowhere(map_T_base) ? "the robot gets no farther along the wall" : "";
+}
+
 WallChoice WallFollower::decide(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
                                 const ControlCheck& check) {
   WallChoice choice;
@@ -182,30 +217,21 @@ WallChoice WallFollower::decide(const Pose2& map_T_base, const std::vector<MapSe
     return choice;
   }
   const std::size_t followed = switch_segment(map_T_base, segments, *known);
-  const MapSegment& wall = segments[followed];
-  followed_ = wall.id;
-  const double along_m = in_segment(wall, map_T_base).x_m;
+  followed_ = segments[followed].id;
+  const double along_m = in_segment(segments[followed], map_T_base).x_m;
   const auto route = route_to_open_end(segments, followed, along_m, side_, params_.adjacency_m);
-  const bool loose = is_real(wall, side_) && !adjacent_segment(segments, followed, side_, params_.adjacency_m);
   if (route) {
     choice.goal_map = end_of(segments[route->segments.back()], side_);
-  } else if (!loose) {
-    choice.failure = "the walls lead to no open end";
-    return choice;
   }
-  if (!is_real(wall, side_) && to_end_m(wall, side_, map_T_base) < -kPast_m) {
-    choice.failure = "the open end was passed and the wall does not go on";
-    return choice;
-  }
-  if (gets_nowhere(map_T_base)) {
-    choice.failure = "the robot gets no farther along the wall";
+  choice.failure = end_of_path(map_T_base, segments, followed, route);
+  if (!choice.failure.empty()) {
     return choice;
   }
   choose_control(track_of(map_T_base, segments, followed), map_T_base, check, choice);
   if (choice.decision.chosen) {
     choice.control = choice.decision.candidates[*choice.decision.chosen].control;
-    choice.decision.why =
-        std::string("along the wall on the ") + (side_ == WallSide::kLeft ? "right" : "left") + " to its open end";
+    choice.decision.why = std::string("along the wall on the ") + (side_ == WallSide::kLeft ? "right" : "left") +
+                          (route ? " to its open end" : ", which ends nowhere");
   } else {
     choice.failure = "no control may be held along the wall";
   }

@@ -27,7 +27,8 @@ class WallFollower {
  public:
   WallFollower(const OneStepParams& step, const WallParams& params);
 
-  /// Chooses wall and direction; false: no path along the walls leads to an open end (both costs are infinite).
+  /// Chooses wall and direction; false: there is no wall, or no path along the walls leads to an open end (both costs
+  /// are infinite) and WallParams::whole_lap is false.
   [[nodiscard]] bool start(const Pose2& map_T_base, const std::vector<MapSegment>& segments);
   [[nodiscard]] WallChoice decide(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
                                   const ControlCheck& check);
@@ -51,12 +52,26 @@ class WallFollower {
   [[nodiscard]] double heading_error_rad(const Track& track, const Pose2& map_T_base) const;
   void choose_control(const Track& track, const Pose2& map_T_base, const ControlCheck& check, WallChoice& choice) const;
   [[nodiscard]] bool gets_nowhere(const Pose2& map_T_base);
+  /// The segment that continues the followed one. On a whole lap it counts only once the robot is on its free side.
+  [[nodiscard]] std::optional<std::size_t> next_segment(const Pose2& map_T_base,
+                                                        const std::vector<MapSegment>& segments,
+                                                        std::size_t followed) const;
+  /// Whether the segment ends ahead without another one that continues it, so that the robot rounds its end.
+  [[nodiscard]] bool ends_loose(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
+                                std::size_t followed) const;
+  /// Whether the robot is back where it began to follow walls, on its line.
+  [[nodiscard]] bool lap_is_over(const Pose2& map_T_base);
+  /// Why the path along the walls has ended; empty: it goes on. `route` leads to the open end.
+  [[nodiscard]] std::string end_of_path(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
+                                        std::size_t followed, const std::optional<WallRoute>& route);
 
   OneStepParams step_;
   WallParams params_;
   WallSide side_ = WallSide::kLeft;
-  std::uint64_t followed_ = 0;  ///< id of the followed segment
-  std::vector<Point2> places_;  ///< robot positions at the last decisions, frame `map`
+  std::uint64_t followed_ = 0;             ///< id of the followed segment
+  std::vector<Point2> places_;             ///< robot positions at the last decisions, frame `map`
+  Point2 lap_start_map_ = Point2::Zero();  ///< where the lap began, on the line that the robot follows
+  bool lap_begun_ = false;                 ///< whether the robot has left that place since
 };
 
 }  // namespace seeker::explore

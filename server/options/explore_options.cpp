@@ -35,6 +35,7 @@ void describe(config::Fields& f, OneStepParams& params) {
   f.field("max_observed", params.max_observed);
   f.field("escape_by_path", params.escape_by_path);
   f.field("use_floor", params.use_floor);
+  f.field("all_segments", params.all_segments);
   f.section("sensor", params.sensor);
   f.section("odometry", params.odometry);
 }
@@ -43,7 +44,12 @@ void describe(config::Fields& f, WallParams& params) {
   f.field("distance_m", params.distance_m);
   f.field("switch_m", params.switch_m);
   f.field("adjacency_m", params.adjacency_m);
+  f.field("max_offset_m", params.max_offset_m);
+  f.field("ahead_m", params.ahead_m);
   f.field("leave_growth_m", params.leave_growth_m);
+  f.field("new_segment_m", params.new_segment_m);
+  f.field("growth_per_step", params.growth_per_step);
+  f.field("whole_lap", params.whole_lap);
   f.field("time_limit_s", params.time_limit_s);
 }
 

@@ -36,6 +36,21 @@ std::vector<Terms> terms_of(const std::vector<MapSegment>& walls, const Belief& 
   return evaluate(map_T_base, some_motions(), scene, belief, {});
 }
 
+TEST(Objective, SumsRunOverTheWholeMapWhereTheyAreToBeAsPrinted) {
+  std::vector<MapSegment> walls = corner();
+  walls.push_back(wall({100.0, 2.0}, {113.5, 2.0}));  // out of reach
+  OneStepParams params;
+  const SightScene scene(walls, {0.0, 0.0}, 7.0, params);
+  const Growth growth{1.0, 1.0, {}};
+  const Terms around = combine(1.0, 2.0, growth, scene, params);
+  EXPECT_NEAR(around.j21, 1.0 / 6.5, 1e-12);
+  EXPECT_NEAR(around.j22, 1.0 / 4.0, 1e-12);
+  params.all_segments = true;
+  const Terms all = combine(1.0, 2.0, growth, scene, params);
+  EXPECT_NEAR(all.j21, 1.0 / 20.0, 1e-12);
+  EXPECT_NEAR(all.j22, 1.0 / 6.0, 1e-12);
+}
+
 double robot_size(const PredictedBelief& belief) { return std::sqrt(belief.robot_covariance().determinant()); }
 
 TEST(Objective, MotionIsTheControlsArcAndItsNoiseGrows) {

@@ -79,12 +79,14 @@ struct Walk {
   double nearest_m = 100.0;
   std::string failure;
   std::vector<Pose2> poses;
+  WallParams params;
 
-  explicit Walk(std::vector<MapSegment> segments, const Pose2& start) : walls(std::move(segments)), pose(start) {}
+  explicit Walk(std::vector<MapSegment> segments, const Pose2& start, const WallParams& wall_params = {})
+      : walls(std::move(segments)), pose(start), params(wall_params) {}
 
   bool run(int decisions) {
     const OneStepParams step;
-    WallFollower follower(step, {});
+    WallFollower follower(step, params);
     if (!follower.start(pose, walls)) {
       return false;
     }
@@ -148,6 +150,45 @@ TEST(WallFollower, HasNoWayWhereEveryEndIsReal) {
   WallFollower follower({}, {});
   EXPECT_FALSE(follower.start({2.0, 1.0, 0.0}, room()));
   EXPECT_FALSE(follower.start({2.0, 1.0, 0.0}, {}));
+}
+
+/// As in spec S1.12, without planned paths.
+WallParams whole_lap() {
+  WallParams params;
+  params.adjacency_m = 0.4;
+  params.whole_lap = true;
+  return params;
+}
+
+TEST(WallFollower, GoesRoundARoomOfRealEndsOnceWhenItIsToMakeAWholeLap) {
+  Walk walk(room(), {2.0, 1.0, 0.0}, whole_lap());
+  ASSERT_TRUE(walk.run(100));
+  EXPECT_EQ(walk.failure, "one lap along the walls has shown nothing new");
+  EXPECT_GT(walk.nearest_m, 0.3);
+  EXPECT_NEAR(walk.pose.x_m, 2.0, 0.7) << "back where it began";
+  const auto at_the_top = [](const Pose2& pose) { return pose.y_m > 3.0; };
+  EXPECT_TRUE(std::any_of(walk.poses.begin(), walk.poses.end(), at_the_top));
+}
+
+TEST(WallFollower, RoundsAnEndThatNoWallContinuesOnItsLap) {
+  Walk walk({wall({0.0, 0.0}, {4.0, 0.0}, {false, true})}, {2.0, -0.7, kPi}, whole_lap());
+  ASSERT_TRUE(walk.run(12));
+  EXPECT_EQ(walk.failure, "");
+  EXPECT_GT(walk.nearest_m, 0.3);
+  const auto behind = [](const Pose2& pose) { return pose.y_m > 0.1; };
+  EXPECT_TRUE(std::any_of(walk.poses.begin(), walk.poses.end(), behind));
+}
+
+TEST(WallFollower, NeverComesNearALineThatItIsParallelToWithoutLookingAhead) {
+  const std::vector<MapSegment> walls{wall({-20.0, 0.0}, {4.0, 0.0}, {false, true})};
+  WallParams params;
+  params.ahead_m = 0.0;
+  Walk straight(walls, {2.0, -2.6, kPi}, params);
+  ASSERT_TRUE(straight.run(8));
+  EXPECT_LT(straight.pose.y_m, -2.2) << "every control that leads nearer turns it away from the line's direction";
+  Walk ahead(walls, {2.0, -2.6, kPi});
+  ASSERT_TRUE(ahead.run(8));
+  EXPECT_GT(ahead.pose.y_m, -1.2);
 }
 
 std::string refusal(const std::vector<MapSegment>& walls, const Pose2& pose, const Twist2& control) {
