@@ -186,6 +186,28 @@ void check_horizon(const WorldRuns& world, Report& report) {
                           {"seeds", print_seeds(seeds)}}});
 }
 
+/// Mean of a figure over the runs.
+template <class Value>
+double mean_of(const std::vector<const ExploreResult*>& runs, const Value& value) {
+  double sum = 0.0;
+  for (const ExploreResult* run : runs) {
+    sum += value(*run);
+  }
+  return runs.empty() ? 0.0 : sum / static_cast<double>(runs.size());
+}
+
+/// On how many seeds the value of the active run is lower.
+template <class Value>
+int lower(const std::vector<Pair>& pairs, const Value& value) {
+  return static_cast<int>(
+      std::count_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return value(*p.one) < value(*p.other); }));
+}
+
+double error_m(const ExploreResult& r) { return r.mean_error_m; }
+double wall_share(const ExploreResult& r) { return r.wall_share; }
+double robot_trace(const ExploreResult& r) { return r.mean_robot_trace; }
+double feature_trace(const ExploreResult& r) { return r.mean_feature_trace; }
+
 }  // namespace
 
 const ExploreResult* WorldRuns::find(ExploreStrategy strategy, std::uint64_t seed) const {
@@ -193,6 +215,48 @@ const ExploreResult* WorldRuns::find(ExploreStrategy strategy, std::uint64_t see
     return r.strategy == to_string(strategy) && r.seed == seed;
   });
   return run == runs.end() ? nullptr : &*run;
+}
+
+void check_figures(const WorldRuns& world, bool printed, Report& report) {
+  const std::vector<Pair> pairs = pairs_of(world, ExploreStrategy::kActive, ExploreStrategy::kRoam);
+  if (pairs.empty()) {
+    return;
+  }
+  const std::vector<const ExploreResult*> active = runs_of(world, ExploreStrategy::kActive);
+  const std::vector<const ExploreResult*> roam = runs_of(world, ExploreStrategy::kRoam);
+  const auto majority = static_cast<int>(pairs.size()) / 2 + 1;
+  const auto add = [&](const char* id, const char* claim, bool passed, auto figures) {
+    Check check{.id = id, .passed = passed, .figures = {}, .finding = printed};
+    check.figures = {{"robot", printed ? "printed" : "ours"}, {"claim", claim}};
+    check.figures.insert(check.figures.end(), figures.begin(), figures.end());
+    check.figures.emplace_back("seeds", print_seeds(seeds_of(pairs)));
+    report.add(std::move(check));
+  };
+  using Figures = std::vector<std::pair<std::string, std::string>>;
+  const int more = static_cast<int>(pairs.size()) - lower(pairs, wall_share);
+  add("R1-FIG4", "roaming_maps_less", more >= majority,
+      Figures{{"roam_walls", fixed(mean_of(roam, wall_share), 3)},
+              {"active_walls", fixed(mean_of(active, wall_share), 3)},
+              {"active_more", of(more, pairs.size())}});
+  const auto whole = [](const ExploreResult* run) { return run->wall_share >= kR1WallShare; };
+  const auto complete = static_cast<int>(std::count_if(active.begin(), active.end(), whole));
+  const double along_wall_m = mean_of(active, [](const ExploreResult& r) { return r.along_wall_m; });
+  add("R1-FIG5", "active_maps_all", complete >= majority && along_wall_m > 0.0,
+      Figures{{"walls_95", of(complete, active.size())},
+              {"along_wall_m", fixed(along_wall_m, 1)},
+              {"path_m", fixed(mean_of(active, [](const ExploreResult& r) { return r.path_length_m; }), 1)},
+              {"time_s", fixed(mean_of(active, [](const ExploreResult& r) { return r.robot_time_s; }), 0)}});
+  add("R1-FIG6", "active_error_lower", lower(pairs, error_m) >= majority,
+      Figures{{"active_error_m", fixed(mean_of(active, error_m), 4)},
+              {"roam_error_m", fixed(mean_of(roam, error_m), 4)},
+              {"lower", of(lower(pairs, error_m), pairs.size())}});
+  const int robots = lower(pairs, robot_trace);
+  const int features = lower(pairs, feature_trace);
+  add("R1-FIG7", "active_trace_lower", robots >= majority && features >= majority,
+      Figures{{"active_robot_trace", fixed(mean_of(active, robot_trace), 7)},
+              {"roam_robot_trace", fixed(mean_of(roam, robot_trace), 7)},
+              {"robot_lower", of(robots, pairs.size())},
+              {"feature_lower", of(features, pairs.size())}});
 }
 
 void check_explorations(const WorldRuns& world, Report& report) {

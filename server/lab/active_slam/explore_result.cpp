@@ -45,6 +45,7 @@ void describe(config::Fields& f, ExploreResult& result) {
   f.field("robot_time_s", result.robot_time_s);
   f.field("wall_time_s", result.wall_time_s);
   f.field("path_length_m", result.path_length_m);
+  f.field("along_wall_m", result.along_wall_m);
   f.field("mean_error_m", result.mean_error_m);
   f.field("max_error_m", result.max_error_m);
   f.field("final_error_m", result.final_error_m);

@@ -14,7 +14,7 @@
 namespace seeker::lab {
 
 struct ExploreResult {
-  int schema = 2;
+  int schema = 3;
   std::string world;
   std::string strategy;
   std::uint64_t seed = 0;
@@ -26,6 +26,7 @@ struct ExploreResult {
   double robot_time_s = 0.0;
   double wall_time_s = 0.0;
   double path_length_m = 0.0;  ///< path length of the true robot
+  double along_wall_m = 0.0;   ///< part of it that was driven in wall following
 
   /// Mean over time of the position error, estimated against true, in the frame of the start.
   double mean_error_m = 0.0;

@@ -66,6 +66,9 @@ class Observer {
     record.topology = loop_.neighbours().own().topology;
     record.events = watch_.events();
     record.samples = std::move(samples_);
+    for (std::size_t k = 1; k < path_.size(); ++k) {
+      result.along_wall_m += path_[k].along_wall ? (path_[k].p_world - path_[k - 1].p_world).norm() : 0.0;
+    }
     record.true_path = std::move(path_);
   }
 

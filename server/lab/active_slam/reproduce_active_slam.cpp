@@ -1,6 +1,7 @@
 #include "server/lab/active_slam/reproduce_active_slam.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "common/files/files.hpp"
 #include "common/image/png.hpp"
@@ -18,6 +19,11 @@ constexpr ExploreStrategy kAllStrategies[] = {ExploreStrategy::kActive, ExploreS
 bool chosen(const std::vector<std::string>& names, std::string_view name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
+
+/// The folder of the results of the robot as printed.
+constexpr const char* kPrinted = "printed";
+
+constexpr ExploreStrategy kPrintedStrategies[] = {ExploreStrategy::kActive, ExploreStrategy::kRoam};
 
 std::vector<ExploreSpec> specs_of(const ReproduceParams& params, const ExploreWorld& world, ExploreStrategy strategy) {
   ExploreSpec spec;
@@ -41,10 +47,11 @@ struct WorldExperiment {
   std::vector<ExploreSpec> specs;
 };
 
-Result<WorldExperiment> run_world(const ReproduceParams& params, const ExploreWorld& world) {
+Result<WorldExperiment> run_world(const ReproduceParams& params, const ExploreWorld& world,
+                                  std::span<const ExploreStrategy> strategies) {
   WorldExperiment experiment;
   experiment.runs.world = world;
-  for (const ExploreStrategy strategy : kAllStrategies) {
+  for (const ExploreStrategy strategy : strategies) {
     // Roaming needs the times of the active runs, which come first.
     if (!chosen(params.strategies, to_string(strategy))) {
       continue;
@@ -120,21 +127,51 @@ Status write_tables(const std::filesystem::path& out, const std::vector<ExploreR
   return files::write_file(out / "runs.csv", explore_runs_table(all).csv());
 }
 
+Status draw_figures(const ReproduceParams& params, const WorldExperiment& experiment) {
+  if (Status ok = copy_maps(params, experiment); !ok) {
+    return ok;
+  }
+  return draw_curves(params, experiment);
+}
+
+/// The robot as printed in the same world on the same seeds.
+Status reproduce_printed(ReproduceParams params, ExploreWorld world, Report& report) {
+  params.out /= kPrinted;
+  world.robot = world.printed_robot;
+  std::error_code error;
+  std::filesystem::create_directories(params.out, error);
+  const Result<WorldExperiment> experiment = run_world(params, world, kPrintedStrategies);
+  if (!experiment) {
+    return tl::unexpected<Error>(experiment.error());
+  }
+  if (Status ok = draw_figures(params, *experiment); !ok) {
+    return ok;
+  }
+  check_figures(experiment->runs, true, report);
+  return write_tables(params.out, experiment->runs.runs);
+}
+
 }  // namespace
 
 const std::vector<ExploreWorld>& explore_worlds() {
-  static const std::vector<ExploreWorld> worlds = {
-      {.name = "corridor",
-       .robot = "explore-paper",
-       .wall_near_m = 0.10,
-       .error_limit_m = 0.10,
-       .time_limit_s = 3600.0},
-      {.name = "office", .robot = "explore-office", .wall_near_m = 0.25, .error_limit_m = 0.20, .time_limit_s = 7200.0},
-      {.name = "hospital",
-       .robot = "explore-large",
-       .wall_near_m = 0.25,
-       .error_limit_m = 0.20,
-       .time_limit_s = 14400.0}};
+  static const std::vector<ExploreWorld> worlds = {{.name = "corridor",
+                                                    .robot = "explore-paper",
+                                                    .wall_near_m = 0.10,
+                                                    .error_limit_m = 0.10,
+                                                    .time_limit_s = 3600.0,
+                                                    .printed_robot = "paper/active-slam-2009"},
+                                                   {.name = "office",
+                                                    .robot = "explore-office",
+                                                    .wall_near_m = 0.25,
+                                                    .error_limit_m = 0.20,
+                                                    .time_limit_s = 7200.0,
+                                                    .printed_robot = ""},
+                                                   {.name = "hospital",
+                                                    .robot = "explore-large",
+                                                    .wall_near_m = 0.25,
+                                                    .error_limit_m = 0.20,
+                                                    .time_limit_s = 14400.0,
+                                                    .printed_robot = ""}};
   return worlds;
 }
 
@@ -146,17 +183,20 @@ Status reproduce_active_slam(const ReproduceParams& params, Report& report) {
     if (!chosen(params.worlds, world.name) || (params.smallest && &world != &explore_worlds().front())) {
       continue;
     }
-    const Result<WorldExperiment> experiment = run_world(params, world);
+    const Result<WorldExperiment> experiment = run_world(params, world, kAllStrategies);
     if (!experiment) {
       return tl::unexpected<Error>(experiment.error());
     }
-    if (Status ok = copy_maps(params, *experiment); !ok) {
-      return ok;
-    }
-    if (Status ok = draw_curves(params, *experiment); !ok) {
+    if (Status ok = draw_figures(params, *experiment); !ok) {
       return ok;
     }
     check_explorations(experiment->runs, report);
+    if (!world.printed_robot.empty()) {
+      check_figures(experiment->runs, false, report);
+      if (Status ok = reproduce_printed(params, world, report); !ok) {
+        return ok;
+      }
+    }
     all.insert(all.end(), experiment->runs.runs.begin(), experiment->runs.runs.end());
     if (Status ok = write_tables(params.out, all); !ok) {
       return ok;

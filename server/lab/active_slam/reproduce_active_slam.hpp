@@ -18,6 +18,7 @@ struct ExploreWorld {
   double wall_near_m = 0.25;
   double error_limit_m = 0.20;
   double time_limit_s = 3600.0;  ///< time limit of runs that end by themselves
+  std::string printed_robot;     ///< robot file of the robot as printed (spec S1.14); empty: it is not run there
 };
 [[nodiscard]] const std::vector<ExploreWorld>& explore_worlds();
 
@@ -37,9 +38,14 @@ struct WorldRuns {
 /// are left out.
 void check_explorations(const WorldRuns& world, Report& report);
 
+/// The claims of Figs 4 to 7 of the paper on one robot, with one line for each. Those that the robot as printed does
+/// not meet are FINDINGs.
+void check_figures(const WorldRuns& world, bool printed, Report& report);
+
 /// Makes Fig 4 (roaming map), Fig 5 (active map), Fig 6 (error over time) and Fig 7 (trace over time) of every world
-/// for the first seed; table.csv, table.md, runs.csv; PASS and FAIL lines. Roaming never ends by itself: its time limit
-/// is the duration of the active run of the same seed.
+/// for the first seed, and in the folder `printed` those of the robot as printed; table.csv, table.md, runs.csv; PASS,
+/// FAIL and FINDING lines. Roaming never ends by itself: its time limit is the duration of the active run of the same
+/// seed.
 [[nodiscard]] Status reproduce_active_slam(const ReproduceParams& params, Report& report);
 
 }  // namespace seeker::lab

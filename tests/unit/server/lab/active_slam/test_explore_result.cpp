@@ -31,7 +31,8 @@ ExploreResult result(const std::string& strategy, std::uint64_t seed) {
 
 WorldRuns runs_of_office(std::uint64_t seeds) {
   WorldRuns world;
-  world.world = {.name = "office", .robot = "sim"};
+  world.world.name = "office";
+  world.world.robot = "sim";
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     for (const char* strategy : {"active", "horizon", "roam", "frontier", "gain"}) {
       world.runs.push_back(result(strategy, seed));
