@@ -91,6 +91,8 @@ void describe(config::Fields& f, DetectionParams& params) {
   f.field("lidar_sigma_m", params.lidar_sigma_m);
   f.field("floor_sigma_m", params.floor_sigma_m);
   f.field("sonar_max_range_m", params.sonar_max_range_m);
+  f.field("sonar_radius_m", params.sonar_radius_m);
+  f.check("sonar_radius_m", params.sonar_radius_m >= 0.0, "must be 0 or more");
   f.field("lidar_max_range_m", params.lidar_max_range_m);
   f.angle_deg("lidar_window_deg", params.lidar_window_rad);
   f.field("size_range_factor", params.size_range_factor);

@@ -45,6 +45,8 @@ void describe(config::Fields& f, TemplateParams& params) {
   f.field("aspect_tolerance", params.aspect_tolerance);
   f.field("accept_ncc", params.accept_ncc);
   f.field("accept_gradient_ncc", params.accept_gradient_ncc);
+  f.field("accept_gradient_ncc_large", params.accept_gradient_ncc_large);
+  f.field("plain_shape_margin", params.plain_shape_margin);
   f.field("position_jitter_px", params.position_jitter_px);
   f.field("scale_jitter", params.scale_jitter);
   f.field("min_contrast", params.min_contrast);
@@ -52,6 +54,9 @@ void describe(config::Fields& f, TemplateParams& params) {
   f.field("adaptive_offset", params.adaptive_offset);
   f.field("extra_binarisations", params.extra_binarisations);
   f.field("inner_anchors", params.inner_anchors);
+  f.field("object_alone", params.object_alone);
+  f.field("refine", params.refine);
+  f.field("only_best", params.only_best);
 }
 
 void describe(config::Fields& f, FeatureParams& params) {

@@ -14,6 +14,9 @@ struct DetectionParams {
   double lidar_sigma_m = 0.03;
   double floor_sigma_m = 0.08;  ///< standard deviation of a range from the camera's height, to the middle of the object
   double sonar_max_range_m = 3.0;  ///< farther sonar ranges are not used
+  /// Above 0: echoes lie on the axes of the transducers, at a distance from the robot's centre of this radius and the
+  /// reading, as eqs (2) and (3) of spec S3.3 put them; 0: where the mounts of the transducers put them.
+  double sonar_radius_m = 0.0;
   double lidar_max_range_m = 8.0;
   double lidar_window_rad = deg_to_rad(2.0);  ///< half width of the bundle around the bearing
   /// A range that differs by more than this share from the sighting's own hint (apparent size) belongs to another

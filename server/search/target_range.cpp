@@ -32,6 +32,10 @@ std::vector<Echo> echoes_about(const SonarScan& scan, double bearing_base_rad, c
       echoes.push_back({axis, std::numeric_limits<double>::infinity()});
       continue;
     }
+    if (params.sonar_radius_m > 0.0) {
+      echoes.push_back({axis, reading.range_m + params.sonar_radius_m});
+      continue;
+    }
     const Point2 p = camera_T_base * (reading.base_T_sonar * Point2(reading.range_m, 0.0));
     const double seen = std::atan2(p.y(), p.x()) + params.base_T_camera.theta_rad;
     echoes.push_back({wrap_angle(seen - bearing_base_rad), p.norm()});
@@ -85,7 +89,7 @@ std::optional<RangeReading> sonar_range(const SonarScan& scan, double bearing_ba
   // Disagreement or the end of the ring: the transducer whose own cone holds the direction.
   std::optional<Echo> nearest;
   for (const auto& echo : {left, right}) {
-    if (echo && std::isfinite(echo->range_m) && std::abs(echo->bearing_rad) <= scan.cone_half_angle_rad / 2.0 &&
+    if (echo && std::isfinite(echo->range_m) && std::abs(echo->bearing_rad) <= scan.cone_half_angle_rad &&
         (!nearest || std::abs(echo->bearing_rad) < std::abs(nearest->bearing_rad))) {
       nearest = echo;
     }

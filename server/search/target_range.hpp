@@ -22,8 +22,8 @@ struct RangeReading {
                                                       const DetectionParams& params);
 
 /// Range interpolated between the two transducers beside the bearing, or the range of the one whose cone contains it.
-/// Nothing: the bearing lies beyond the ring's ends (+-90 deg and half a cone), or the neighbours disagree by more than
-/// half a metre.
+/// Nothing: the bearing lies beyond the ring's ends (+-90 deg and half a cone: the paper's own cases at 97 and 100 deg
+/// lie within), or the neighbours disagree by more than half a metre.
 [[nodiscard]] std::optional<RangeReading> sonar_range(const SonarScan& scan, double bearing_base_rad,
                                                       const DetectionParams& params);
 

@@ -109,13 +109,16 @@ CandidateMatch match_candidate(const GreyPyramid& scene, const TemplateVariant& 
   }
   const TemplatePatch& fine = variant.patch_for(match.box);
   match.ncc = correlator.ncc(fine, match.box);
-  refine(correlator, fine, match.box, match.ncc);
+  if (params.refine) {
+    refine(correlator, fine, match.box, match.ncc);
+  }
   if (match.ncc < params.accept_ncc) {
     return match;
   }
   const std::vector<float>& values = correlator.values(fine, match.box);
   match.gradient_ncc = fine.gradient_ncc(values);
-  const bool verified = match.gradient_ncc >= gradient_threshold(variant, fine, params) &&
+  const double threshold = gradient_threshold(variant, fine, params);
+  const bool verified = (threshold <= 0.0 || match.gradient_ncc >= threshold) &&
                         match.ncc >= fine.plain_ncc(values) + params.plain_shape_margin;
   match.outcome = verified ? MatchOutcome::kAccepted : MatchOutcome::kRejectedVerify;
   return match;

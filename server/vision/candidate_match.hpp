@@ -19,8 +19,8 @@ struct CandidateMatch {
 };
 
 /// Correlates the target around the supposed box: a grid of shifts and scales with the smallest patch, then, where that
-/// is promising, step-wise refinement of position and size with the patch that suits the candidate, then the gradient
-/// check.
+/// is promising, step-wise refinement (`refine`) of position and size with the patch that suits the candidate, then the
+/// gradient check.
 [[nodiscard]] CandidateMatch match_candidate(const GreyPyramid& scene, const TemplateVariant& variant,
                                              const cv::Rect2d& supposed, const TemplateParams& params);
 

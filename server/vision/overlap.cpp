@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace seeker::vision {
 namespace {
@@ -28,6 +29,12 @@ int suppress_overlaps(std::vector<Sighting>& sightings) {
   const int dropped = static_cast<int>(sightings.size() - kept.size());
   sightings = std::move(kept);
   return dropped;
+}
+
+int keep_first_of_each_target(std::vector<Sighting>& sightings) {
+  std::set<int> seen;
+  return static_cast<int>(
+      std::erase_if(sightings, [&seen](const Sighting& sighting) { return !seen.insert(sighting.target).second; }));
 }
 
 }  // namespace seeker::vision

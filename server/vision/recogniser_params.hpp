@@ -32,7 +32,7 @@ struct TemplateParams {
   double aspect_tolerance = 0.25;  ///< relative
   double accept_ncc = 0.70;
   double accept_gradient_ncc = 0.60;  ///< gradient check of candidates of 12 px; 0 switches it off
-  /// Gradient check of candidates of 32 px and more, where more of the target is visible.
+  /// Gradient check of candidates of 32 px and more, where more of the target is visible; 0 switches it off.
   double accept_gradient_ncc_large = 0.72;
   /// Excess of the NCC with the target over that with any plain shape; -1 switches it off.
   double plain_shape_margin = 0.03;
@@ -43,6 +43,9 @@ struct TemplateParams {
   double adaptive_offset = 6.0;     ///< grey levels from the local mean
   bool extra_binarisations = true;  ///< in addition to Otsu's: Otsu within each class, local mean
   bool inner_anchors = true;        ///< also locate the target by the regions inside its picture
+  bool object_alone = true;         ///< also correlate the object of the picture without its ground
+  bool refine = true;               ///< refine the box of a promising candidate step by step
+  bool only_best = false;           ///< of each target report the best candidate of the picture, as printed
 
   friend bool operator==(const TemplateParams&, const TemplateParams&) = default;
 };

@@ -86,7 +86,7 @@ struct StageCounts {
   int candidates = 0;          ///< (region, target) pairs that were correlated
   int rejected_ncc = 0;        ///< correlation below the threshold
   int rejected_verify = 0;     ///< rejected by the gradient check
-  int rejected_overlap = 0;    ///< another sighting at the same position has a higher score
+  int rejected_overlap = 0;    ///< another sighting has a higher score: at the same position, or of those wanted
   int features = 0;            ///< key points in the scene (feature recogniser)
   int matches = 0;             ///< mutual matches after the ratio test (feature recogniser)
   int rejected_geometry = 0;   ///< no plausible homography, or too few inliers (feature recogniser)

@@ -153,7 +153,8 @@ TargetTemplate make_target_template(const cv::Mat& grey, int target, double heig
     whole.anchors.insert(whole.anchors.end(), inner.begin(), inner.end());
   }
   out.variants.push_back(std::move(whole));
-  if (std::optional<TemplateVariant> object = object_variant(grey, params)) {
+  std::optional<TemplateVariant> object = params.object_alone ? object_variant(grey, params) : std::nullopt;
+  if (object) {
     out.variants.push_back(std::move(*object));
   }
   return out;

@@ -38,8 +38,8 @@ struct TemplateVariant {
   [[nodiscard]] const TemplatePatch& patch_for(const cv::Rect2d& box) const;
 };
 
-/// All variants of one target: always the whole picture; where the picture shows a textured object on ground of one
-/// colour, also the object alone, since its background differs in a scene.
+/// All variants of one target: always the whole picture; with `object_alone`, where the picture shows a textured object
+/// on ground of one colour, also the object alone, since its background differs in a scene.
 struct TargetTemplate {
   int target = 0;
   double height_m = 0.0;

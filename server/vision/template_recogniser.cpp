@@ -150,6 +150,9 @@ Result<RecognitionReport> TemplateRecogniser::recognise(const Image& picture) co
     match_target(target, regions, scene, grey->size(), report);
   }
   report.stages.rejected_overlap = suppress_overlaps(report.sightings);
+  if (params_.templates.only_best) {
+    report.stages.rejected_overlap += keep_first_of_each_target(report.sightings);
+  }
   report.stages.accepted = static_cast<int>(report.sightings.size());
   return report;
 }

@@ -127,6 +127,33 @@ TEST(RobotFiles, MissingLogOfAReplayIsNamed) {
   EXPECT_NE(assembly.error().message.find("no-such-file.clf"), std::string::npos);
 }
 
+TEST(RobotFiles, WhatARobotIsNotFittedWithIsNoDeviceOfIt) {
+  const auto assembled = [](const std::vector<std::string>& overrides) {
+    return app::assemble(app::load_robot_options(source_file("config/robots/sim.yaml"), overrides).value());
+  };
+  const Result<app::Assembly> usual = assembled({});
+  ASSERT_TRUE(usual);
+  EXPECT_TRUE(usual->parts.devices.lidar && usual->parts.devices.sonar && usual->parts.devices.camera &&
+              usual->parts.devices.stereo);
+  const Result<app::Assembly> blind =
+      assembled({"estimator=odometry", "sensors.lidar=false", "sensors.camera=false", "sensors.stereo=false"});
+  ASSERT_TRUE(blind) << blind.error().message;
+  EXPECT_FALSE(blind->parts.devices.lidar || blind->parts.devices.camera || blind->parts.devices.stereo);
+  EXPECT_TRUE(blind->parts.devices.sonar && blind->parts.devices.base);
+}
+
+TEST(RobotFiles, AnEstimatorThatNeedsALidarIsRefusedWithoutOne) {
+  for (const std::string estimator : {"line_slam", "scan_match"}) {
+    const Result<app::Assembly> assembly =
+        app::assemble(app::load_robot_options(source_file("config/robots/sim.yaml"),
+                                              {"sensors.lidar=false", "estimator=" + estimator})
+                          .value());
+    ASSERT_FALSE(assembly) << estimator;
+    EXPECT_THAT(assembly.error().message,
+                ::testing::AllOf(::testing::HasSubstr(estimator), ::testing::HasSubstr("estimator: odometry")));
+  }
+}
+
 TEST(RobotFiles, PeopleWalkWhereTheWorldOrTheRobotSaysSo) {
   std::ifstream office(source_file("config/worlds/office.yaml"));
   std::string text((std::istreambuf_iterator<char>(office)), std::istreambuf_iterator<char>());

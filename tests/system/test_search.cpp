@@ -66,6 +66,17 @@ TEST(SearchSystem, PaperModeFindsTheTargetOfTheFirstLayout) {
   EXPECT_EQ(robot.simulation->truth().contacts, 0);
 }
 
+TEST(SearchSystem, TheRobotAsPrintedFindsTheTargetWithoutALaser) {
+  SimulatedRobot robot({}, "config/robots/paper/search-2007.yaml");
+  api::MissionRequest request = search_for("cross", api::SearchMode::kPaper);
+  std::get<api::SearchMission>(request.task).on_found = api::OnFound::kStop;
+  ASSERT_TRUE(robot.loop->commands().start_mission(request, "test"));
+  robot.run(1800.0);
+  EXPECT_EQ(robot.end().outcome, api::Outcome::kTargetFound) << robot.end().cause;
+  ASSERT_FALSE(robot.loop->missions().detections().empty());
+  EXPECT_NE(robot.loop->missions().detections().front().range_source, api::RangeSource::kLidar);
+}
+
 TEST(SearchSystem, SilentSonarStopsTheRobotAtOnceAndEndsTheMissionWithTheRemedy) {
   SimulatedRobot robot;
   ASSERT_TRUE(robot.loop->commands().start_mission(search_for("cross"), "test"));

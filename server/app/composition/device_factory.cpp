@@ -115,6 +115,23 @@ Status use_camera(const RobotOptions& options, Devices& devices) {
   return {};
 }
 
+/// Takes out what the driver could offer and the robot does not have.
+void leave_fitted(const FittedSensors& sensors, Devices& devices) {
+  devices.lidar = sensors.lidar ? devices.lidar : nullptr;
+  devices.sonar = sensors.sonar ? devices.sonar : nullptr;
+  devices.camera = sensors.camera ? devices.camera : nullptr;
+  devices.stereo = sensors.stereo ? devices.stereo : nullptr;
+}
+
+/// From the devices of the driver to those of the robot.
+Status fit_out(const RobotOptions& options, Devices& devices) {
+  if (const Status ok = use_camera(options, devices); !ok) {
+    return ok;
+  }
+  leave_fitted(options.sensors, devices);
+  return {};
+}
+
 Result<MadeDevices> make_replay(const RobotOptions& options) {
   if (options.replay.log.empty()) {
     return fail(Errc::kInvalidArgument, "replay.log is empty; name a log with --set replay.log=FILE");
@@ -151,7 +168,7 @@ Result<MadeDevices> make_devices(const RobotOptions& options) {
   if (!made) {
     return made;
   }
-  if (const Status ok = use_camera(options, made->devices); !ok) {
+  if (const Status ok = fit_out(options, made->devices); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   return made;
@@ -167,7 +184,7 @@ Result<MadeSharedDevices> make_shared_devices(std::span<const RobotOptions> robo
   made.robots.reserve(robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) {
     made.robots.push_back(of_sim(std::move(devices->robots[i])));
-    if (const Status ok = use_camera(robots[i], made.robots.back().devices); !ok) {
+    if (const Status ok = fit_out(robots[i], made.robots.back().devices); !ok) {
       return tl::unexpected<Error>(ok.error());
     }
   }

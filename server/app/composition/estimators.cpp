@@ -9,6 +9,11 @@
 #include "server/slam/scan_map_tracker.hpp"
 
 namespace seeker::app {
+namespace {
+
+bool needs_lidar(EstimatorType type) { return type == EstimatorType::kScanMatch || type == EstimatorType::kLineSlam; }
+
+}  // namespace
 
 const std::vector<std::pair<std::string_view, EstimatorType>>& estimator_names() {
   static const std::vector<std::pair<std::string_view, EstimatorType>> kNames = {
@@ -44,6 +49,10 @@ std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotO
 
 Result<std::unique_ptr<Estimator>> make_estimator(const RobotOptions& options, const Devices& devices,
                                                   const std::shared_ptr<LandmarkLibrary>& library) {
+  if (needs_lidar(options.estimator) && devices.lidar == nullptr) {
+    return fail(Errc::kInvalidArgument, "estimator " + std::string(to_string(options.estimator)) +
+                                            " needs a lidar, and this robot has none; write 'estimator: odometry'");
+  }
   if (is_tracker(options.estimator)) {
     return std::unique_ptr<Estimator>(std::make_unique<TrackerEstimator>(make_tracker(options.estimator, options)));
   }

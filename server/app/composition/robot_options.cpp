@@ -179,6 +179,13 @@ void describe(config::Fields& f, ReplaySettings& settings) {
   f.section("laser", settings.params);
 }
 
+void describe(config::Fields& f, FittedSensors& sensors) {
+  f.field("lidar", sensors.lidar);
+  f.field("sonar", sensors.sonar);
+  f.field("camera", sensors.camera);
+  f.field("stereo", sensors.stereo);
+}
+
 void describe(config::Fields& f, LandmarkEstimatorParams& params) {
   f.field("database", params.database);
   f.seconds("look_period_s", params.look_period);
@@ -270,6 +277,7 @@ void describe(config::Fields& f, RobotOptions& options) {
            config::Choices<DriverType>{
                {"sim", DriverType::kSim}, {"replay", DriverType::kReplay}, {"emulator", DriverType::kEmulator}});
   describe_radius(f, options);
+  f.section("sensors", options.sensors);
   f.section("sim", options.sim);
   f.section("emulator", options.emulator);
   f.section("replay", options.replay);

@@ -56,6 +56,14 @@ struct ReplaySettings {
   drivers::ReplayParams params;
 };
 
+/// Which sensors of its driver a robot has. One that it has not is never opened, and nothing is expected of it.
+struct FittedSensors {
+  bool lidar = true;
+  bool sonar = true;
+  bool camera = true;
+  bool stereo = true;
+};
+
 /// The stereo camera, and what is made of its pictures.
 struct StereoSettings {
   std::optional<drivers::StereoCameraParams> camera;  ///< a real one, or recorded pictures; else the simulated one
@@ -73,6 +81,7 @@ struct RobotOptions {
   /// Of its body. A file that names another value means all radii that plans and checks go by, too, unless it says
   /// them.
   double robot_radius_m = 0.26;
+  FittedSensors sensors;
   SimSettings sim;
   EmulatorSettings emulator;
   ReplaySettings replay;

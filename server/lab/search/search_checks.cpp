@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "common/config/yaml.hpp"
 #include "common/core/angle.hpp"
@@ -31,9 +33,9 @@ constexpr std::array<int, search::kLevels> kRuleCounts{23, 42, 20, 46, 29};
 
 }  // namespace
 
-void check_bearings(Report& report) {
+void check_bearings(Report& report, const vision::OmniCameraParams& params) {
   constexpr double kLimit_deg = 0.05;
-  const vision::OmniCamera camera;
+  const vision::OmniCamera camera(params);
   for (const PrintedCase& printed : kPrinted) {
     const double bearing_deg = rad_to_deg(camera.bearing_base_rad(printed.pixel));
     const double sum_deg =
@@ -95,7 +97,8 @@ Check check_layout(const std::vector<RunResult>& runs, int paper_cells) {
     }
   }
   check.passed = check.passed && bearing_deg <= kBearingLimit_deg && position_m <= kPositionLimit_m;
-  check.figures = {{"layout", runs.empty() ? "none" : runs.front().world},
+  check.figures = {{"robot", "sim"},
+                   {"layout", runs.empty() ? "none" : runs.front().world},
                    {"bearing_deg", fixed(bearing_deg, 1)},
                    {"limit", fixed(kBearingLimit_deg, 0)},
                    {"position_m", fixed(position_m, 2)},
@@ -107,6 +110,102 @@ Check check_layout(const std::vector<RunResult>& runs, int paper_cells) {
                    {"contacts", std::to_string(contacts)},
                    {"seeds", print_seeds(seeds)}};
   return check;
+}
+
+namespace {
+
+/// A line of R5 about the robot as printed.
+Check printed_row(const std::string& layout, const std::string& quantity, bool passed) {
+  return {
+      .id = "R5", .passed = passed, .figures = {{"robot", kPrintedRobot}, {"layout", layout}, {"quantity", quantity}}};
+}
+
+Check finds_row(const std::vector<RunResult>& runs, const PrintedLayout& layout, const std::string& seeds) {
+  int found = 0;
+  int false_finds = 0;
+  int contacts = 0;
+  for (const RunResult& run : runs) {
+    found += run.found ? 1 : 0;
+    false_finds += run.false_finds;
+    contacts += run.contacts;
+  }
+  const int wanted = static_cast<int>(runs.size());
+  Check row = printed_row(layout.world, "found", wanted > 0 && found == wanted);
+  row.figures.insert(row.figures.end(), {{"printed", "1/1"},
+                                         {"ours", std::to_string(found) + "/" + std::to_string(wanted)},
+                                         {"false_finds", std::to_string(false_finds)},
+                                         {"contacts", std::to_string(contacts)},
+                                         {"seeds", seeds}});
+  return row;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+std::vector<Check> check_printed_robot(const std::vector<RunResult>& runs, const PrintedLayout& layout) {
+  std::vector<std::uint64_t> seeds;
+  std::vector<double> cells;
+  std::vector<double> errors_deg;
+  double heading_deg = 0.0;
+  bool by_heading = true;
+  for (const RunResult& run : runs) {
+    seeds.push_back(run.seed);
+    if (run.found && run.first_find) {
+      cells.push_back(run.first_find->cells_searched);
+      errors_deg.push_back(run.first_find->bearing_error_deg);
+      heading_deg = std::max(heading_deg, run.localisation_error_deg);
+      by_heading = by_heading && errors_deg.back() - run.localisation_error_deg <= kBearingLimit_deg;
+    }
+  }
+  const bool any = !cells.empty();
+  const auto [fewest, most] = any ? std::pair(std::ranges::min(cells), std::ranges::max(cells)) : std::pair(0.0, 0.0);
+  const double worst_deg = any ? std::ranges::max(errors_deg) : 0.0;
+  std::vector<Check> rows{finds_row(runs, layout, print_seeds(seeds))};
+  // The paper's run is one draw in its own room: it is reproduced where it lies among ours.
+  Check row = printed_row(layout.world, "cells", any && fewest <= layout.cells && layout.cells <= most);
+  row.finding = any;
+  row.figures.insert(row.figures.end(), {{"printed", std::to_string(layout.cells)},
+                                         {"ours", fixed(mean_of(cells), 1)},
+                                         {"range", fixed(fewest, 0) + ".." + fixed(most, 0)}});
+  rows.push_back(std::move(row));
+  row = printed_row(layout.world, "bearing_error_deg", any && worst_deg <= kBearingLimit_deg);
+  row.finding = any && by_heading;  // without a laser nothing corrects the heading
+  row.figures.insert(row.figures.end(), {{"printed", fixed(layout.bearing_error_deg, 0)},
+                                         {"ours", fixed(mean_of(errors_deg), 1)},
+                                         {"worst", fixed(worst_deg, 1)},
+                                         {"limit", fixed(kBearingLimit_deg, 0)},
+                                         {"heading_worst", fixed(heading_deg, 1)}});
+  rows.push_back(std::move(row));
+  return rows;
+}
+
+Check check_empty(const std::string& robot, const std::vector<RunResult>& runs) {
+  const std::string wanted(to_string(api::Outcome::kNotFoundAreaCovered));
+  std::vector<std::uint64_t> seeds;
+  int ended = 0;
+  int false_finds = 0;
+  double covered_min = 1.0;
+  double cells = 0.0;
+  for (const RunResult& run : runs) {
+    seeds.push_back(run.seed);
+    ended += run.outcome == wanted && run.false_finds == 0 ? 1 : 0;
+    false_finds += run.false_finds;
+    covered_min = std::min(covered_min, run.covered_share);
+    cells += static_cast<double>(run.cells_searched) / static_cast<double>(runs.size());
+  }
+  return {.id = "R5",
+          .passed = !runs.empty() && ended == static_cast<int>(runs.size()),
+          .figures = {{"robot", robot},
+                      {"layout", runs.empty() ? "none" : runs.front().world},
+                      {"outcome", wanted},
+                      {"ended", std::to_string(ended) + "/" + std::to_string(runs.size())},
+                      {"false_finds", std::to_string(false_finds)},
+                      {"covered_min", fixed(covered_min, 3)},
+                      {"cells_mean", fixed(cells, 1)},
+                      {"seeds", print_seeds(seeds)}}};
 }
 
 }  // namespace seeker::lab

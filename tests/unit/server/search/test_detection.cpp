@@ -115,6 +115,23 @@ TEST(TargetRange, SonarInterpolatesAndEndsAtTheSides) {
   EXPECT_FALSE(sonar_range(ring(kNoReturn), 0.0, params).has_value());
 }
 
+TEST(TargetRange, TheLastTransducerReachesThePapersOwnBearings) {
+  for (const double bearing_deg : {100.0, 97.0, -100.0}) {
+    EXPECT_TRUE(sonar_range(ring(1.0), deg_to_rad(bearing_deg), {}).has_value()) << bearing_deg;
+  }
+  EXPECT_FALSE(sonar_range(ring(1.0), deg_to_rad(106.0), {}).has_value());
+}
+
+TEST(TargetRange, EchoesAsPrintedLieOnACircleAboutTheRobot) {
+  DetectionParams params;
+  params.sonar_radius_m = 0.26;
+  SonarScan scan = ring(1.0);
+  scan.readings[3].range_m = 1.2F;  // +10 deg
+  EXPECT_NEAR(sonar_range(scan, deg_to_rad(10.0), params)->range_m, 1.46, 1e-6);
+  EXPECT_NEAR(sonar_range(scan, deg_to_rad(0.0), params)->range_m, 1.36, 1e-6) << "between +10 and -10 deg";
+  EXPECT_NEAR(sonar_range(scan, deg_to_rad(100.0), params)->range_m, 1.26, 1e-6);
+}
+
 TEST(TargetRange, LidarComesFirstAndTheHintVetoes) {
   const DetectionParams params;
   const LaserScan laser = scan_with(0.5, 2.0, 5.0);

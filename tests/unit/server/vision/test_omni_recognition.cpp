@@ -70,6 +70,28 @@ TEST(OmniRecognition, BearingIsRightAllAroundTheRobot) {
   EXPECT_LE(score.worst_bearing_deg, 1.0);
 }
 
+TEST(OmniRecognition, OnlyTheBestCandidateOfATargetIsReportedWhereThatIsWanted) {
+  RecogniserParams params = omni_params();
+  const std::vector<TargetModel> models{testing::model_of("sign0", testing::sign(0)),
+                                        testing::model_of("sign1", testing::sign(1))};
+  Rng rng(27);
+  const Image scene = to_image(testing::render(
+      Mirror(), {{testing::sign(0), 0.5, 1.4}, {testing::sign(0), -1.5, 1.4}, {testing::sign(1), 2.5, 1.4}}, 2.5, rng));
+  const auto all = make_recogniser(models, params).value()->recognise(scene);
+  params.templates.only_best = true;
+  const auto best = make_recogniser(models, params).value()->recognise(scene);
+  ASSERT_TRUE(all && best);
+  ASSERT_EQ(all->sightings.size(), 3U);
+  ASSERT_EQ(best->sightings.size(), 2U) << "one of each target";
+  EXPECT_NE(best->sightings[0].target, best->sightings[1].target);
+  for (const Sighting& sighting : best->sightings) {
+    for (const Sighting& other : all->sightings) {
+      EXPECT_TRUE(other.target != sighting.target || other.score <= sighting.score);
+    }
+  }
+  EXPECT_EQ(best->stages.rejected_overlap, all->stages.rejected_overlap + 1);
+}
+
 TEST(OmniRecognition, RecallFallsWithRangeOnly) {
   const auto recogniser = signs_recogniser();
   Rng rng(22);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/search/hit_rate_study.hpp"
@@ -130,6 +130,35 @@ TEST(Checks, ALayoutPassesOnlyWhenEveryRunFoundTheTargetWithinTheLimits) {
   RunResult away = sample(2);
   away.last_find->position_error_m = 0.31;
   EXPECT_FALSE(check_layout({sample(1), away}, 20).passed);
+}
+
+TEST(Checks, ThePrintedRobotIsComparedFigureByFigure) {
+  RunResult late = sample(2);
+  late.first_find->cells_searched = 22;
+  late.first_find->bearing_error_deg = 5.5;
+  const std::vector<Check> rows = check_printed_robot({sample(1), late}, {"paper-a", 20, 4.0});
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_TRUE(rows[0].passed);
+  EXPECT_THAT(line_of(rows[1]), ::testing::HasSubstr("quantity=cells printed=20 ours=20.0 range=18..22"));
+  EXPECT_TRUE(rows[1].passed) << "the printed cell lies among ours";
+  EXPECT_THAT(line_of(rows[2]), ::testing::HasSubstr("printed=4 ours=4.4 worst=5.5 limit=5"));
+  EXPECT_EQ(verdict_of(rows[2]), "FAIL");
+  late.localisation_error_deg = 0.6;
+  EXPECT_EQ(verdict_of(check_printed_robot({sample(1), late}, {"paper-a", 20, 4.0})[2]), "FINDING")
+      << "the heading of the wheels explains it";
+  EXPECT_EQ(verdict_of(check_printed_robot({sample(1), late}, {"paper-b", 17, 3.0})[1]), "FINDING");
+  EXPECT_FALSE(check_printed_robot({}, {"paper-a", 20, 4.0})[0].passed);
+}
+
+TEST(Checks, AWorldWithoutTargetMustEndWithNothingFound) {
+  RunResult ended = sample(1);
+  ended.found = false;
+  ended.outcome = "NOT_FOUND_AREA_COVERED";
+  EXPECT_TRUE(check_empty("sim", {ended}).passed);
+  RunResult mistaken = ended;
+  mistaken.false_finds = 1;
+  EXPECT_FALSE(check_empty("sim", {ended, mistaken}).passed);
+  EXPECT_FALSE(check_empty("sim", {}).passed);
 }
 
 TEST(Checks, ALineNamesIdAndFigures) {
