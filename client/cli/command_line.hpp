@@ -174,7 +174,7 @@ struct CameraGrabVerb {
 struct ComponentsVerb {
   std::string restart;
 };
-struct RunVerb {
+struct RunVerb : FleetOptions {
   std::string file;
   std::vector<std::string> target_folders;
   bool check = false;

@@ -219,13 +219,17 @@ void add_landmarks(Parse& parse) {
   remove->add_flag("--yes", d->yes, "Really: it does not come back");
 }
 
+void add_main(CLI::App& verb, FleetOptions& options) {
+  verb.add_option("--main", options.main,
+                  "The main robot's fleet, HOST[:PORT] (default: the host of --robot, port 7473)");
+}
+
 /// A verb of a fleet, with the option that all of them have.
 template <class T>
 std::pair<CLI::App*, std::shared_ptr<T>> add_fleet_verb(Parse& parse, CLI::App& fleet, const std::string& name,
                                                         const std::string& description, const std::string& example) {
   auto added = add_verb<T>(parse, fleet, name, description, example);
-  added.first->add_option("--main", added.second->main,
-                          "The main robot's fleet, HOST[:PORT] (default: the host of --robot, port 7473)");
+  add_main(*added.first, *added.second);
   return added;
 }
 
@@ -365,6 +369,7 @@ void add_rest(Parse& parse) {
   run->add_option("file", r->file, "Mission script (YAML)")->required();
   repeatable(run->add_option("--targets", r->target_folders, "Folder of target files; repeatable"));
   run->add_flag("--check", r->check, "Read and check the script, command nothing");
+  add_main(*run, *r);
   auto [completion, c] =
       add_verb<CompletionVerb>(parse, parse.app, "completion", "Print completion for a shell",
                                "seeker completion bash > ~/.local/share/bash-completion/completions/seeker");

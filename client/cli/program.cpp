@@ -137,7 +137,8 @@ class Dispatch {
       print_check(context_, verb.file, *script);
       return ExitCode::kOk;
     }
-    return with_robot([&] { return run_script(context_, *script, file.parent_path(), folders); }, true);
+    const FleetCall fleet = [&] { return fleet_status(context_, robot_, verb); };
+    return with_robot([&] { return run_script(context_, *script, file.parent_path(), folders, fleet); }, true);
   }
   VerbResult operator()(const CompletionVerb& verb) const {
     const Result<std::string> script = completion_script(verb.shell);

@@ -24,12 +24,28 @@ StepResult plain(const Status& status) {
   return std::optional<MissionReport>();
 }
 
+constexpr std::chrono::milliseconds kFleetPeriod(500);
+
+/// Robots whose whole maps are in the joint one; the main robot's always is.
+int merged_robots(const api::FleetStatus& fleet) {
+  int merged = 0;
+  for (const api::FleetMember& member : fleet.members) {
+    const bool main = &member == &fleet.members.front();
+    merged += main || (member.state == api::FleetState::kMerged && member.pieces_missing == 0) ? 1 : 0;
+  }
+  return merged;
+}
+
 /// Plays one step; remembers the mission in the background.
 class Player {
  public:
   Player(const Context& context, const std::filesystem::path& folder,
-         const std::vector<std::filesystem::path>& target_folders)
-      : context_(context), folder_(folder), target_folders_(target_folders), start_(SteadyClock::now()) {}
+         const std::vector<std::filesystem::path>& target_folders, const FleetCall& fleet)
+      : context_(context),
+        folder_(folder),
+        target_folders_(target_folders),
+        fleet_(fleet),
+        start_(SteadyClock::now()) {}
 
   StepResult play(const Step& step) {
     step_ = &step;
@@ -75,6 +91,27 @@ class Player {
     }
     return std::optional<MissionReport>();
   }
+  StepResult operator()(const FleetStep& step) const {
+    if (!fleet_) {
+      return fail(Errc::kNotReady, "nobody says where the main robot of the fleet is; give --main");
+    }
+    const auto end = SteadyClock::now() + step.limit;
+    while (true) {
+      const Result<api::FleetStatus> fleet = fleet_();
+      const int merged = fleet ? merged_robots(*fleet) : 0;
+      if (merged >= step.merged) {
+        return std::optional<MissionReport>();
+      }
+      if (SteadyClock::now() >= end) {
+        return fleet ? fail(Errc::kTimeout, std::to_string(merged) + " of " + std::to_string(step.merged) +
+                                                " robots have joined their maps; 'seeker fleet status' says why")
+                     : tl::unexpected<Error>(fleet.error());
+      }
+      if (!sleep_for(context_, kFleetPeriod)) {
+        return fail(Errc::kCancelled, "interrupted");
+      }
+    }
+  }
 
  private:
   StepResult mission() {
@@ -114,6 +151,7 @@ class Player {
   const Context& context_;
   const std::filesystem::path& folder_;
   const std::vector<std::filesystem::path>& target_folders_;
+  const FleetCall& fleet_;
   SteadyClock::time_point start_;
   const Step* step_ = nullptr;
   std::optional<MissionRun> background_;
@@ -133,6 +171,9 @@ void print_steps(const Context& context, const Script& script, const std::vector
   Json json = {{"script", script.name}, {"ok", ok}};
   add_path(json, "robot", script.robot);
   add_path(json, "world", script.world);
+  if (script.robots > 1) {
+    json["robots"] = script.robots;
+  }
   json["steps_planned"] = script.steps.size();
   Json& steps = json["steps"] = Json::array();
   for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -219,7 +260,7 @@ void print_check(const Context& context, const std::string& file, const Script& 
 }
 
 VerbResult run_script(const Context& context, const Script& script, const std::filesystem::path& folder,
-                      const std::vector<std::filesystem::path>& target_folders) {
+                      const std::vector<std::filesystem::path>& target_folders, const FleetCall& fleet) {
   // Told now, not after the mission whose map would be lost.
   for (const Step& step : script.steps) {
     const auto* exported = std::get_if<ExportStep>(&step.action);
@@ -227,7 +268,7 @@ VerbResult run_script(const Context& context, const Script& script, const std::f
       return fail_with_context("map_export", free.error());
     }
   }
-  Player player(context, folder, target_folders);
+  Player player(context, folder, target_folders, fleet);
   std::vector<StepReport> reports;
   bool ok = true;
   for (const Step& step : script.steps) {

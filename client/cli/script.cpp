@@ -8,8 +8,6 @@
 namespace seeker::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 const config::Choices<api::SearchMode> kModes{{"paper", api::SearchMode::kPaper}, {"plan", api::SearchMode::kPlan}};
 const config::Choices<api::OnFound> kOnFound{
     {"stop", api::OnFound::kStop}, {"approach", api::OnFound::kApproach}, {"continue", api::OnFound::kContinue}};
@@ -220,6 +218,17 @@ struct EstopSection {
 };
 void describe(config::Fields& f, EstopSection& s) { f.field("release", s.estop.release); }
 
+struct FleetSection {
+  FleetStep fleet;
+};
+void describe(config::Fields& f, FleetSection& s) {
+  f.field("merged", s.fleet.merged);
+  f.check("merged", s.fleet.merged >= 1 && s.fleet.merged <= kMaxRobots, "must be from 1 to 16 robots");
+  std::optional<Duration> limit;
+  duration(f, "limit", limit);
+  s.fleet.limit = limit.value_or(s.fleet.limit);
+}
+
 struct EmptySection {};
 void describe(config::Fields& /*f*/, EmptySection& /*section*/) {}
 
@@ -304,6 +313,7 @@ void describe(config::Fields& f, StepItem& item) {
   action<EmptySection>(f, "stop", step, count,
                        [&](EmptySection&) { step.action = CommandStep{api::MissionCommand::kStop}; });
   action<EstopSection>(f, "estop", step, count, [&](EstopSection& s) { step.action = s.estop; });
+  action<FleetSection>(f, "fleet", step, count, [&](FleetSection& s) { step.action = s.fleet; });
   std::optional<Duration> wait;
   duration(f, "wait", wait);
   std::string export_name;
@@ -324,37 +334,25 @@ void describe(config::Fields& f, StepItem& item) {
   step.expect = expect.expect;
   f.check("expect", count == 1,
           "a step does exactly one of search, recognise, explore, goto, survey, localise, return, await, wait, drive, "
-          "pause, resume, stop, estop, map_export");
+          "pause, resume, stop, estop, fleet, map_export");
 }
 
 struct ScriptFile {
   std::string name;
   std::string robot;
   std::string world;
+  int robots = 1;
   std::vector<StepItem> steps;
 };
 void describe(config::Fields& f, ScriptFile& script) {
   f.field("name", script.name);
   f.field("robot", script.robot);
   f.field("world", script.world);
+  f.field("robots", script.robots);
+  f.check("robots", script.robots >= 1 && script.robots <= kMaxRobots, "must be from 1 to 16");
   f.require("steps");
   f.list("steps", script.steps);
   f.check("steps", !script.steps.empty() && script.steps.size() <= kMaxSteps, "must have 1 to 1000 steps");
-}
-
-/// A file that the script at `script` names under `key`, relative to the script's folder.
-Status resolve(const fs::path& script, const std::string& key, fs::path& file) {
-  if (file.empty()) {
-    return {};
-  }
-  const fs::path there = fs::absolute(script.parent_path() / file).lexically_normal();
-  std::error_code error;
-  if (!fs::is_regular_file(there, error)) {
-    return fail(Errc::kNotFound, script.string() + ": " + key + ": there is no file " + there.string() +
-                                     "; write its path relative to the script's folder, or leave '" + key + "' out");
-  }
-  file = there;
-  return {};
 }
 
 }  // namespace
@@ -369,27 +367,12 @@ Result<Script> parse_script(std::string_view text, const std::string& name) {
     return tl::unexpected<Error>(ok.error());
   }
   Script script;
-  script.name = file.name.empty() ? fs::path(name).stem().string() : file.name;
+  script.name = file.name.empty() ? std::filesystem::path(name).stem().string() : file.name;
   script.robot = file.robot;
   script.world = file.world;
+  script.robots = file.robots;
   for (StepItem& item : file.steps) {
     script.steps.push_back(std::move(item.step));
-  }
-  return script;
-}
-
-Result<Script> load_script(const fs::path& path) {
-  const Result<std::string> text = config::read_text_file(path);
-  if (!text) {
-    return tl::unexpected<Error>(text.error());
-  }
-  Result<Script> script = parse_script(*text, path.string());
-  if (script) {
-    for (const auto& [key, file] : {std::pair("robot", &script->robot), std::pair("world", &script->world)}) {
-      if (const Status ok = resolve(path, key, *file); !ok) {
-        return tl::unexpected<Error>(ok.error());
-      }
-    }
   }
   return script;
 }

@@ -73,9 +73,14 @@ struct EstopStep {
 struct ExportStep {
   std::string name;
 };
+/// Waits until robots of the fleet have joined their maps.
+struct FleetStep {
+  int merged = 2;                            ///< so many, the main one included
+  Duration limit = std::chrono::minutes(2);  ///< longest wait, wall time
+};
 
 using StepAction = std::variant<SearchStep, ExploreStep, GotoStep, SurveyStep, LocaliseStep, RecogniseStep, ReturnStep,
-                                AwaitStep, WaitStep, DriveStep, CommandStep, EstopStep, ExportStep>;
+                                AwaitStep, WaitStep, DriveStep, CommandStep, EstopStep, ExportStep, FleetStep>;
 
 /// Conditions that must hold after a step. Empty fields are not checked.
 struct Expectation {
@@ -99,10 +104,12 @@ struct Script {
   std::string name;
   std::filesystem::path robot;  ///< the robot file that the script was written for; empty: any robot
   std::filesystem::path world;  ///< the world file that it was written for; empty: that of the robot file
+  int robots = 1;               ///< robots of one world that play it at the same time, each from its own client
   std::vector<Step> steps;
 };
 
 inline constexpr std::size_t kMaxSteps = 1000;
+inline constexpr int kMaxRobots = 16;
 
 /// Reads a script; errors name file, line and path. No other file is opened: `robot` and `world` stay as written, and
 /// check_missions() loads the targets.

@@ -9,6 +9,7 @@
 #include "client/cli/command_line.hpp"
 #include "client/cli/context.hpp"
 #include "client/cli/mission_run.hpp"
+#include "common/api/fleet.hpp"
 
 namespace seeker::cli {
 
@@ -46,6 +47,8 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult revert_landmarks(const Context& context, const LandmarksRevertVerb& verb);
 [[nodiscard]] VerbResult delete_landmarks(const Context& context, const LandmarksDeleteVerb& verb);
 // The calls to a fleet; `robot` is the address given with --robot.
+[[nodiscard]] Result<api::FleetStatus> fleet_status(const Context& context, const std::string& robot,
+                                                    const FleetOptions& options);
 [[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetStatusVerb& verb);
 [[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetMergeVerb& verb);
 [[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetSplitVerb& verb);

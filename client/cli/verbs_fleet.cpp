@@ -109,9 +109,13 @@ VerbResult decide(const Context& context, const std::string& robot, const FleetO
 
 }  // namespace
 
+Result<api::FleetStatus> fleet_status(const Context& context, const std::string& robot, const FleetOptions& options) {
+  Result<rpc::FleetClient> client = fleet_of(context, robot, options);
+  return client ? client->status() : tl::unexpected<Error>(client.error());
+}
+
 VerbResult fleet(const Context& context, const std::string& robot, const FleetStatusVerb& verb) {
-  Result<rpc::FleetClient> client = fleet_of(context, robot, verb);
-  return show(context, client ? client->status() : tl::unexpected<Error>(client.error()));
+  return show(context, fleet_status(context, robot, verb));
 }
 
 VerbResult fleet(const Context& context, const std::string& robot, const FleetMergeVerb& verb) {

@@ -189,7 +189,8 @@ Status reproduce_search(const ReproduceParams& params, Report& report) {
   }
   return check_mission_scripts({.programs = params.programs.empty() ? own_folder() : params.programs,
                                 .config = params.config,
-                                .out = params.out},
+                                .out = params.out,
+                                .smallest = params.smallest},
                                report);
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -113,6 +114,38 @@ TEST(Script, MissionsAreMadeOfTheirSteps) {
                                  {api::solid_target(SolidKind::kSphere), api::solid_target(SolidKind::kEllipsoid)}}));
 }
 
+TEST(Script, AFleetIsWaitedForByTheNumberOfJoinedMaps) {
+  const auto script = parse_script(
+      "robots: 3\nsteps:\n  - explore: {strategy: topological}\n  - fleet: {merged: 3, limit: 5min}\n  - fleet: {}\n",
+      "m.yaml");
+  ASSERT_TRUE(script) << script.error().message;
+  EXPECT_EQ(script->robots, 3);
+  const auto& fleet = std::get<FleetStep>(script->steps[1].action);
+  EXPECT_EQ(fleet.merged, 3);
+  EXPECT_EQ(fleet.limit, std::chrono::minutes(5));
+  EXPECT_EQ(std::get<FleetStep>(script->steps[2].action).merged, 2);
+  EXPECT_FALSE(is_mission(script->steps[1].action));
+  EXPECT_NE(error_of("robots: 0\nsteps:\n  - stop: {}\n").find("robots: must be from 1 to 16"), std::string::npos);
+  EXPECT_NE(error_of("steps:\n  - fleet: {merged: 99}\n").find("merged"), std::string::npos);
+}
+
+/// Every kind of mission there is.
+template <std::size_t... kIndex>
+std::set<std::string> mission_kinds(std::index_sequence<kIndex...> /*all*/) {
+  return {std::string(api::task_name(api::MissionTask(std::variant_alternative_t<kIndex, api::MissionTask>{})))...};
+}
+
+TEST(Script, EveryKindOfMissionAndTheFleetHaveAShippedScript) {
+  std::set<std::string> kinds = mission_kinds(std::make_index_sequence<std::variant_size_v<api::MissionTask>>());
+  kinds.insert("fleet");
+  for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/missions"))) {
+    for (const Step& step : load_script(entry.path()).value().steps) {
+      kinds.erase(step.kind);
+    }
+  }
+  EXPECT_TRUE(kinds.empty()) << *kinds.begin();
+}
+
 TEST(Script, ShippedMissionsAreSound) {
   const std::filesystem::path folder = testing::source_file("config/missions");
   int count = 0;
@@ -140,7 +173,7 @@ class RunScript : public ::testing::Test, public CliFixture {
     if (during) {
       helper = std::thread(during);
     }
-    const VerbResult result = run_script(context, *script, ".", {testing::source_file("config/targets")});
+    const VerbResult result = run_script(context, *script, ".", {testing::source_file("config/targets")}, fleet);
     if (helper.joinable()) {
       helper.join();
     }
@@ -148,7 +181,34 @@ class RunScript : public ::testing::Test, public CliFixture {
   }
   std::ostringstream out;
   std::ostringstream err;
+  FleetCall fleet;
 };
+
+TEST_F(RunScript, AFleetStepEndsWhenTheRobotsHaveJoinedTheirMaps) {
+  int asked = 0;
+  fleet = [&asked]() -> Result<api::FleetStatus> {
+    api::FleetStatus status;
+    status.members.resize(2);
+    status.members[1].state = ++asked < 2 ? api::FleetState::kWaiting : api::FleetState::kMerged;
+    return status;
+  };
+  const auto result = play("steps:\n  - fleet: {merged: 2, limit: 1min}\n");
+  ASSERT_TRUE(result);
+  EXPECT_EQ(*result, ExitCode::kOk) << out.str();
+  EXPECT_EQ(asked, 2);
+}
+
+TEST_F(RunScript, AFleetStepFailsInTimeWithTheNumberOfThoseThatHaveJoined) {
+  fleet = []() -> Result<api::FleetStatus> {
+    api::FleetStatus status;
+    status.members.resize(1);
+    return status;
+  };
+  const auto result = play("steps:\n  - fleet: {merged: 2, limit: 1ms}\n");
+  ASSERT_TRUE(result);
+  EXPECT_EQ(*result, ExitCode::kFailed);
+  EXPECT_NE(out.str().find("1 of 2 robots"), std::string::npos) << out.str();
+}
 
 TEST_F(RunScript, PassesWhenEveryExpectationHolds) {
   const auto result = play(
