@@ -171,8 +171,13 @@ struct CameraGrabVerb {
   std::string camera;  ///< name; empty: the camera by which the robot searches for targets
   std::string out;
 };
+enum class ComponentsAction : std::uint8_t { kList, kGet, kSet, kExchange, kActivate, kDeactivate };
 struct ComponentsVerb {
   std::string restart;
+  ComponentsAction action = ComponentsAction::kList;
+  std::string name;                      ///< of the component that the action is for
+  std::string type;                      ///< to exchange it for
+  std::vector<std::string> assignments;  ///< "key=value"
 };
 struct RunVerb : FleetOptions {
   std::string file;

@@ -328,6 +328,41 @@ void add_maps(Parse& parse) {
   relocalise->add_flag("--wait", r->wait, "Wait until the robot has found its place or given up");
 }
 
+/// One action on a component; its options write to the struct of the whole verb.
+CLI::App* add_component_action(CLI::App& components, ComponentsVerb& verb, ComponentsAction action,
+                               const std::string& name, const std::string& description, const std::string& example) {
+  CLI::App* sub = components.add_subcommand(name, description);
+  sub->fallthrough();
+  sub->footer("Example:\n  seeker components " + example);
+  sub->add_option("name", verb.name, "Name of the component, as 'seeker components' lists it")->required();
+  sub->callback([&verb, action] { verb.action = action; });
+  return sub;
+}
+
+void add_components(Parse& parse) {
+  auto [components, r] =
+      add_verb<ComponentsVerb>(parse, parse.app, "components", "The robot's parts, their ports and who feeds whom",
+                               "seeker components --restart camera");
+  components->add_option("--restart", r->restart, "Restart this component; a running mission is paused");
+  components->require_subcommand(0, 1);
+  using Action = ComponentsAction;
+  add_component_action(*components, *r, Action::kGet, "get", "Settings of a component and when a change takes effect",
+                       "get recogniser");
+  add_component_action(*components, *r, Action::kSet, "set", "Change settings while the robot runs, all or none",
+                       "set lidar period_s=0.2")
+      ->add_option("settings", r->assignments, "KEY=VALUE, as 'seeker components get NAME' lists them")
+      ->required();
+  add_component_action(*components, *r, Action::kExchange, "exchange",
+                       "Exchange estimator, recogniser or planner while no mission runs; with a new estimator a "
+                       "new map begins",
+                       "exchange pose scan_match")
+      ->add_option("type", r->type, "What to exchange it for, as in a robot file")
+      ->required();
+  add_component_action(*components, *r, Action::kActivate, "activate", "Activate a component", "activate sonar");
+  add_component_action(*components, *r, Action::kDeactivate, "deactivate",
+                       "Deactivate a component; the robot stands still until it is active again", "deactivate sonar");
+}
+
 void add_reports(Parse& parse) {
   add_verb<StatusVerb>(parse, parse.app, "status", "Where the robot is, what it does, what is wrong", "seeker status");
   auto [watch, w] = add_verb<WatchVerb>(parse, parse.app, "watch", "Follow the robot live until Ctrl-C or --timeout",
@@ -357,9 +392,7 @@ void add_reports(Parse& parse) {
                                             "seeker camera grab --camera omni --out view.png");
   grab->add_option("--camera", c->camera, "Name of the camera (default: the one that targets are looked for with)");
   grab->add_option("--out", c->out, "File to write (default CAMERA.png)");
-  auto [components, r] = add_verb<ComponentsVerb>(parse, parse.app, "components", "The robot's parts and their state",
-                                                  "seeker components --restart camera");
-  components->add_option("--restart", r->restart, "Restart this component; a running mission is paused");
+  add_components(parse);
 }
 
 void add_rest(Parse& parse) {

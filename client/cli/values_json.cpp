@@ -183,10 +183,22 @@ void to_json(Json& json, const RobotStatus& status) {
           {"faults", status.faults}};
 }
 
+void to_json(Json& json, const ComponentPort& port) {
+  json = {{"name", port.name},       {"type", port.type},
+          {"output", port.output},   {"connected", port.connected},
+          {"rate_hz", port.rate_hz}, {"age_s", port.age ? Json(to_seconds(*port.age)) : Json()}};
+}
+
 void to_json(Json& json, const ComponentInfo& component) {
   json = {{"name", component.name},       {"kind", component.kind},
           {"type", component.type},       {"state", to_string(component.state)},
-          {"rate_hz", component.rate_hz}, {"last_error", component.last_error}};
+          {"rate_hz", component.rate_hz}, {"last_error", component.last_error},
+          {"ports", component.ports}};
+}
+
+void to_json(Json& json, const ComponentSetting& setting) {
+  json = {
+      {"key", setting.key}, {"value", setting.value}, {"path", setting.path}, {"effect", to_string(setting.effect)}};
 }
 
 void to_json(Json& json, const Event& event) {

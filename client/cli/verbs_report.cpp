@@ -102,34 +102,6 @@ VerbResult show_status(const Context& context) {
   return ExitCode::kOk;
 }
 
-VerbResult show_components(const Context& context, const ComponentsVerb& verb) {
-  if (!verb.restart.empty()) {
-    const Status ok = ask<void>(
-        context, [&](api::Reply<void> reply) { context.robot->restart_component(verb.restart, std::move(reply)); });
-    if (!ok) {
-      return tl::unexpected<Error>(ok.error());
-    }
-    say(context,
-        "restarted " + verb.restart + "; the motors are off until a mission starts or is resumed, or somebody drives");
-  }
-  const auto components = ask<std::vector<api::ComponentInfo>>(context, &api::RobotApi::list_components);
-  if (!components) {
-    return tl::unexpected<Error>(components.error());
-  }
-  if (context.json) {
-    *context.out << json_line(Json{{"components", *components}}) << '\n';
-    return ExitCode::kOk;
-  }
-  for (const api::ComponentInfo& c : *components) {
-    const std::string state(to_string(c.state));
-    *context.out << std::left << std::setw(16) << c.name << ' ' << std::setw(12) << c.kind << ' ' << std::setw(18)
-                 << c.type << ' ' << std::setw(9)
-                 << (c.state == api::ComponentState::kError ? alarm(context, state) : state)
-                 << fixed("%6.1f Hz", c.rate_hz) << (c.last_error.empty() ? "" : "  " + c.last_error) << '\n';
-  }
-  return ExitCode::kOk;
-}
-
 VerbResult show_detections(const Context& context) {
   const auto detections = ask<std::vector<api::Detection>>(context, &api::RobotApi::get_detections);
   if (!detections) {

@@ -332,6 +332,16 @@ std::string_view to_string(ComponentState state) {
   return "ERROR";
 }
 
+std::string_view to_string(SettingEffect effect) {
+  switch (effect) {
+    case SettingEffect::kNow: return "NOW";
+    case SettingEffect::kNextMission: return "NEXT_MISSION";
+    case SettingEffect::kExchange: return "EXCHANGE";
+    case SettingEffect::kRestart: return "RESTART";
+  }
+  return "RESTART";
+}
+
 std::string_view to_string(Severity severity) {
   switch (severity) {
     case Severity::kInfo: return "INFO";

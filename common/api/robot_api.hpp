@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/api/component.hpp"
 #include "common/api/landmarks.hpp"
 #include "common/api/map.hpp"
 #include "common/api/mission.hpp"
@@ -94,6 +95,19 @@ class RobotApi {
   virtual void get_status(Reply<RobotStatus> reply) = 0;
   virtual void list_components(Reply<std::vector<ComponentInfo>> reply) = 0;
   virtual void restart_component(const std::string& name, Reply<void> reply) = 0;
+  /// Activates or deactivates a component. One that is not active holds the robot still by a fault. kNotFound lists the
+  /// names there are.
+  virtual void switch_component(const std::string& name, bool active, Reply<void> reply) = 0;
+  /// Puts another type of an estimator, recogniser or planner in place of the present one. kBusy: a mission runs;
+  /// kRefused: the component cannot be exchanged, or the robot moves. All stays as it was after an error. Where an
+  /// estimator is exchanged a new map begins.
+  virtual void exchange_component(const std::string& name, const std::string& type, Reply<void> reply) = 0;
+  /// The configuration set of a component as it is in use.
+  virtual void get_settings(const std::string& component, Reply<std::vector<ComponentSetting>> reply) = 0;
+  /// Changes settings, each given as "key=value", all or none; answers with the changed ones. kInvalidArgument names
+  /// the path in the robot file of a value that is wrong; kRefused: the change needs a restart.
+  virtual void set_settings(const std::string& component, const std::vector<std::string>& assignments,
+                            Reply<std::vector<ComponentSetting>> reply) = 0;
 
   /// Answers at once; progress comes as Topic::kMission. Repeating a request with the id of the mission that runs
   /// is accepted and changes nothing; another one while one runs is kBusy.

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/api/component.hpp"
 #include "common/api/map.hpp"
 #include "common/api/mission.hpp"
 #include "common/core/occupancy_tile.hpp"
@@ -19,7 +20,7 @@
 namespace seeker::api {
 
 inline constexpr std::uint32_t kProtocolMajor = 1;
-inline constexpr std::uint32_t kProtocolMinor = 3;
+inline constexpr std::uint32_t kProtocolMinor = 4;
 
 /// Identity and capabilities of a robot, as sent in the answer to hello.
 struct RobotInfo {
@@ -36,21 +37,6 @@ struct RobotInfo {
 
 /// 1 to 64 letters, digits, '-', '_' and '.', which is not the first: the id also names folders and files.
 [[nodiscard]] Status validate_robot_id(std::string_view robot_id);
-
-enum class ComponentState : std::uint8_t { kCreated, kInactive, kActive, kError };
-[[nodiscard]] std::string_view to_string(ComponentState state);
-
-/// A part of the robot: registered by name, with a lifecycle (spec S4.9).
-struct ComponentInfo {
-  std::string name;
-  std::string kind;  ///< "driver", "estimator", "behaviour", "recogniser", ...
-  std::string type;  ///< "sim", "replay", "scan_match", ...
-  ComponentState state = ComponentState::kCreated;
-  double rate_hz = 0.0;  ///< outputs per second of robot time, over the last seconds
-  std::string last_error;
-
-  friend bool operator==(const ComponentInfo&, const ComponentInfo&) = default;
-};
 
 enum class Severity : std::uint8_t { kInfo, kWarning, kError, kCritical };
 [[nodiscard]] std::string_view to_string(Severity severity);

@@ -40,8 +40,12 @@ Status apply_override(const YAML::Node& root, const std::string& assignment) {
     }
     node.reset(node[keys[i]]);
   }
+  const std::string value = assignment.substr(equals + 1);
+  if (const Status ok = guard_yaml(value, "--set " + assignment); !ok) {
+    return ok;
+  }
   try {
-    node[keys.back()] = YAML::Load(assignment.substr(equals + 1));
+    node[keys.back()] = YAML::Load(value);
   } catch (const YAML::Exception& error) {
     return fail(Errc::kParse, "--set " + assignment + ": " + error.msg);
   }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/config/fields.hpp"
@@ -74,8 +75,8 @@ template <class T>
 /// The bytes of a text file, at most kMaxFileBytes.
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path);
 
-/// Collects the effective values as YAML text.
-class Printer final : public Fields {
+/// Turns the effective values into texts, each as it stands in a file.
+class TextFields : public Fields {
  public:
   void field(std::string_view key, double& value) override;
   void field(std::string_view key, int& value) override;
@@ -91,6 +92,16 @@ class Printer final : public Fields {
   void check(std::string_view /*key*/, bool /*ok*/, std::string_view /*message*/) override {}
   [[nodiscard]] bool has(std::string_view /*key*/) const override { return false; }
   [[nodiscard]] bool reading() const override { return false; }
+
+ protected:
+  virtual void line(std::string_view key, const std::string& value) = 0;
+  void refuse_choice(std::string_view /*key*/, const std::string& /*got*/,
+                     const std::vector<std::string_view>& /*allowed*/) override {}
+};
+
+/// Collects the effective values as YAML text.
+class Printer final : public TextFields {
+ public:
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
@@ -98,13 +109,37 @@ class Printer final : public Fields {
   [[nodiscard]] std::optional<std::size_t> enter_list(std::string_view key, std::size_t size) override;
   void enter_item(std::size_t index) override;
   void leave() override;
-  void refuse_choice(std::string_view /*key*/, const std::string& /*got*/,
-                     const std::vector<std::string_view>& /*allowed*/) override {}
-  void line(std::string_view key, const std::string& value);
+  void line(std::string_view key, const std::string& value) override;
 
   std::string text_;
   int depth_ = 0;
   bool item_start_ = false;
+};
+
+/// One effective value and its path in a file: "a.b.c".
+struct Leaf {
+  std::string path;
+  std::string value;
+
+  friend bool operator==(const Leaf&, const Leaf&) = default;
+};
+
+/// Collects the effective values with their paths; lists of sections are left out.
+class LeafCollector final : public TextFields {
+ public:
+  [[nodiscard]] std::vector<Leaf>& leaves() { return leaves_; }
+
+ private:
+  [[nodiscard]] bool enter(std::string_view key) override;
+  [[nodiscard]] std::optional<std::size_t> enter_list(std::string_view /*key*/, std::size_t /*size*/) override {
+    return std::nullopt;
+  }
+  void enter_item(std::size_t /*index*/) override {}
+  void leave() override;
+  void line(std::string_view key, const std::string& value) override;
+
+  std::vector<Leaf> leaves_;
+  std::vector<std::string> sections_;
 };
 
 /// The effective values of a struct as YAML.
@@ -113,6 +148,14 @@ template <class T>
   Printer printer;
   describe(printer, value);
   return printer.text();
+}
+
+/// The effective values of a struct, each with its path.
+template <class T>
+[[nodiscard]] std::vector<Leaf> leaves_of(T value) {
+  LeafCollector collector;
+  describe(collector, value);
+  return std::move(collector.leaves());
 }
 
 }  // namespace seeker::config

@@ -59,21 +59,6 @@ void RobotClient::get_status(api::Reply<api::RobotStatus> reply) {
               }));
 }
 
-void RobotClient::list_components(api::Reply<std::vector<api::ComponentInfo>> reply) {
-  pb::Request request;
-  request.mutable_list_components();
-  impl_->call(std::move(request),
-              value_answer<std::vector<api::ComponentInfo>>(std::move(reply), [](const Responses& r) {
-                return read_list<api::ComponentInfo>(r.front().list_components().components(), wire::kMaxComponents);
-              }));
-}
-
-void RobotClient::restart_component(const std::string& name, api::Reply<void> reply) {
-  pb::Request request;
-  request.mutable_restart_component()->set_name(wire::clean_text(name));
-  impl_->call(std::move(request), empty_answer(std::move(reply)));
-}
-
 void RobotClient::start_mission(const api::MissionRequest& mission, api::Reply<api::MissionId> reply) {
   pb::Request request;
   wire::write(mission, request.mutable_start_mission()->mutable_mission());

@@ -86,6 +86,11 @@ class RobotClient final : public api::RobotApi {
   void get_status(api::Reply<api::RobotStatus> reply) override;
   void list_components(api::Reply<std::vector<api::ComponentInfo>> reply) override;
   void restart_component(const std::string& name, api::Reply<void> reply) override;
+  void switch_component(const std::string& name, bool active, api::Reply<void> reply) override;
+  void exchange_component(const std::string& name, const std::string& type, api::Reply<void> reply) override;
+  void get_settings(const std::string& component, api::Reply<std::vector<api::ComponentSetting>> reply) override;
+  void set_settings(const std::string& component, const std::vector<std::string>& assignments,
+                    api::Reply<std::vector<api::ComponentSetting>> reply) override;
   void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override;
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override;
   void get_mission(api::Reply<api::MissionStatus> reply) override;

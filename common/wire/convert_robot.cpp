@@ -88,24 +88,6 @@ void read(const pb::RobotInfo& from, api::RobotInfo& to, Check& check) {
   to.realtime = from.realtime();
 }
 
-void write(const api::ComponentInfo& from, pb::ComponentInfo* to) {
-  to->set_name(clean_text(from.name, kMaxNameBytes));
-  to->set_kind(clean_text(from.kind, kMaxNameBytes));
-  to->set_type(clean_text(from.type, kMaxNameBytes));
-  to->set_state(static_cast<pb::ComponentState>(wire_enum(from.state)));
-  to->set_rate_hz(from.rate_hz);
-  to->set_last_error(clean_text(from.last_error));
-}
-
-void read(const pb::ComponentInfo& from, api::ComponentInfo& to, Check& check) {
-  to.name = check.text("name", from.name(), kMaxNameBytes);
-  to.kind = check.text("kind", from.kind(), kMaxNameBytes);
-  to.type = check.text("type", from.type(), kMaxNameBytes);
-  check.enumerator("state", from.state(), api::ComponentState::kError, to.state);
-  to.rate_hz = check.finite("rate_hz", from.rate_hz());
-  to.last_error = check.text("last_error", from.last_error());
-}
-
 void write(const api::LeaseState& from, pb::LeaseState* to) {
   to->set_owner(clean_text(from.owner, kMaxNameBytes));
   to->set_epoch(from.epoch);

@@ -45,6 +45,9 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kDeleteLandmarks:
     case pb::Request::kRevertLandmarks:
     case pb::Request::kRelocalise:
+    case pb::Request::kSwitchComponent:
+    case pb::Request::kExchangeComponent:
+    case pb::Request::kSetSettings:
     case pb::Request::kDrive: return api::Role::kOperator;
     case pb::Request::kSetEstop: return request.set_estop().engaged() ? api::Role::kObserver : api::Role::kOperator;
     case pb::Request::kGetInfo:
@@ -67,6 +70,7 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kListLandmarks:
     case pb::Request::kInspectLandmarks:
     case pb::Request::kGetLandmarks:
+    case pb::Request::kGetSettings:
     case pb::Request::CALL_NOT_SET: return api::Role::kObserver;
   }
   return api::Role::kAdmin;  // a number that this version does not know

@@ -46,14 +46,6 @@ void get_tiles(const Responder& responder, Session& session, const pb::GetTilesR
   });
 }
 
-void restart_component(const Responder& responder, Session& session, const pb::RestartComponentRequest& request) {
-  if (request.name().empty() || request.name().size() > wire::kMaxNameBytes) {
-    responder.answer_now(fail(Errc::kInvalidArgument, "field 'name' must have 1 to 64 bytes"));
-    return;
-  }
-  session.robot().restart_component(request.name(), reply_empty(responder));
-}
-
 void start_mission(const Responder& responder, Session& session, const pb::StartMissionRequest& request) {
   Result<api::MissionRequest> mission = wire::from_message<api::MissionRequest>(request.mission());
   const Status valid = mission ? api::validate(*mission) : status_of(mission);
@@ -183,15 +175,6 @@ void get_detections(const Responder& responder, Session& session) {
       }));
 }
 
-void list_components(const Responder& responder, Session& session) {
-  session.robot().list_components(reply_with<std::vector<api::ComponentInfo>>(
-      responder, [](const std::vector<api::ComponentInfo>& components, pb::Response& to) {
-        for (const api::ComponentInfo& component : components) {
-          wire::write(component, to.mutable_list_components()->add_components());
-        }
-      }));
-}
-
 /// Calls without argument that read one value.
 void read_call(const Responder& responder, Session& session, const pb::Request& request) {
   using R = pb::Request;
@@ -219,7 +202,6 @@ void read_call(const Responder& responder, Session& session, const pb::Request& 
             wire::write(value, to.mutable_get_trajectory()->mutable_poses());
           }));
     case R::kGetDetections: return get_detections(responder, session);
-    case R::kListComponents: return list_components(responder, session);
     default: return responder.answer_now(fail(Errc::kUnsupportedVersion, "this robot does not know the call"));
   }
 }
@@ -238,7 +220,6 @@ void handle(const SessionPtr& session, const pb::Request& request, RobotTime rec
     case R::kStartMission: return start_mission(responder, s, request.start_mission());
     case R::kCommandMission: return command_mission(responder, s, request.command_mission());
     case R::kCommandLease: return command_lease(responder, s, request.command_lease());
-    case R::kRestartComponent: return restart_component(responder, s, request.restart_component());
     case R::kGetTiles: return get_tiles(responder, s, request.get_tiles());
     case R::kGrabImage: return grab_image(responder, s, request.grab_image());
     case R::kSubscribe: return subscribe(responder, s, request.subscribe());
@@ -246,7 +227,8 @@ void handle(const SessionPtr& session, const pb::Request& request, RobotTime rec
     case R::kTimeSync: return time_sync(responder, s);
     default: break;
   }
-  if (!handle_map_call(responder, s, request) && !handle_landmark_call(responder, s, request)) {
+  if (!handle_map_call(responder, s, request) && !handle_landmark_call(responder, s, request) &&
+      !handle_component_call(responder, s, request)) {
     read_call(responder, s, request);
   }
 }

@@ -40,6 +40,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check<api::RobotInfo>(envelope->hello_reply().robot());
     check<api::RobotStatus>(envelope->response().get_status().robot());
     check<api::GridReport>(envelope->response().get_grid().grid());
+    for (const auto& component : envelope->response().list_components().components()) {
+      check<api::ComponentInfo>(component);
+    }
+    for (const auto& setting : envelope->response().set_settings().settings()) {
+      check<api::ComponentSetting>(setting);
+    }
   }
   wire::ServerSession session({}, wire::WallTime{});
   (void)session.on_payload(bytes, wire::WallTime{}, RobotTime{});

@@ -45,7 +45,7 @@ TEST_P(WireBytes, AFrameHasTheBytesItAlwaysHad) {
 
 INSTANTIATE_TEST_SUITE_P(Golden, WireBytes,
                          ::testing::Values("hello", "stop_request", "status_update", "segments_update",
-                                           "decision_update", "refusal"));
+                                           "decision_update", "refusal", "set_settings_request", "components_reply"));
 
 TEST(WireBytesOfStreams, HeadBodyAndTailAreOneMessage) {
   v1::Envelope envelope;

@@ -88,4 +88,61 @@ Result<api::LandmarkSummary> fake_revert_landmarks(FakeRobotValues& values, cons
   return fake_inspect_landmarks(values, name);
 }
 
+Result<api::MissionId> fake_start_mission(FakeRobotValues& v, const api::MissionRequest& request) {
+  if (const Status valid = api::validate(request); !valid) {
+    return tl::unexpected<Error>(valid.error());
+  }
+  if (v.mission && !v.mission->end && v.mission->id != request.id) {
+    return fail(Errc::kBusy, "mission '" + v.mission->id + "' runs; stop it first");
+  }
+  if (!v.mission || v.mission->id != request.id) {
+    v.missions.push_back(request);
+    v.mission = api::MissionStatus{};
+    v.mission->id = request.id;
+    v.mission->kind = std::string(api::task_name(request.task));
+    v.mission->phase = "cover";
+    v.mission->link_policy = request.link_policy;
+  }
+  return request.id;
+}
+
+Status fake_component(FakeRobotValues& values, const std::string& name,
+                      const std::function<void(api::ComponentInfo&)>& change) {
+  for (api::ComponentInfo& component : values.components) {
+    if (component.name == name) {
+      change(component);
+      return {};
+    }
+  }
+  return fail(Errc::kNotFound, "no component '" + name + "'; seeker components lists them");
+}
+
+Result<std::vector<api::ComponentSetting>> fake_settings(const FakeRobotValues& values, const std::string& component) {
+  const auto found = values.settings.find(component);
+  if (found == values.settings.end()) {
+    return fail(Errc::kNotFound, "no component '" + component + "'; seeker components lists them");
+  }
+  return found->second;
+}
+
+Result<std::vector<api::ComponentSetting>> fake_set_settings(FakeRobotValues& values, const std::string& component,
+                                                             const std::vector<std::string>& assignments) {
+  std::vector<api::ComponentSetting> changed;
+  for (const std::string& assignment : assignments) {
+    const std::size_t equals = assignment.find('=');
+    const std::string value = equals == std::string::npos ? "bad" : assignment.substr(equals + 1);
+    for (api::ComponentSetting& setting : values.settings[component]) {
+      if (setting.key != assignment.substr(0, equals)) {
+        continue;
+      }
+      if (value == "bad") {
+        return fail(Errc::kInvalidArgument, setting.path + ": expected a number, got 'bad'");
+      }
+      setting.value = value;
+      changed.push_back(setting);
+    }
+  }
+  return changed;
+}
+
 }  // namespace seeker::testing

@@ -2,6 +2,7 @@
 /// What the fake robot answers where that takes more than a line.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace seeker::testing {
 [[nodiscard]] Result<api::LeaseState> fake_lease(api::LeaseState& state, api::LeaseAction action,
                                                  const std::string& me);
 
+/// One mission at a time; repeating the one that runs is accepted.
+[[nodiscard]] Result<api::MissionId> fake_start_mission(FakeRobotValues& values, const api::MissionRequest& request);
+
 [[nodiscard]] std::vector<api::LandmarkSummary> fake_list_landmarks(const FakeRobotValues& values);
 [[nodiscard]] Result<api::LandmarkSummary> fake_inspect_landmarks(const FakeRobotValues& values,
                                                                   const std::string& name);
@@ -22,5 +26,15 @@ namespace seeker::testing {
 [[nodiscard]] Result<api::LandmarkSummary> fake_revert_landmarks(FakeRobotValues& values, const std::string& name);
 [[nodiscard]] Result<api::LandmarkSummary> fake_prune_landmarks(FakeRobotValues& values, const std::string& name,
                                                                 int min_views);
+
+/// Applies `change` to the component of that name; kNotFound when there is none.
+[[nodiscard]] Status fake_component(FakeRobotValues& values, const std::string& name,
+                                    const std::function<void(api::ComponentInfo&)>& change);
+[[nodiscard]] Result<std::vector<api::ComponentSetting>> fake_settings(const FakeRobotValues& values,
+                                                                       const std::string& component);
+/// The value "bad" is refused.
+[[nodiscard]] Result<std::vector<api::ComponentSetting>> fake_set_settings(FakeRobotValues& values,
+                                                                           const std::string& component,
+                                                                           const std::vector<std::string>& assignments);
 
 }  // namespace seeker::testing

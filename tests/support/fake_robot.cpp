@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <utility>
 
 #include "tests/support/fake_answers.hpp"
@@ -64,32 +63,34 @@ class FakeRobot final : public api::RobotApi {
                                           [](const FakeRobotValues& v) { return v.components; });
   }
   void restart_component(const std::string& name, api::Reply<void> reply) override {
-    change("restart_component " + name, reply, [&](FakeRobotValues& v) -> Status {
-      const bool known = std::any_of(v.components.begin(), v.components.end(),
-                                     [&](const api::ComponentInfo& c) { return c.name == name; });
-      return known ? Status{} : fail(Errc::kNotFound, "no component '" + name + "'; seeker components lists them");
+    change("restart_component " + name, reply,
+           [&](FakeRobotValues& v) { return fake_component(v, name, [](api::ComponentInfo&) {}); });
+  }
+  void switch_component(const std::string& name, bool active, api::Reply<void> reply) override {
+    change((active ? "activate " : "deactivate ") + name, reply, [&](FakeRobotValues& v) {
+      return fake_component(v, name, [&](api::ComponentInfo& component) {
+        component.state = active ? api::ComponentState::kActive : api::ComponentState::kInactive;
+      });
+    });
+  }
+  void exchange_component(const std::string& name, const std::string& type, api::Reply<void> reply) override {
+    change("exchange " + name + " " + type, reply, [&](FakeRobotValues& v) {
+      return fake_component(v, name, [&](api::ComponentInfo& component) { component.type = type; });
+    });
+  }
+  void get_settings(const std::string& component, api::Reply<std::vector<api::ComponentSetting>> reply) override {
+    read<std::vector<api::ComponentSetting>>("get_settings " + component, reply,
+                                             [&](const FakeRobotValues& v) { return fake_settings(v, component); });
+  }
+  void set_settings(const std::string& component, const std::vector<std::string>& assignments,
+                    api::Reply<std::vector<api::ComponentSetting>> reply) override {
+    read<std::vector<api::ComponentSetting>>("set_settings " + component, reply, [&](FakeRobotValues& v) {
+      return fake_set_settings(v, component, assignments);
     });
   }
   void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override {
-    Result<api::MissionId> result = request.id;
-    {
-      const std::lock_guard lock(shared_->mutex);
-      FakeRobotValues& v = shared_->values;
-      v.calls.push_back(caller_.client_name + " start_mission " + request.id);
-      if (const Status valid = api::validate(request); !valid) {
-        result = tl::unexpected<Error>(valid.error());
-      } else if (v.mission && !v.mission->end && v.mission->id != request.id) {
-        result = fail(Errc::kBusy, "mission '" + v.mission->id + "' runs; stop it first");
-      } else if (!v.mission || v.mission->id != request.id) {
-        v.missions.push_back(request);
-        v.mission = api::MissionStatus{};
-        v.mission->id = request.id;
-        v.mission->kind = std::string(api::task_name(request.task));
-        v.mission->phase = "cover";
-        v.mission->link_policy = request.link_policy;
-      }
-    }
-    shared_->answer(reply, std::move(result));
+    read<api::MissionId>("start_mission " + request.id, reply,
+                         [&](FakeRobotValues& v) { return fake_start_mission(v, request); });
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     change("command_mission", reply, [&](FakeRobotValues& v) -> Status {

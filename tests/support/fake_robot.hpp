@@ -19,6 +19,7 @@ struct FakeRobotValues {
   api::RobotInfo info;
   api::RobotStatus status;
   std::vector<api::ComponentInfo> components;
+  std::map<std::string, std::vector<api::ComponentSetting>> settings;  ///< by component
   std::optional<api::MissionStatus> mission;
   api::TileUpdate tiles;
   api::GridReport grid;

@@ -11,7 +11,16 @@ FakeRobotValues default_fake_values() {
   v.status.stamp = robot_time_s(1.0);
   v.status.pose.map_T_base = {1.0, 2.0, 0.5};
   v.status.pose.quality = LocalisationQuality::kLocalised;
-  v.components.push_back({"base", "driver", "fake", api::ComponentState::kActive, 10.0, ""});
+  v.components.push_back({"base",
+                          "driver",
+                          "fake",
+                          api::ComponentState::kActive,
+                          10.0,
+                          "",
+                          {{"odometry", "Odometry", true, {"pose.odometry"}, 10.0, std::chrono::milliseconds(20)},
+                           {"velocity", "Twist2", false, {}, 0.0, std::nullopt}}});
+  v.settings["base"] = {{"timeout_s", "0.5", "loop.base_timeout_s", api::SettingEffect::kNow},
+                        {"period_s", "0.1", "loop.period_s", api::SettingEffect::kRestart}};
   v.tiles.revision = 4;
   for (int k = 0; k < 4; ++k) {
     OccupancyTile tile;

@@ -35,6 +35,10 @@ std::string_view to_string(EstimatorType type) {
 
 bool is_tracker(EstimatorType type) { return type != EstimatorType::kLandmarks; }
 
+std::string database_in_use(const RobotOptions& options) {
+  return options.estimator == EstimatorType::kLandmarks ? options.stereo.estimator.database : "";
+}
+
 std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotOptions& options) {
   SEEKER_ASSERT(is_tracker(type));
   switch (type) {

@@ -24,6 +24,9 @@ namespace seeker::app {
 /// A tracker with the parameters of the robot file, at the origin of `map`. Asserts is_tracker().
 [[nodiscard]] std::unique_ptr<slam::PoseTracker> make_tracker(EstimatorType type, const RobotOptions& options);
 
+/// The database of landmarks that the estimator goes by; empty: it goes by none.
+[[nodiscard]] std::string database_in_use(const RobotOptions& options);
+
 /// The estimator that the robot file names, whichever it is. Errors name the field that is wrong, or the database of
 /// landmarks in `library` that cannot be used.
 [[nodiscard]] Result<std::unique_ptr<Estimator>> make_estimator(const RobotOptions& options, const Devices& devices,

@@ -4,69 +4,62 @@
 
 #include "server/app/composition/device_factory.hpp"
 #include "server/app/composition/estimators.hpp"
+#include "server/app/composition/live_options.hpp"
 #include "server/app/composition/robot_behaviours.hpp"
 
 namespace seeker::app {
 namespace {
 
-Status validate(const StereoSettings& settings) {
-  if (Status ok = vision::validate(settings.features); !ok) {
-    return fail_with_context("features", ok.error());
-  }
-  if (Status ok = localize::validate(settings.database); !ok) {
-    return fail_with_context("database", ok.error());
-  }
-  if (Status ok = localize::validate(settings.estimator.update); !ok) {
-    return fail_with_context("estimator.update", ok.error());
-  }
-  const Status ok = localize::validate(settings.localiser);
-  return ok ? ok : fail_with_context("localiser", ok.error());
+Status check_safety(const Devices& devices, const RangeInputs& inputs) {
+  const bool fed = (devices.lidar != nullptr && inputs.scan) || (devices.sonar != nullptr && inputs.echoes);
+  const bool can_be_fed = devices.lidar != nullptr || devices.sonar != nullptr;
+  return fed || !can_be_fed ? Status()
+                            : fail(Errc::kInvalidArgument,
+                                   "connections.safety: neither the lidar nor the sonar of this robot feeds the safety "
+                                   "supervisor; connect one of them");
 }
 
 /// Everything but the devices.
-Result<Assembly> complete(const RobotOptions& options, LandmarkStorage landmarks, MadeDevices made) {
+Result<Assembly> complete(const RobotOptions& robot, LandmarkStorage landmarks, MadeDevices made) {
   Assembly assembly;
   assembly.parts.devices = std::move(made.devices);
   assembly.simulation = std::move(made.simulation);
   assembly.faults = std::move(made.faults);
-  assembly.landmarks.library = std::make_shared<LandmarkLibrary>(std::move(landmarks));
-  if (const Status ok = search::validate(options.search.search); !ok) {
-    return fail_with_context("search.coverage", ok.error());
+  assembly.landmarks = std::make_shared<LandmarkLibrary>(std::move(landmarks));
+  if (const Status ok = validate(robot); !ok) {
+    return tl::unexpected<Error>(ok.error());
   }
-  if (const Status ok = explore::validate(options.explore); !ok) {
-    return fail_with_context("explore", ok.error());
+  LoopParts& parts = assembly.parts;
+  if (const Status ok = check_safety(parts.devices, robot.loop.connections.safety); !ok) {
+    return tl::unexpected<Error>(ok.error());
   }
-  if (const Status ok = fleet::validate(options.topology); !ok) {
-    return fail_with_context("topology", ok.error());
-  }
-  const Result<SearchTools> tools = make_search_tools(options);
+  // One copy for all that goes by the settings as they are now; they change on the loop's thread only.
+  const auto options = std::make_shared<RobotOptions>(robot);
+  Result<SearchTools> tools = make_search_tools(*options);
   if (!tools) {
     return tl::unexpected<Error>(tools.error());
   }
-  LoopParts& parts = assembly.parts;
+  const auto shared_tools = std::make_shared<SearchTools>(std::move(*tools));
   std::optional<StereoMissions> stereo;
   if (parts.devices.stereo != nullptr) {
-    if (const Status ok = validate(options.stereo); !ok) {
-      return fail_with_context("stereo", ok.error());
-    }
-    parts.stereo = vision::make_stereo_extractor(parts.devices.stereo->geometry(), options.stereo.features);
+    parts.stereo = vision::make_stereo_extractor(parts.devices.stereo->geometry(), options->stereo.features);
+    stereo.emplace(*options, parts.devices, assembly.landmarks);
   }
-  if (options.estimator == EstimatorType::kLandmarks) {
-    assembly.landmarks.in_use = options.stereo.estimator.database;
-  }
-  Result<std::unique_ptr<Estimator>> estimator = make_estimator(options, parts.devices, assembly.landmarks.library);
+  Result<std::unique_ptr<Estimator>> estimator = make_estimator(*options, parts.devices, assembly.landmarks);
   if (!estimator) {
     return tl::unexpected<Error>(estimator.error());
   }
+  assembly.landmarks->set_in_use(database_in_use(*options));
   parts.estimator = std::move(*estimator);
-  if (parts.devices.stereo != nullptr) {
-    stereo.emplace(options, parts.devices, assembly.landmarks);
-  }
-  parts.estimator_type = to_string(options.estimator);
-  parts.occupancy = options.occupancy;
-  parts.lines = options.lines;
-  parts.forget_places = [memory = tools->memory] { memory->reset(); };
-  parts.behaviours = RobotBehaviours(options, *tools, parts.devices.camera != nullptr, std::move(stereo));
+  parts.estimator_type = to_string(options->estimator);
+  parts.recogniser_type = name_of(recogniser_names(), options->recogniser);
+  parts.planner_type = name_of(planner_names(), options->search.strategy);
+  parts.occupancy = options->occupancy;
+  parts.lines = options->lines;
+  parts.forget_places = [memory = shared_tools->memory] { memory->reset(); };
+  parts.activate_recogniser = [options, shared_tools] { return load_solids_into(*options, *shared_tools); };
+  parts.behaviours = RobotBehaviours(options, shared_tools, parts.devices.camera != nullptr, std::move(stereo));
+  parts.configuration = std::make_shared<LiveOptions>(options, parts.devices, assembly.landmarks);
   return assembly;
 }
 

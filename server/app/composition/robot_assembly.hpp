@@ -18,7 +18,7 @@ struct Assembly {
   LoopParts parts;
   std::shared_ptr<sim::Simulation> simulation;
   std::shared_ptr<drivers::SimFaults> faults;
-  LandmarkUse landmarks;
+  std::shared_ptr<LandmarkLibrary> landmarks;
 };
 
 /// Errors name the file or field that is wrong. Without a folder in `landmarks` there are no databases of landmarks.

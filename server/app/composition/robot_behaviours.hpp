@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "server/app/composition/robot_options.hpp"
 #include "server/app/composition/stereo_missions.hpp"
@@ -14,15 +15,19 @@
 
 namespace seeker::app {
 
-/// What all searches of a robot share. Errors name the field of the robot file that is wrong.
+/// What all searches of a robot share, without a model of solids. Errors name the field of the robot file that is
+/// wrong.
 [[nodiscard]] Result<SearchTools> make_search_tools(const RobotOptions& options);
+/// Reads the model of solids that the robot file names. Errors leave the one there was.
+[[nodiscard]] Status load_solids_into(const RobotOptions& options, SearchTools& tools);
 
-/// A BehaviourFactory; holds what the missions of a robot share.
+/// A BehaviourFactory; holds what the missions of a robot share. Each mission goes by the options as they are when it
+/// starts.
 class RobotBehaviours {
  public:
   /// `stereo` is nothing where the robot has no stereo camera.
-  RobotBehaviours(const RobotOptions& options, SearchTools tools, bool has_camera,
-                  std::optional<StereoMissions> stereo);
+  RobotBehaviours(std::shared_ptr<const RobotOptions> options, std::shared_ptr<const SearchTools> tools,
+                  bool has_camera, std::optional<StereoMissions> stereo);
 
   /// kRefused where the robot has not what the mission needs.
   [[nodiscard]] Result<std::unique_ptr<Behaviour>> operator()(const api::MissionTask& task, const Situation& situation);
@@ -32,10 +37,10 @@ class RobotBehaviours {
   [[nodiscard]] Result<std::unique_ptr<Behaviour>> search(const api::SearchMission& mission,
                                                           const Situation& situation) const;
 
-  GotoParams go_;
-  SearchBehaviourParams search_;
-  ExploreSettings explore_;
-  SearchTools tools_;
+  [[nodiscard]] std::vector<api::TargetSpec> as_recognised(std::vector<api::TargetSpec> targets) const;
+
+  std::shared_ptr<const RobotOptions> options_;
+  std::shared_ptr<const SearchTools> tools_;
   bool has_camera_;
   std::optional<StereoMissions> stereo_;
 };

@@ -2,6 +2,7 @@
 
 #include "common/api/robot_state.hpp"
 #include "server/app/composition/estimators.hpp"
+#include "server/app/composition/loop_options.hpp"
 #include "server/options/camera_options.hpp"
 #include "server/options/explore_options.hpp"
 #include "server/options/fleet_options.hpp"
@@ -20,8 +21,11 @@
 namespace seeker::drivers {
 void describe(config::Fields& f, SimDeviceParams& params) {
   f.seconds("base_period_s", params.base_period);
+  f.check("base_period_s", params.base_period > Duration::zero(), "must be above 0");
   f.seconds("lidar_period_s", params.lidar_period);
+  f.check("lidar_period_s", params.lidar_period > Duration::zero(), "must be above 0");
   f.seconds("sonar_period_s", params.sonar_period);
+  f.check("sonar_period_s", params.sonar_period > Duration::zero(), "must be above 0");
   f.seconds("command_timeout_s", params.command_timeout);
 }
 
@@ -69,65 +73,6 @@ void describe(config::Fields& f, ServerParams& params) {
 }  // namespace seeker::server_net
 
 namespace seeker::app {
-void describe(config::Fields& f, SafetyParams& params) {
-  f.field("max_v_m_s", params.max_v_m_s);
-  f.angle_deg("max_omega_deg_s", params.max_omega_rad_s);
-  f.section("clearance", params.clearance);
-  f.field("sonar_stop_range_m", params.sonar_stop_range_m);
-  f.field("sonar_slack_m", params.sonar_slack_m);
-}
-
-void describe(config::Fields& f, MissionParams& params) {
-  f.seconds("link_grace_s", params.link_grace);
-  f.seconds("fault_grace_s", params.fault_grace);
-  f.seconds("lost_grace_s", params.lost_grace);
-  f.seconds("report_period_s", params.report_period);
-}
-
-void describe(config::Fields& f, RobotMapParams& params) {
-  f.field("render_scans_per_tick", params.render_scans_per_tick);
-  f.check("render_scans_per_tick", params.render_scans_per_tick > 0, "must be above 0");
-  f.field("calm_scans_per_tick", params.calm_scans_per_tick);
-  f.check("calm_scans_per_tick", params.calm_scans_per_tick > 0, "must be above 0");
-  f.field("calm_move_m", params.calm_move_m);
-  f.angle_deg("calm_turn_deg", params.calm_rotation_rad);
-  f.seconds("segment_period_s", params.segment_period);
-  f.seconds("relocalise_limit_s", params.relocalise_limit);
-  f.seconds("checkpoint_period_s", params.checkpoint_period);
-  f.check("checkpoint_period_s", params.checkpoint_period > Duration::zero(), "must be above 0");
-  f.field("checkpoint_distance_m", params.checkpoint_distance_m);
-  f.check("checkpoint_distance_m", params.checkpoint_distance_m > 0.0, "must be above 0");
-  f.seconds("place_period_s", params.place_period);
-  f.check("place_period_s", params.place_period > Duration::zero(), "must be above 0");
-  f.seconds("look_round_after_s", params.look_round_after);
-  f.angle_deg("look_round_deg_s", params.look_round_rad_s);
-  f.check("look_round_deg_s", params.look_round_rad_s >= 0.0, "must not be below 0");
-}
-
-void describe(config::Fields& f, FleetMotionParams& params) {
-  f.field("robot_radius_m", params.robot_radius_m);
-  f.field("slack_m", params.slack_m);
-  f.field("slack_m_s", params.slack_m_s);
-  f.check("slack_m", params.robot_radius_m > 0.0 && params.slack_m >= 0.0 && params.slack_m_s >= 0.0,
-          "must be 0 or more, and the radius above 0");
-  f.seconds("max_age_s", params.max_age);
-}
-
-void describe(config::Fields& f, LoopParams& params) {
-  f.seconds("period_s", params.period);
-  f.check("period_s", params.period > Duration::zero(), "must be above 0");
-  f.seconds("base_timeout_s", params.base_timeout);
-  f.seconds("lidar_timeout_s", params.lidar_timeout);
-  f.seconds("sonar_timeout_s", params.sonar_timeout);
-  f.seconds("tile_period_s", params.tile_period);
-  f.seconds("grid_period_s", params.grid_period);
-  f.field("trajectory_spacing_m", params.trajectory_spacing_m);
-  f.section("safety", params.safety);
-  f.section("mission", params.mission);
-  f.section("map", params.map);
-  f.section("fleet", params.fleet);
-}
-
 void describe(config::Fields& f, GotoParams& params) {
   f.section("cost_map", params.cost_map);
   f.section("planner", params.planner);
@@ -268,6 +213,23 @@ void describe_radius(config::Fields& f, RobotOptions& options) {
 
 }  // namespace
 
+const config::Choices<std::optional<api::RecogniserKind>>& recogniser_names() {
+  static const config::Choices<std::optional<api::RecogniserKind>> kNames = {
+      {"by_target", std::nullopt},
+      {"template", api::RecogniserKind::kTemplate},
+      {"features", api::RecogniserKind::kFeatures}};
+  return kNames;
+}
+
+const config::Choices<std::optional<search::Strategy>>& planner_names() {
+  static const config::Choices<std::optional<search::Strategy>> kNames = {{"by_mission", std::nullopt},
+                                                                          {"paper", search::Strategy::kPaper},
+                                                                          {"plan", search::Strategy::kPlan},
+                                                                          {"spiral", search::Strategy::kSpiral},
+                                                                          {"frontier", search::Strategy::kFrontier}};
+  return kNames;
+}
+
 void describe(config::Fields& f, RobotOptions& options) {
   f.field("base", options.base);
   f.field("robot_id", options.robot_id);
@@ -284,6 +246,9 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("fleet", options.fleet);
   f.section("loop", options.loop);
   f.choice("estimator", options.estimator, estimator_names());
+  f.choice("recogniser", options.recogniser, recogniser_names());
+  f.choice("planner", options.search.strategy, planner_names());
+  f.section("connections", options.loop.connections);
   f.section("tracking", options.tracking);
   f.section("lines", options.lines);
   f.section("slam", options.slam);
@@ -295,6 +260,41 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("topology", options.topology);
   f.section("stereo", options.stereo);
   f.section("server", options.server);
+}
+
+namespace {
+
+Status check_stereo(const StereoSettings& settings) {
+  if (Status ok = vision::validate(settings.features); !ok) {
+    return fail_with_context("features", ok.error());
+  }
+  if (Status ok = localize::validate(settings.database); !ok) {
+    return fail_with_context("database", ok.error());
+  }
+  if (Status ok = localize::validate(settings.estimator.update); !ok) {
+    return fail_with_context("estimator.update", ok.error());
+  }
+  const Status ok = localize::validate(settings.localiser);
+  return ok ? ok : fail_with_context("localiser", ok.error());
+}
+
+}  // namespace
+
+Status validate(const RobotOptions& options) {
+  if (const Status ok = search::validate(options.search.search); !ok) {
+    return fail_with_context("search.coverage", ok.error());
+  }
+  if (const Status ok = vision::validate(options.search.recogniser); !ok) {
+    return fail_with_context("search.recogniser", ok.error());
+  }
+  if (const Status ok = explore::validate(options.explore); !ok) {
+    return fail_with_context("explore", ok.error());
+  }
+  if (const Status ok = fleet::validate(options.topology); !ok) {
+    return fail_with_context("topology", ok.error());
+  }
+  const Status stereo = check_stereo(options.stereo);
+  return stereo ? stereo : fail_with_context("stereo", stereo.error());
 }
 
 namespace {

@@ -93,7 +93,8 @@ struct RobotOptions {
   slam::LineSlamParams slam;     ///< its `extractor` is the section `lines`
   nav::OccupancyParams occupancy;
   GotoParams go;
-  SearchBehaviourParams search;
+  std::optional<api::RecogniserKind> recogniser;  ///< of all targets with a picture; nothing: as each target says
+  SearchBehaviourParams search;                   ///< its `strategy` is the field `planner`
   search::ControlTableParams control_table;
   explore::ExploreParams explore;
   fleet::TopologicalParams topology;
@@ -103,6 +104,25 @@ struct RobotOptions {
 };
 
 void describe(config::Fields& f, RobotOptions& options);
+
+/// Names as in the field `recogniser` of a robot file.
+[[nodiscard]] const config::Choices<std::optional<api::RecogniserKind>>& recogniser_names();
+/// Names as in the field `planner` of a robot file: what plans a search. Nothing: as the mission says.
+[[nodiscard]] const config::Choices<std::optional<search::Strategy>>& planner_names();
+
+/// The name of one of these choices.
+template <class E>
+[[nodiscard]] std::string name_of(const config::Choices<E>& choices, const E& value) {
+  for (const auto& [name, choice] : choices) {
+    if (choice == value) {
+      return std::string(name);
+    }
+  }
+  return "unknown";
+}
+
+/// Checks what spans several fields. Errors name the section that is wrong.
+[[nodiscard]] Status validate(const RobotOptions& options);
 
 /// Robot files that may lie on top of one another by `base`.
 inline constexpr int kMaxRobotFiles = 8;

@@ -6,7 +6,8 @@
 
 namespace seeker::app {
 
-StereoMissions::StereoMissions(const RobotOptions& options, const Devices& devices, LandmarkUse landmarks)
+StereoMissions::StereoMissions(const RobotOptions& options, const Devices& devices,
+                               std::shared_ptr<LandmarkLibrary> landmarks)
     : localiser_(options.stereo.localiser), landmarks_(std::move(landmarks)) {
   settings_.params = options.stereo.survey;
   settings_.go = options.go;
@@ -19,7 +20,7 @@ StereoMissions::StereoMissions(const RobotOptions& options, const Devices& devic
 
 Result<std::unique_ptr<Behaviour>> StereoMissions::survey(const api::SurveyMission& mission,
                                                           const Situation& situation) const {
-  return SurveyBehaviour::create(settings_, mission, landmarks_.library, situation);
+  return SurveyBehaviour::create(settings_, mission, landmarks_, situation);
 }
 
 Result<std::unique_ptr<Behaviour>> StereoMissions::localise(const api::LocaliseMission& mission,
@@ -27,8 +28,8 @@ Result<std::unique_ptr<Behaviour>> StereoMissions::localise(const api::LocaliseM
   return LocaliseBehaviour::create({.look = settings_.params.look,
                                     .geometry = settings_.geometry,
                                     .localiser = localiser_,
-                                    .estimator_database = landmarks_.in_use},
-                                   mission, *landmarks_.library, situation);
+                                    .estimator_database = landmarks_->in_use()},
+                                   mission, *landmarks_, situation);
 }
 
 }  // namespace seeker::app

@@ -15,7 +15,7 @@ namespace seeker::app {
 class StereoMissions {
  public:
   /// `devices` has a stereo camera.
-  StereoMissions(const RobotOptions& options, const Devices& devices, LandmarkUse landmarks);
+  StereoMissions(const RobotOptions& options, const Devices& devices, std::shared_ptr<LandmarkLibrary> landmarks);
 
   [[nodiscard]] Result<std::unique_ptr<Behaviour>> survey(const api::SurveyMission& mission,
                                                           const Situation& situation) const;
@@ -25,7 +25,7 @@ class StereoMissions {
  private:
   SurveySettings settings_;
   localize::LocaliserParams localiser_;
-  LandmarkUse landmarks_;
+  std::shared_ptr<LandmarkLibrary> landmarks_;
 };
 
 }  // namespace seeker::app

@@ -225,4 +225,14 @@ Status LandmarkLibrary::remove(const std::string& name) {
   return ok ? files_.remove(name) : ok;
 }
 
+std::string LandmarkLibrary::in_use() const {
+  const std::lock_guard lock(mutex_);
+  return in_use_;
+}
+
+void LandmarkLibrary::set_in_use(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  in_use_ = name;
+}
+
 }  // namespace seeker::app

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -53,18 +54,18 @@ class LandmarkLibrary {
   [[nodiscard]] Result<api::LandmarkSummary> revert(const std::string& name);
   [[nodiscard]] Status remove(const std::string& name);
 
+  /// The database that the robot's estimator goes by, which no client may change; empty: none.
+  [[nodiscard]] std::string in_use() const;
+  void set_in_use(const std::string& name);
+
  private:
   [[nodiscard]] Status check_folder() const;
   [[nodiscard]] Status check_present(const std::string& name) const;
 
   LandmarkStorage storage_;
   store::NamedFiles files_;
-};
-
-/// The databases of one robot, and the one that its estimator goes by (empty: none).
-struct LandmarkUse {
-  std::shared_ptr<LandmarkLibrary> library = std::make_shared<LandmarkLibrary>(LandmarkStorage{});
-  std::string in_use;
+  mutable std::mutex mutex_;
+  std::string in_use_;
 };
 
 }  // namespace seeker::app

@@ -36,8 +36,8 @@ Result<std::vector<api::LandmarkPoint>> points_of(const std::string& name, const
 
 }  // namespace
 
-LandmarkService::LandmarkService(std::shared_ptr<LandmarkLibrary> library, std::string in_use)
-    : library_(std::move(library)), in_use_(std::move(in_use)), disk_(kMaxWaiting, "databases of landmarks") {}
+LandmarkService::LandmarkService(std::shared_ptr<LandmarkLibrary> library)
+    : library_(std::move(library)), disk_(kMaxWaiting, "databases of landmarks") {}
 
 template <class T>
 void LandmarkService::on_worker(const api::Reply<T>& reply, std::function<Result<T>(LandmarkLibrary&)> work) {
@@ -48,9 +48,9 @@ void LandmarkService::on_worker(const api::Reply<T>& reply, std::function<Result
 }
 
 Status LandmarkService::may_change(const std::string& name) const {
-  if (!in_use_.empty() && name == in_use_) {
-    return fail(Errc::kRefused, "the robot localises by database '" + name +
-                                    "' and leaves it as it is; start it with another one first");
+  if (const std::string in_use = library_->in_use(); !in_use.empty() && name == in_use) {
+    return fail(Errc::kRefused,
+                "the robot localises by database '" + name + "' and leaves it as it is; exchange the estimator first");
   }
   return {};
 }

@@ -16,8 +16,7 @@ namespace seeker::app {
 /// Methods mean what they mean in api::RobotApi and may be called from any thread; its end finishes what was accepted.
 class LandmarkService {
  public:
-  /// `in_use`: the database that the robot's estimator goes by, which nobody may change; empty: none.
-  LandmarkService(std::shared_ptr<LandmarkLibrary> library, std::string in_use);
+  explicit LandmarkService(std::shared_ptr<LandmarkLibrary> library);
 
   void list(const api::Reply<std::vector<api::LandmarkSummary>>& reply);
   void inspect(const std::string& name, bool verify, const api::Reply<api::LandmarkSummary>& reply);
@@ -35,7 +34,6 @@ class LandmarkService {
   [[nodiscard]] Status may_change(const std::string& name) const;
 
   std::shared_ptr<LandmarkLibrary> library_;
-  std::string in_use_;
   DiskWorker disk_;
 };
 

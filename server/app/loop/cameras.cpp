@@ -47,7 +47,7 @@ void Cameras::recognise(const std::shared_ptr<const vision::Recogniser>& recogni
     return;
   }
   diagnostics_.clear("camera-failed");
-  diagnostics_.components().count_output("camera", world_.now());
+  diagnostics_.components().count_output("camera", "picture", world_.now());
   if (hub_.wanted(api::Topic::kImage)) {
     hub_.publish(api::Topic::kImage, world_.now(),
                  api::ImageFrame{.camera = camera_name_, .frame = *frame, .map_T_base = context.map_T_base});
@@ -68,7 +68,7 @@ std::optional<Recognition> Cameras::take_recognition() {
                        "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
     return std::nullopt;
   }
-  diagnostics_.components().count_output("recogniser", world_.now());
+  diagnostics_.components().count_output("recogniser", "sightings", world_.now());
   return std::move(**answer);
 }
 
@@ -97,7 +97,7 @@ std::optional<Result<RobotTime>> Cameras::look(StereoLook context) {
   if (!frame) {
     return tl::unexpected<Error>(refused(frame.error()));
   }
-  diagnostics_.components().count_output("stereo", world_.now());
+  diagnostics_.components().count_output("stereo", "pictures", world_.now());
   const RobotTime stamp = frame->stamp;
   context.stamp = stamp;
   looks_.start([extractor = extractor_, context = std::move(context), frame = std::move(*frame)] {

@@ -33,8 +33,11 @@ class Cameras {
 
   explicit Cameras(const Parts& parts);
 
-  /// True when the robot has a camera and no recognition is running or waits for take_recognition().
-  [[nodiscard]] bool can_recognise() const { return camera_ != nullptr && !recognition_.busy(); }
+  /// True when the robot has a camera and an active recogniser, and no recognition is running or waits for
+  /// take_recognition().
+  [[nodiscard]] bool can_recognise() const {
+    return camera_ != nullptr && !recognition_.busy() && !diagnostics_.components().stopped("recogniser");
+  }
 
   /// Takes a picture and begins to look for targets in it. Call it only when can_recognise() is true. `context` is
   /// where the robot is and what it senses; the stamp becomes that of the exposure.

@@ -63,24 +63,6 @@ Status ClientCommands::drive(const std::string& client, const api::DriveCommand&
   return ok;
 }
 
-Status ClientCommands::restart_component(const std::string& name) {
-  if (const Status ok = parties_.diagnostics.components().restart(name); !ok) {
-    return ok;
-  }
-  // What moves the robot may have changed: it stays disarmed until somebody moves it again on purpose.
-  parties_.motion.restarted(name);
-  if (name == "base") {
-    parties_.sensing.base_restarted();
-  }
-  parties_.executor.pause(parties_.world.now(), name + " was restarted; resume the mission when the way is clear");
-  for (const char* fault : {"-failed", "-invalid", "-silent", "-refused"}) {
-    parties_.diagnostics.clear(name + fault);
-  }
-  parties_.sensing.restart_patience();
-  parties_.diagnostics.log("component-restarted", name);
-  return {};
-}
-
 Result<api::ImageFrame> ClientCommands::grab_image(const std::string& camera) {
   return parties_.perception.grab(camera);
 }

@@ -7,13 +7,13 @@
 
 #include "common/api/robot_api.hpp"
 #include "common/core/result.hpp"
+#include "server/app/loop/component_commands.hpp"
 #include "server/app/loop/diagnostics.hpp"
 #include "server/app/loop/map_commands.hpp"
 #include "server/app/loop/mission_control.hpp"
 #include "server/app/loop/motion_control.hpp"
 #include "server/app/loop/perception.hpp"
 #include "server/app/loop/publisher.hpp"
-#include "server/app/loop/sensing.hpp"
 #include "server/app/loop/world_link.hpp"
 #include "server/app/missions/mission_executor.hpp"
 
@@ -26,12 +26,12 @@ class ClientCommands {
   /// These objects carry the commands out; they must outlive ClientCommands.
   struct Parties {
     WorldLink& world;
-    Sensing& sensing;
     Perception& perception;
     MotionControl& motion;
     MissionExecutor& executor;
     MissionControl& missions;
     MapCommands& maps;
+    ComponentCommands& components;
     Publisher& publisher;
     Diagnostics& diagnostics;
   };
@@ -51,7 +51,9 @@ class ClientCommands {
   /// Drives by hand with a velocity that expires: with the lease, at real time, while no mission runs.
   [[nodiscard]] Status drive(const std::string& client, const api::DriveCommand& command);
   /// Starts a component again. The robot is disarmed and its mission paused by that.
-  [[nodiscard]] Status restart_component(const std::string& name);
+  [[nodiscard]] Status restart_component(const std::string& name) { return parties_.components.restart(name); }
+  /// All that concerns components.
+  [[nodiscard]] ComponentCommands& components() { return parties_.components; }
   /// See Cameras::grab().
   [[nodiscard]] Result<api::ImageFrame> grab_image(const std::string& camera);
   /// See MapCommands::load(). A mission that was cut off does not go on in this map.

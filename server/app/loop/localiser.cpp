@@ -17,7 +17,8 @@ Localiser::Localiser(const LoopParams& params, const nav::OccupancyParams& occup
     : estimator_(std::move(estimator)),
       diagnostics_(diagnostics),
       map_(params.map, occupancy, estimator_->map_tracker()),
-      trajectory_(params.trajectory_spacing_m, params.max_trajectory) {}
+      trajectory_(params.trajectory_spacing_m, params.max_trajectory),
+      sees_pictures_(params.connections.pose.pictures) {}
 
 void Localiser::give_odometry(const drivers::OdometrySample& sample) {
   last_odometry_given_ = sample.stamp;
@@ -42,7 +43,9 @@ void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbou
     if (!others.empty()) {
       without_movers_ = nav::without_movers(*scan, Pose2{}, others);
     }
-    diagnostics_.note_reading(estimator_->on_scan(without_movers_ ? *without_movers_ : *scan), "scan-refused");
+    if (sensing.connections().pose.scan) {
+      diagnostics_.note_reading(estimator_->on_scan(without_movers_ ? *without_movers_ : *scan), "scan-refused");
+    }
   }
   if (late) {
     give_odometry(*odometry);
@@ -50,6 +53,11 @@ void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbou
 }
 
 std::optional<MapShift> Localiser::localise(const Sensing& sensing, const Neighbours& neighbours, RobotTime now) {
+  if (diagnostics_.components().stopped("pose")) {
+    pose_.quality = LocalisationQuality::kLost;
+    pose_.cause = "the estimator is not active";
+    return std::nullopt;
+  }
   give_readings(sensing, neighbours, now);
   if (sensing.new_odometry() == nullptr && sensing.new_scan() == nullptr) {
     return std::nullopt;
@@ -61,7 +69,7 @@ std::optional<MapShift> Localiser::localise(const Sensing& sensing, const Neighb
   }
   std::optional<MapShift> shift = follow_map(by_odometry, now);
   odom_T_base_at_pose_ = odom_T_base;
-  diagnostics_.components().count_output("pose", now);
+  diagnostics_.components().count_output("pose", "pose", now);
   return shift;
 }
 
@@ -88,18 +96,22 @@ std::optional<MapShift> Localiser::follow_map(const std::optional<Pose2>& old_ma
 }
 
 void Localiser::map_readings(const Sensing& sensing) {
-  if (!is_placed(pose_.quality)) {
+  Components& components = diagnostics_.components();
+  if (!is_placed(pose_.quality) || components.stopped("map")) {
     return;
   }
   const OdometryHistory& history = sensing.history();
-  const SonarScan* sonar = sensing.new_sonar();
-  if (const LaserScan* scan = sensing.new_scan()) {
+  const LaserScan* scan = sensing.maps_by_lidar() ? sensing.new_scan() : nullptr;
+  const SonarScan* sonar = sensing.maps_by_lidar() ? nullptr : sensing.new_sonar();
+  if (scan != nullptr) {
     const LaserScan& building = without_movers_ ? *without_movers_ : *scan;
     const Pose2 map_T_then = pose_.map_T_base * history.now_T_then(building.stamp);
     diagnostics_.note_reading(map_.integrate(building, map_T_then), "map-full");
-  } else if (sonar != nullptr && !sensing.has_lidar()) {
+    components.count_output("map", "map", pose_.stamp);
+  } else if (sonar != nullptr) {
     const Pose2 map_T_then = pose_.map_T_base * history.now_T_then(sonar->stamp);
     diagnostics_.note_reading(map_.integrate(*sonar, map_T_then), "map-full");
+    components.count_output("map", "map", pose_.stamp);
   }
 }
 
@@ -119,6 +131,9 @@ void Localiser::place_at(const PoseEstimate& place, RobotTime now) {
 }
 
 void Localiser::on_look(const Result<StereoLook>& look) {
+  if (look && exchanged_at_ && look->stamp < *exchanged_at_) {
+    return;  // it was meant for the estimator before
+  }
   estimator_->on_look(look);
   for (const std::string& news : estimator_->take_news()) {
     diagnostics_.log("landmarks", news);
@@ -126,6 +141,15 @@ void Localiser::on_look(const Result<StereoLook>& look) {
 }
 
 void Localiser::take_estimate(RobotTime now) { pose_ = map_.follow(estimator_->estimate(), now); }
+
+void Localiser::exchange(std::unique_ptr<Estimator> estimator, RobotTime now) {
+  const std::unique_ptr<Estimator> before = std::exchange(estimator_, std::move(estimator));
+  map_.exchange_tracker(estimator_->map_tracker(), estimator_->estimate().map_epoch);
+  without_movers_.reset();
+  odom_T_base_at_pose_.reset();
+  last_odometry_given_ = RobotTime::min();
+  exchanged_at_ = now;
+}
 
 void Localiser::forget_places(RobotTime now) {
   trajectory_.clear();

@@ -41,11 +41,13 @@ class Localiser {
   /// The robot was found at this place; an event says so when the estimator cannot be corrected by it.
   void place_at(const PoseEstimate& place, RobotTime now);
   /// Whether the estimator wants a stereo observation now.
-  [[nodiscard]] bool wants_look(RobotTime now) const { return estimator_->wants_look(now); }
+  [[nodiscard]] bool wants_look(RobotTime now) const { return sees_pictures_ && estimator_->wants_look(now); }
   /// A stereo picture was taken at this time; on_look() follows.
   void look_begun(RobotTime stamp) { estimator_->look_begun(stamp); }
   /// Hands a stereo observation, or why there is none, to the estimator.
   void on_look(const Result<StereoLook>& look);
+  /// Puts another estimator in place of the present one; its map begins where the robot is. Call forget_places() next.
+  void exchange(std::unique_ptr<Estimator> estimator, RobotTime now);
   /// Another map has come into use: clears the trajectory and takes the estimator's pose in the new map.
   void forget_places(RobotTime now);
   /// Takes the estimator's pose as it is now, after the map or the place in it were set from outside.
@@ -69,7 +71,9 @@ class Localiser {
   Trajectory trajectory_;
   PoseEstimate pose_;
   std::optional<Pose2> odom_T_base_at_pose_;
-  RobotTime last_odometry_given_;  ///< stamp of the last sample that the estimator got
+  bool sees_pictures_;                     ///< the stereo camera feeds the estimator
+  RobotTime last_odometry_given_;          ///< stamp of the last sample that the estimator got
+  std::optional<RobotTime> exchanged_at_;  ///< when the present estimator took over; nothing: it was the first
   std::optional<LaserScan>
       without_movers_;  ///< the newest scan without beams that end at other robots, where there are any
 };

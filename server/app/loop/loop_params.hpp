@@ -9,6 +9,7 @@
 #include <string>
 
 #include "server/app/estimators/estimator.hpp"
+#include "server/app/loop/configuration.hpp"
 #include "server/app/maps/robot_map.hpp"
 #include "server/app/missions/mission_executor.hpp"
 #include "server/app/runtime/devices.hpp"
@@ -27,6 +28,34 @@ struct FleetMotionParams {
   Duration max_age = std::chrono::seconds(2);  ///< an older report says nothing about where the robot is now
 };
 
+/// Which of the sensors with ranges an occupancy map is written from.
+enum class RangeSensor : std::uint8_t { kLidar, kSonar };
+
+/// Which sensors feed the estimator, besides the odometry of the base.
+struct PoseInputs {
+  bool scan = true;      ///< of the lidar
+  bool pictures = true;  ///< of the stereo camera
+};
+
+/// What feeds the occupancy map, besides the pose.
+struct MapInputs {
+  RangeSensor ranges = RangeSensor::kLidar;  ///< a robot without a lidar maps with its sonar in any case
+};
+
+/// Which sensors feed a part of the robot that keeps clear of obstacles; it goes without one that does not feed it.
+struct RangeInputs {
+  bool scan = true;    ///< of the lidar
+  bool echoes = true;  ///< of the sonar ring
+};
+
+/// Who feeds whom, as the robot file composes it. All other connections between components are always there.
+struct Connections {
+  PoseInputs pose;
+  MapInputs map;
+  RangeInputs planner;
+  RangeInputs safety;
+};
+
 struct LoopParams {
   Duration period = std::chrono::milliseconds(100);
   Duration base_timeout = std::chrono::milliseconds(500);  ///< the base counts as silent after this robot time
@@ -41,6 +70,7 @@ struct LoopParams {
   MissionParams mission;
   RobotMapParams map;
   FleetMotionParams fleet;
+  Connections connections;
 };
 
 /// What the loop is put together from.
@@ -49,6 +79,10 @@ struct LoopParts {
   std::unique_ptr<Estimator> estimator;
   std::shared_ptr<const vision::StereoExtractor> stereo;  ///< null when no stereo features are needed
   std::string estimator_type;
+  std::string recogniser_type = "by_target";
+  std::string planner_type = "by_mission";
+  std::function<Status()> activate_recogniser;   ///< reads what the recogniser needs; may be empty
+  std::shared_ptr<Configuration> configuration;  ///< null: nothing can be set or exchanged while the robot runs
   BehaviourFactory behaviours;
   nav::OccupancyParams occupancy;
   lines::ExtractorParams lines;         ///< of the lines that clients follow

@@ -52,6 +52,8 @@ class MapCommands {
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base);
   /// Forgets the map; a new one begins where the robot is.
   void begin_new_map();
+  /// Another estimator has taken over, with a map of its own or none: the places in the map before are forgotten.
+  void map_exchanged() { forget_places(); }
 
  private:
   void forget_places();

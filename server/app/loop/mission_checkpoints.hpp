@@ -27,6 +27,8 @@ class MissionCheckpoints {
   /// Returns whether such a mission builds a map that it needs in order to go on after a crash.
   [[nodiscard]] static bool wanted_for(const api::MissionTask& task);
 
+  /// Uses other periods and distances from now on.
+  void use(const RobotMapParams& params) { params_ = params; }
   /// Call it when a mission begins; its first checkpoint is due after the period or the distance of the parameters.
   void begin(RobotTime now);
   /// Call it once a tick: it keeps the map when that is due, and the robot's place in it more often.

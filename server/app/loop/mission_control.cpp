@@ -15,6 +15,10 @@ bool moves_robot(const api::MissionTask& task) {
   return recognise != nullptr ? recognise->headings > 1 : localise == nullptr || localise->headings > 1;
 }
 
+bool needs_recogniser(const api::MissionTask& task) {
+  return std::holds_alternative<api::SearchMission>(task) || std::holds_alternative<api::RecogniseMission>(task);
+}
+
 /// Where the newest scan was kept. There is one in every map that has been kept.
 std::optional<Pose2> last_place(const LineMap& map) {
   const auto newest = std::max_element(map.keyframes.begin(), map.keyframes.end(),
@@ -37,6 +41,12 @@ MissionControl::MissionControl(const RobotMapParams& params, const Parties& part
 Status MissionControl::able_to(const api::MissionTask& task) const {
   if (const Status drivable = parties_.motion.drivable(); moves_robot(task) && !drivable) {
     return drivable;
+  }
+  if (needs_recogniser(task) && parties_.diagnostics.components().stopped("recogniser")) {
+    return fail(
+        Errc::kNotReady,
+        "the recogniser is not active ('seeker components' says why); start it with 'seeker components --restart "
+        "recogniser'");
   }
   return parties_.world.within_reach();
 }
@@ -77,6 +87,7 @@ Result<api::MissionId> MissionControl::start(const api::MissionRequest& request,
   if (!id) {
     return id;
   }
+  parties_.diagnostics.components().count_output("mission", "task", parties_.world.now());
   parties_.motion.authority().arm();
   if (!resumption_.has_own_map() || !goes_on) {
     drop_checkpoints();
@@ -103,7 +114,8 @@ Status MissionControl::command(api::MissionCommand command, const std::string& c
     const Result<api::MissionId> again = start(api::MissionRequest(*resumption_.unfinished()), client);
     return again ? Status() : Status(tl::unexpected<Error>(again.error()));
   }
-  if (const Status able = parties_.world.within_reach(); resume && !able) {
+  const api::MissionRequest* paused = resume ? parties_.executor.request() : nullptr;
+  if (const Status able = paused != nullptr ? able_to(paused->task) : parties_.world.within_reach(); resume && !able) {
     return able;
   }
   const Status done = parties_.executor.command(command, parties_.world.now());

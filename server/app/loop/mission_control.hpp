@@ -65,6 +65,12 @@ class MissionControl {
   /// Returns the velocity that rotates the robot during that search; zero when another client holds the lease.
   [[nodiscard]] Twist2 search_velocity();
 
+  /// Uses other parameters of checkpoints and of the search for the robot's place from now on.
+  void use(const RobotMapParams& params) {
+    resumption_.use(params);
+    checkpoints_.use(params);
+  }
+
   /// Call it once a tick: it keeps the map of the mission that runs.
   void keep_checkpoint() { checkpoints_.keep(parties_.executor, parties_.world.now()); }
   [[nodiscard]] MissionCheckpoints& checkpoints() { return checkpoints_; }

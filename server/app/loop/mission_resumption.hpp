@@ -17,8 +17,13 @@ namespace seeker::app {
 /// the robot has found its place in it. Lives on the loop's thread.
 class MissionResumption {
  public:
-  explicit MissionResumption(const RobotMapParams& params)
-      : look_round_after_(params.look_round_after), look_round_rad_s_(params.look_round_rad_s) {}
+  explicit MissionResumption(const RobotMapParams& params) { use(params); }
+
+  /// Uses other parameters of the search for the robot's place from now on.
+  void use(const RobotMapParams& params) {
+    look_round_after_ = params.look_round_after;
+    look_round_rad_s_ = params.look_round_rad_s;
+  }
 
   void offer(std::optional<api::MissionRequest> request) { unfinished_ = std::move(request); }
   [[nodiscard]] const std::optional<api::MissionRequest>& unfinished() const { return unfinished_; }
@@ -49,8 +54,8 @@ class MissionResumption {
   void mission_began();
 
  private:
-  Duration look_round_after_;
-  double look_round_rad_s_;
+  Duration look_round_after_{};
+  double look_round_rad_s_ = 0.0;
   std::optional<api::MissionRequest> unfinished_;
   bool has_own_map_ = false;
   KeptState kept_;

@@ -15,8 +15,11 @@ MotionControl::MotionControl(const SafetyParams& params, std::shared_ptr<drivers
       diagnostics_(diagnostics) {}
 
 SafetyVerdict MotionControl::verdict_on(const Twist2& wanted) const {
-  const LaserScan* scan = sensing_.scan();
-  const SonarScan* sonar = sensing_.sonar();
+  if (diagnostics_.components().stopped("safety")) {
+    return {.allowed = {}, .reason = "the safety supervisor is not active"};
+  }
+  const LaserScan* scan = sensing_.scan_for(sensing_.connections().safety);
+  const SonarScan* sonar = sensing_.sonar_for(sensing_.connections().safety);
   const OdometryHistory& history = sensing_.history();
   return supervise({.wanted = wanted,
                     .armed = authority_.armed(),
@@ -35,6 +38,7 @@ void MotionControl::act(const Twist2& wanted) {
   const bool arm = authority_.armed() && diagnostics_.faults().blocking() == nullptr;
   const SafetyVerdict verdict = verdict_on(wanted);
   safety_reason_ = verdict.reason;
+  diagnostics_.components().count_output("safety", "velocity", world_.now());
   if (!diagnostics_.components().active("base") || !base_->drivable()) {
     return;
   }

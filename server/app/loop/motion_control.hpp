@@ -37,6 +37,9 @@ class MotionControl {
   /// restarted base has its motors off.
   void restarted(const std::string& component);
 
+  /// Uses other limits from now on.
+  void use(const SafetyParams& params) { params_ = params; }
+
   /// Success when the base obeys commands; the error says why it does not. A recording never does.
   [[nodiscard]] Status drivable() const { return base_->drivable(); }
   [[nodiscard]] MotionAuthority& authority() { return authority_; }

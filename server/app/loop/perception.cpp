@@ -21,11 +21,12 @@ void Perception::look_for_targets() {
   }
   Recognition context;
   context.map_T_base = localiser_.pose().map_T_base;
-  if (sensing_.scan() != nullptr) {
-    context.scan = *sensing_.scan();
+  const RangeInputs& inputs = sensing_.connections().planner;
+  if (const LaserScan* scan = sensing_.scan_for(inputs)) {
+    context.scan = *scan;
   }
-  if (sensing_.sonar() != nullptr) {
-    context.sonar = *sensing_.sonar();
+  if (const SonarScan* sonar = sensing_.sonar_for(inputs)) {
+    context.sonar = *sonar;
   }
   cameras_.recognise(recogniser, std::move(context));
   take_recognition();  // inline: the answer is there at once

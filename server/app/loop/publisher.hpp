@@ -34,6 +34,11 @@ class Publisher {
 
   Publisher(const LoopParams& params, const lines::ExtractorParams& lines, const Sources& sources, UpdateHub& hub);
 
+  /// Publishes with other periods from now on.
+  void use(const LoopParams& params) {
+    tile_period_ = params.tile_period;
+    grid_period_ = params.grid_period;
+  }
   /// Publishes what is new and due. A topic without subscribers is not built.
   void publish();
   /// Everything that a new subscriber needs is published in the next publish().

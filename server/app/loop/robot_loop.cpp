@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "server/app/loop/capabilities.hpp"
+#include "server/app/loop/robot_components.hpp"
 
 namespace seeker::app {
 
@@ -22,8 +23,11 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
                 {executor_, world_, sensing_, situation_, localiser_, maps_, motion_, diagnostics_, hooks_}),
       publisher_(params, parts.lines,
                  {world_, sensing_, localiser_, motion_, executor_, missions_.resumption(), diagnostics_}, hub),
-      commands_({world_, sensing_, perception_, motion_, executor_, missions_, maps_, publisher_, diagnostics_}) {
-  register_components(parts);
+      components_(
+          {world_, sensing_, neighbours_, localiser_, motion_, executor_, missions_, maps_, publisher_, diagnostics_},
+          devices_, parts.configuration),
+      commands_({world_, perception_, motion_, executor_, missions_, maps_, components_, publisher_, diagnostics_}) {
+  add_components(diagnostics_.components(), parts, devices_, params.connections);
 }
 
 RobotLoop::~RobotLoop() { shut_down(); }
@@ -49,35 +53,8 @@ MissionOutputs RobotLoop::mission_outputs(UpdateHub& hub) {
               }};
 }
 
-void RobotLoop::register_components(const LoopParts& parts) {
-  Components& components = diagnostics_.components();
-  const auto driver = [&](const std::string& name, drivers::Driver* device) {
-    if (device != nullptr) {
-      components.add(name, "driver", devices_.type,
-                     {[device] { return device->activate(); }, [device] { device->deactivate(); }});
-    }
-  };
-  driver("base", devices_.base.get());
-  driver("lidar", devices_.lidar.get());
-  driver("sonar", devices_.sonar.get());
-  driver("camera", devices_.camera.get());
-  driver("stereo", devices_.stereo.get());
-  components.add("pose", "estimator", parts.estimator_type, {});
-  components.add("mission", "behaviour", "executor", {});
-  components.add("recogniser", "recogniser", "template+features", {});
-  components.add("safety", "supervisor", "clearance", {});
-}
-
 void RobotLoop::start() {
-  Components& components = diagnostics_.components();
-  components.activate_all();
-  sensing_.restart_patience();
-  for (const api::ComponentInfo& info : components.list(now())) {
-    if (info.state == api::ComponentState::kError) {
-      diagnostics_.raise(info.name + "-failed", info.name, info.name + " did not start: " + info.last_error,
-                         "mend the cause, then 'seeker components --restart " + info.name + "'");
-    }
-  }
+  components_.start();
   sense();
   estimate();
   localiser_.note_pose(now());
@@ -144,6 +121,7 @@ Twist2 RobotLoop::decide(WallTime wall_now) {
     perception_.look_with_both(for_mission);
   }
   if (executor_.running()) {
+    diagnostics_.components().count_output("planner", "velocity", now());
     motion_.authority().cancel_drive();
     return decision.command;
   }

@@ -5,6 +5,7 @@
 
 #include "common/api/robot_api.hpp"
 #include "server/app/loop/client_commands.hpp"
+#include "server/app/loop/component_commands.hpp"
 #include "server/app/loop/diagnostics.hpp"
 #include "server/app/loop/localiser.hpp"
 #include "server/app/loop/loop_hooks.hpp"
@@ -68,7 +69,6 @@ class RobotLoop {
 
  private:
   [[nodiscard]] MissionOutputs mission_outputs(UpdateHub& hub);
-  void register_components(const LoopParts& parts);
   void sense();
   void estimate();
   [[nodiscard]] Twist2 decide(WallTime wall_now);
@@ -90,6 +90,7 @@ class RobotLoop {
   MapCommands maps_;
   MissionControl missions_;
   Publisher publisher_;
+  ComponentCommands components_;
   ClientCommands commands_;
 };
 

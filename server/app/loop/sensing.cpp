@@ -27,13 +27,14 @@ Status check(const SonarScan& scan) { return validate(scan); }
 
 Sensing::Sensing(const LoopParams& params, const Devices& devices, WorldLink& world, Diagnostics& diagnostics)
     : timeouts_{params.base_timeout, params.lidar_timeout, params.sonar_timeout},
+      connections_(params.connections),
       devices_(devices),
       world_(world),
       diagnostics_(diagnostics) {}
 
 template <class Driver, class Sample>
-bool Sensing::read(Driver* driver, const std::string& name, Duration timeout, std::optional<Sample>& latest,
-                   RobotTime& last) {
+bool Sensing::read(Driver* driver, const std::string& name, const char* port, Duration timeout,
+                   std::optional<Sample>& latest, RobotTime& last) {
   Components& components = diagnostics_.components();
   if (driver == nullptr || !components.active(name)) {
     return false;
@@ -51,7 +52,7 @@ bool Sensing::read(Driver* driver, const std::string& name, Duration timeout, st
   } else if (fresh) {
     latest = std::move(**sample);
     last = now;
-    components.count_output(name, last);
+    components.count_output(name, port, last);
     diagnostics_.clear(name + "-invalid");
     diagnostics_.clear(name + "-silent");
   }
@@ -66,13 +67,29 @@ bool Sensing::read(Driver* driver, const std::string& name, Duration timeout, st
 }
 
 void Sensing::read() {
-  fresh_odometry_ = read(devices_.base.get(), "base", timeouts_.base, odometry_, last_.odometry);
+  fresh_odometry_ = read(devices_.base.get(), "base", "odometry", timeouts_.base, odometry_, last_.odometry);
   if (fresh_odometry_) {
     continue_odometry(*odometry_);
     history_.add(*odometry_);
   }
-  fresh_scan_ = read(devices_.lidar.get(), "lidar", timeouts_.lidar, scan_, last_.scan);
-  fresh_sonar_ = read(devices_.sonar.get(), "sonar", timeouts_.sonar, sonar_, last_.sonar);
+  fresh_scan_ = read(devices_.lidar.get(), "lidar", "scan", timeouts_.lidar, scan_, last_.scan);
+  fresh_sonar_ = read(devices_.sonar.get(), "sonar", "echoes", timeouts_.sonar, sonar_, last_.sonar);
+}
+
+void Sensing::mark_as_new() {
+  fresh_odometry_ = odometry_.has_value();
+  fresh_scan_ = scan_.has_value();
+  fresh_sonar_ = sonar_.has_value();
+}
+
+void Sensing::forget(const std::string& name) {
+  if (name == "lidar") {
+    scan_.reset();
+    fresh_scan_ = false;
+  } else if (name == "sonar") {
+    sonar_.reset();
+    fresh_sonar_ = false;
+  }
 }
 
 void Sensing::restart_patience() {

@@ -27,6 +27,12 @@ class Sensing {
   void read();
   /// Marks all readings as used: none counts as new any more.
   void mark_as_used() { fresh_odometry_ = fresh_scan_ = fresh_sonar_ = false; }
+  /// Counts the newest readings as new once more, for an estimator that has seen none of them.
+  void mark_as_new();
+  /// Drops the readings of a device that was deactivated: they would only grow older.
+  void forget(const std::string& name);
+  /// Uses other time-outs from now on.
+  void use(const LoopParams& params) { timeouts_ = {params.base_timeout, params.lidar_timeout, params.sonar_timeout}; }
   /// Counts silence from now on; call it when devices were started.
   void restart_patience();
   /// Call it after the base was restarted and counts from zero: odometry goes on from the pose that it had.
@@ -41,7 +47,17 @@ class Sensing {
   [[nodiscard]] const LaserScan* new_scan() const { return fresh_scan_ ? scan() : nullptr; }
   [[nodiscard]] const SonarScan* new_sonar() const { return fresh_sonar_ ? sonar() : nullptr; }
 
-  [[nodiscard]] bool has_lidar() const { return devices_.lidar != nullptr; }
+  /// Which sensors feed which parts of the robot.
+  [[nodiscard]] const Connections& connections() const { return connections_; }
+  /// These return what feeds a part with those inputs; null until there has been one, and where nothing does.
+  [[nodiscard]] const LaserScan* scan_for(const RangeInputs& inputs) const { return inputs.scan ? scan() : nullptr; }
+  [[nodiscard]] const SonarScan* sonar_for(const RangeInputs& inputs) const {
+    return inputs.echoes ? sonar() : nullptr;
+  }
+  /// True when the map is written from scans of the lidar, false for the echoes of the sonar ring.
+  [[nodiscard]] bool maps_by_lidar() const {
+    return devices_.lidar != nullptr && connections_.map.ranges == RangeSensor::kLidar;
+  }
   [[nodiscard]] const OdometryHistory& history() const { return history_; }
   /// Returns the velocity by odometry; at rest before the first reading.
   [[nodiscard]] Twist2 velocity() const { return odometry_ ? odometry_->velocity : Twist2{}; }
@@ -51,7 +67,8 @@ class Sensing {
 
  private:
   template <class Driver, class Sample>
-  bool read(Driver* driver, const std::string& name, Duration timeout, std::optional<Sample>& latest, RobotTime& last);
+  bool read(Driver* driver, const std::string& name, const char* port, Duration timeout, std::optional<Sample>& latest,
+            RobotTime& last);
   void continue_odometry(drivers::OdometrySample& sample);
 
   struct Timeouts {
@@ -66,6 +83,7 @@ class Sensing {
   };
 
   Timeouts timeouts_;
+  Connections connections_;
   Devices devices_;
   WorldLink& world_;
   Diagnostics& diagnostics_;

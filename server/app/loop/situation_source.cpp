@@ -13,8 +13,8 @@ Situation SituationSource::situation() const {
   s.now = world_.now();
   s.pose = localiser_.pose();
   s.velocity = sensing_.velocity();
-  s.scan = sensing_.scan();
-  s.sonar = sensing_.sonar();
+  s.scan = sensing_.scan_for(sensing_.connections().planner);
+  s.sonar = sensing_.sonar_for(sensing_.connections().planner);
   s.map = &localiser_.map().occupancy();
   s.tracker = localiser_.tracker();
   s.map_is_read_only = localiser_.map().identity().use == api::MapUse::kLocalise;

@@ -132,7 +132,8 @@ bool RobotMap::take_segments(RobotTime now) {
 }
 
 Result<api::SegmentUpdate> RobotMap::segments_since(std::uint64_t revision) const {
-  return tracker_ == nullptr ? Result<api::SegmentUpdate>(no_map()) : segments_.since(revision);
+  const bool none = tracker_ == nullptr && segments_.revision() == 0;
+  return none ? Result<api::SegmentUpdate>(no_map()) : segments_.since(revision);
 }
 
 std::optional<api::LineMapStatus> RobotMap::status() const {
@@ -164,21 +165,33 @@ Status RobotMap::load(const LineMap& map, const MapIdentity& identity, RobotTime
   }
   identity_ = identity;
   relocalising_since_ = now;
-  take_new_frame();
+  take_new_frame(tracker_->estimate().map_epoch);
   return {};
 }
 
 void RobotMap::begin_new_map() {
   tracker_->reset({});
+  forget_map();
+  take_new_frame(tracker_->estimate().map_epoch);
+}
+
+void RobotMap::exchange_tracker(slam::MapTracker* tracker, std::uint32_t epoch) {
+  tracker_ = tracker;
+  forget_map();
+  take_new_frame(epoch);
+  segments_.take({}, epoch_);
+}
+
+void RobotMap::forget_map() {
   identity_ = {};
+  pieces_.clear();
   relocalising_since_.reset();
-  take_new_frame();
 }
 
 /// A map of another place: nothing of the old one may be used, nor be taken for the new one by a client.
-void RobotMap::take_new_frame() {
+void RobotMap::take_new_frame(std::uint32_t estimator_epoch) {
   ++epoch_;
-  epoch_offset_ = epoch_ - tracker_->estimate().map_epoch;
+  epoch_offset_ = epoch_ - estimator_epoch;
   replace_occupancy(nav::OccupancyMap(occupancy_params_), epoch_);
   begin_rendering(false);
   tracker_revision_.reset();

@@ -61,6 +61,9 @@ class RobotMap {
 
   [[nodiscard]] bool has_segments() const { return tracker_ != nullptr; }
 
+  /// Uses other parameters from now on.
+  void use(const RobotMapParams& params) { params_ = params; }
+
   /// The estimate with this run's epoch. The map has moved when the epoch differs from that of the estimate before:
   /// by how much follows from where the robot would be in the old one, `old_map_T_base`.
   [[nodiscard]] PoseEstimate follow(const PoseEstimate& estimate, RobotTime now,
@@ -86,7 +89,7 @@ class RobotMap {
 
   /// Looks for changed segments, at most once per period. True when there are.
   bool take_segments(RobotTime now);
-  /// kNotReady: the estimator keeps no map.
+  /// kNotReady: the estimator keeps no map, nor did one before it.
   [[nodiscard]] Result<api::SegmentUpdate> segments_since(std::uint64_t revision) const;
   [[nodiscard]] std::optional<api::LineMapStatus> status() const;
   /// Of the whole map as they are now; none where the estimator keeps no map.
@@ -102,6 +105,9 @@ class RobotMap {
   [[nodiscard]] Status look_where_it_stood(const Pose2& map_T_base, RobotTime now);
   /// Forgets the map; a new one begins where the robot is. There must be one of segments.
   void begin_new_map();
+  /// Another estimator has taken over, with the map `tracker` or none (null); `epoch` is that of its estimate. Nothing
+  /// of the map before is kept: the occupancy is a new one, too.
+  void exchange_tracker(slam::MapTracker* tracker, std::uint32_t epoch);
 
  private:
   struct KeptScan {
@@ -110,7 +116,8 @@ class RobotMap {
   };
 
   [[nodiscard]] Status look_for_robot(const std::function<Status(slam::MapTracker&)>& look, RobotTime now);
-  void take_new_frame();
+  void forget_map();
+  void take_new_frame(std::uint32_t estimator_epoch);
   void begin_rendering(bool calm);
   void replace_occupancy(nav::OccupancyMap map, std::uint32_t epoch);
 

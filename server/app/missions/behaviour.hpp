@@ -18,6 +18,7 @@
 #include "server/nav/movers.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/slam/map_tracker.hpp"
+#include "server/vision/recogniser_params.hpp"
 #include "server/vision/sighting.hpp"
 
 namespace seeker::app {
@@ -83,6 +84,8 @@ class Behaviour {
   [[nodiscard]] virtual Decision step(const Situation& situation) = 0;
   /// What looks at the pictures this behaviour asks for; null when it asks for none.
   [[nodiscard]] virtual std::shared_ptr<const vision::Recogniser> recogniser() const { return nullptr; }
+  /// Makes the recogniser again with other parameters, while the mission goes on. Errors leave it as it was.
+  [[nodiscard]] virtual Status use(const vision::RecogniserParams& /*params*/) { return {}; }
   virtual void on_recognition(const Recognition& /*recognition*/) {}
   /// The answer to wants_look, or why there is none.
   virtual void on_look(const Result<StereoLook>& /*look*/) {}

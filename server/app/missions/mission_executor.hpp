@@ -67,6 +67,12 @@ class MissionExecutor {
   /// it: it is reported to other robots as long as the map lives. Only the grid of an ended mission keeps its epoch.
   void map_moved(const MapCorrection& correction, RobotTime now);
 
+  /// Uses other times of patience from now on.
+  void use(const MissionParams& params) { params_ = params; }
+  /// Makes the running mission's recogniser again with other parameters; success where none runs.
+  [[nodiscard]] Status use(const vision::RecogniserParams& params) {
+    return active_ ? active_->behaviour->use(params) : Status();
+  }
   /// What the behaviour knew when the program was cut off; before its first step.
   void remember(const TopologyMemory& memory);
   void client_lost(const std::string& client, WallTime wall_now);

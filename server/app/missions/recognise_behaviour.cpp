@@ -9,19 +9,17 @@ namespace seeker::app {
 
 Result<std::unique_ptr<Behaviour>> RecogniseBehaviour::create(const SearchBehaviourParams& params,
                                                               const api::RecogniseMission& mission,
-                                                              const vision::SolidModel* solids,
+                                                              std::shared_ptr<const vision::SolidModel> solids,
                                                               const Situation& situation) {
-  Result<std::unique_ptr<vision::Recogniser>> recogniser =
-      vision::make_target_recogniser(target_models(mission.targets), params.recogniser, solids);
+  Result<MissionRecogniser> recogniser = MissionRecogniser::make(mission.targets, params.recogniser, std::move(solids));
   if (!recogniser) {
     return tl::unexpected<Error>(recogniser.error());
   }
-  return std::unique_ptr<Behaviour>(new RecogniseBehaviour(
-      params, mission, std::shared_ptr<const vision::Recogniser>(std::move(*recogniser)), situation));
+  return std::unique_ptr<Behaviour>(new RecogniseBehaviour(params, mission, std::move(*recogniser), situation));
 }
 
 RecogniseBehaviour::RecogniseBehaviour(const SearchBehaviourParams& params, const api::RecogniseMission& mission,
-                                       std::shared_ptr<const vision::Recogniser> recogniser, const Situation& situation)
+                                       MissionRecogniser recogniser, const Situation& situation)
     : targets_(search_targets(mission.targets)),
       recogniser_(std::move(recogniser)),
       tracker_(targets_, params.search.detection),

@@ -17,11 +17,12 @@ class RecogniseBehaviour final : public Behaviour {
   /// Refuses targets that the recogniser cannot use.
   [[nodiscard]] static Result<std::unique_ptr<Behaviour>> create(const SearchBehaviourParams& params,
                                                                  const api::RecogniseMission& mission,
-                                                                 const vision::SolidModel* solids,
+                                                                 std::shared_ptr<const vision::SolidModel> solids,
                                                                  const Situation& situation);
 
   [[nodiscard]] Decision step(const Situation& situation) override;
-  [[nodiscard]] std::shared_ptr<const vision::Recogniser> recogniser() const override { return recogniser_; }
+  [[nodiscard]] std::shared_ptr<const vision::Recogniser> recogniser() const override { return recogniser_.get(); }
+  [[nodiscard]] Status use(const vision::RecogniserParams& params) override { return recogniser_.use(params); }
   void on_recognition(const Recognition& recognition) override { round_.take(recognition); }
   void map_moved(const MapMove& move) override;
   void resumed(RobotTime now) override;
@@ -29,11 +30,11 @@ class RecogniseBehaviour final : public Behaviour {
 
  private:
   RecogniseBehaviour(const SearchBehaviourParams& params, const api::RecogniseMission& mission,
-                     std::shared_ptr<const vision::Recogniser> recogniser, const Situation& situation);
+                     MissionRecogniser recogniser, const Situation& situation);
   [[nodiscard]] api::MissionEnd end() const;
 
   std::vector<search::SearchTarget> targets_;
-  std::shared_ptr<const vision::Recogniser> recogniser_;
+  MissionRecogniser recogniser_;
   search::DetectionTracker tracker_;
   PictureRound round_;
   std::size_t pictures_ = 0;

@@ -54,8 +54,7 @@ api::CoverageSummary to_api(const search::CoverageSummary& summary) {
 Result<std::unique_ptr<Behaviour>> SearchBehaviour::create(const SearchBehaviourParams& params,
                                                            const api::SearchMission& mission, const SearchTools& tools,
                                                            std::unique_ptr<MapViewFinder> views) {
-  Result<std::unique_ptr<vision::Recogniser>> recogniser =
-      vision::make_target_recogniser(target_models(mission.targets), params.recogniser, tools.solids.get());
+  Result<MissionRecogniser> recogniser = MissionRecogniser::make(mission.targets, params.recogniser, tools.solids);
   if (!recogniser) {
     return tl::unexpected<Error>(recogniser.error());
   }
@@ -74,8 +73,7 @@ Result<std::unique_ptr<Behaviour>> SearchBehaviour::create(const SearchBehaviour
     core->keep_evidence(**tools.memory);
   }
   std::unique_ptr<SearchBehaviour> behaviour(
-      new SearchBehaviour(std::move(*core), std::shared_ptr<const vision::Recogniser>(std::move(*recogniser)),
-                          tools.memory, std::move(views)));
+      new SearchBehaviour(std::move(*core), std::move(*recogniser), tools.memory, std::move(views)));
   if (!sees_all_around) {
     behaviour->round_.emplace(params.round);
     behaviour->pictures_around_ = pictures_around(params.recogniser.view, params.round);
@@ -83,8 +81,8 @@ Result<std::unique_ptr<Behaviour>> SearchBehaviour::create(const SearchBehaviour
   return std::unique_ptr<Behaviour>(std::move(behaviour));
 }
 
-SearchBehaviour::SearchBehaviour(search::SearchMission mission, std::shared_ptr<const vision::Recogniser> recogniser,
-                                 EvidenceMemory memory, std::unique_ptr<MapViewFinder> views)
+SearchBehaviour::SearchBehaviour(search::SearchMission mission, MissionRecogniser recogniser, EvidenceMemory memory,
+                                 std::unique_ptr<MapViewFinder> views)
     : mission_(std::move(mission)),
       recogniser_(std::move(recogniser)),
       memory_(std::move(memory)),

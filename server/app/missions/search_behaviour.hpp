@@ -8,6 +8,7 @@
 
 #include "server/app/missions/behaviour.hpp"
 #include "server/app/missions/map_view_finder.hpp"
+#include "server/app/missions/mission_recogniser.hpp"
 #include "server/app/missions/picture_round.hpp"
 #include "server/search/search_mission.hpp"
 #include "server/vision/solids/target_recogniser.hpp"
@@ -47,7 +48,8 @@ class SearchBehaviour final : public Behaviour {
   ~SearchBehaviour() override;
 
   [[nodiscard]] Decision step(const Situation& situation) override;
-  [[nodiscard]] std::shared_ptr<const vision::Recogniser> recogniser() const override { return recogniser_; }
+  [[nodiscard]] std::shared_ptr<const vision::Recogniser> recogniser() const override { return recogniser_.get(); }
+  [[nodiscard]] Status use(const vision::RecogniserParams& params) override { return recogniser_.use(params); }
   void on_recognition(const Recognition& recognition) override;
   void resumed(RobotTime now) override;
   void map_moved(const MapMove& move) override;
@@ -56,13 +58,13 @@ class SearchBehaviour final : public Behaviour {
   [[nodiscard]] std::vector<api::Detection> detections() const override;
 
  private:
-  SearchBehaviour(search::SearchMission mission, std::shared_ptr<const vision::Recogniser> recogniser,
-                  EvidenceMemory memory, std::unique_ptr<MapViewFinder> views);
+  SearchBehaviour(search::SearchMission mission, MissionRecogniser recogniser, EvidenceMemory memory,
+                  std::unique_ptr<MapViewFinder> views);
   [[nodiscard]] Decision look_around(const Situation& situation);
   void receive(const FleetView* fleet);
 
   search::SearchMission mission_;
-  std::shared_ptr<const vision::Recogniser> recogniser_;
+  MissionRecogniser recogniser_;
   EvidenceMemory memory_;
   SharedSearch others_;  ///< what the mission received last
   std::unique_ptr<MapViewFinder> views_;

@@ -58,6 +58,20 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   void restart_component(const std::string& name, api::Reply<void> reply) override {
     ask(std::move(reply), [this, name] { return loop().commands().restart_component(name); });
   }
+  void switch_component(const std::string& name, bool active, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, name, active] { return loop().commands().components().switch_to(name, active); });
+  }
+  void exchange_component(const std::string& name, const std::string& type, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, name, type] { return loop().commands().components().exchange(name, type); });
+  }
+  void get_settings(const std::string& component, api::Reply<std::vector<api::ComponentSetting>> reply) override {
+    ask(std::move(reply), [this, component] { return loop().commands().components().settings(component); });
+  }
+  void set_settings(const std::string& component, const std::vector<std::string>& assignments,
+                    api::Reply<std::vector<api::ComponentSetting>> reply) override {
+    ask(std::move(reply),
+        [this, component, assignments] { return loop().commands().components().set(component, assignments); });
+  }
   void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override {
     ask(std::move(reply), [this, request] { return loop().commands().start_mission(request, client_); });
   }
@@ -180,7 +194,7 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
 };
 
 Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal,
-             const std::filesystem::path& maps, LandmarkUse landmarks)
+             const std::filesystem::path& maps, std::shared_ptr<LandmarkLibrary> landmarks)
     : identity_(std::move(identity)),
       loop_(params, std::move(parts), hub_),
       mailbox_(kMailboxCapacity),
@@ -188,7 +202,7 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
       map_store_({maps, identity_.robot_id, identity_.software_version}),
       maps_(map_store_, loop_, mailbox_),
       checkpoints_(map_store_, loop_, mailbox_),
-      landmarks_(std::move(landmarks.library), std::move(landmarks.in_use)) {
+      landmarks_(std::move(landmarks)) {
   loop_.hooks().on_event = [this](const api::Event& event) {
     tell_log(event);
     if (journal_ && !event.mission.empty()) {

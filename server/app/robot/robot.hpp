@@ -29,7 +29,8 @@ class Robot final : public api::RobotHost {
  public:
   /// `journal` may be null: nothing is kept over a restart then. An empty `maps` folder: no maps are kept.
   Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal = nullptr,
-        const std::filesystem::path& maps = {}, LandmarkUse landmarks = {});
+        const std::filesystem::path& maps = {},
+        std::shared_ptr<LandmarkLibrary> landmarks = std::make_shared<LandmarkLibrary>(LandmarkStorage{}));
   ~Robot() override;
 
   /// Starts the components, then the thread. With `wait_for_client` a replay begins with the first session.

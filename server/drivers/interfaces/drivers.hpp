@@ -30,6 +30,10 @@ class Driver {
   [[nodiscard]] virtual Status activate() = 0;
   /// Closes the device; the base halts first.
   virtual void deactivate() = 0;
+  /// Delivers samples at another period, above 0, from now on. kRefused: the period of this device is fixed.
+  [[nodiscard]] virtual Status set_period(Duration /*period*/) {
+    return fail(Errc::kRefused, "this driver delivers at the pace of its device, which it cannot change");
+  }
 };
 
 /// The state that the base measured.

@@ -55,6 +55,10 @@ class SimBase final : public BaseDriver {
   [[nodiscard]] Result<std::optional<OdometrySample>> read() override;
   [[nodiscard]] Status set_velocity(const Twist2& velocity, RobotTime now) override;
   [[nodiscard]] Status set_motors(bool enabled) override;
+  [[nodiscard]] Status set_period(Duration period) override {
+    params_.base_period = period;
+    return {};
+  }
 
   /// Called by the clock before the world advances by `period`: halts the base where the last command becomes too old.
   void before_advance(Duration period);
@@ -78,6 +82,10 @@ class SimLidar final : public LidarDriver {
   [[nodiscard]] Status activate() override;
   void deactivate() override;
   [[nodiscard]] Result<std::optional<LaserScan>> read() override;
+  [[nodiscard]] Status set_period(Duration period) override {
+    period_ = period;
+    return {};
+  }
 
  private:
   std::shared_ptr<sim::Simulation> simulation_;
@@ -94,6 +102,10 @@ class SimSonar final : public SonarDriver {
   [[nodiscard]] Status activate() override;
   void deactivate() override;
   [[nodiscard]] Result<std::optional<SonarScan>> read() override;
+  [[nodiscard]] Status set_period(Duration period) override {
+    period_ = period;
+    return {};
+  }
 
  private:
   std::shared_ptr<sim::Simulation> simulation_;

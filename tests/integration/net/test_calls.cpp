@@ -33,6 +33,26 @@ TEST_F(NetTest, RefusalsKeepTheirCodeAndSentence) {
   EXPECT_EQ(status.error(), (Error{Errc::kUnreachable, "no way"}));
 }
 
+TEST_F(NetTest, ComponentsAreSetSwitchedAndExchangedOverTheWire) {
+  start();
+  const auto client = connect("tester");
+  using Settings = std::vector<api::ComponentSetting>;
+  EXPECT_EQ(ask<Settings>([&](auto r) { client->get_settings("base", r); }), robot_.values().settings.at("base"));
+  const auto changed = ask<Settings>([&](auto r) { client->set_settings("base", {"timeout_s=0.7"}, r); });
+  ASSERT_TRUE(changed) << changed.error().message;
+  ASSERT_EQ(changed->size(), 1U);
+  EXPECT_EQ(changed->front().value, "0.7");
+  const auto refused = ask<Settings>([&](auto r) { client->set_settings("base", {"timeout_s=bad"}, r); });
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error(), (Error{Errc::kInvalidArgument, "loop.base_timeout_s: expected a number, got 'bad'"}));
+  EXPECT_FALSE(ask<Settings>([&](auto r) { client->set_settings("base", {}, r); })) << "nothing to set";
+  EXPECT_TRUE(ask<void>([&](auto r) { client->switch_component("base", false, r); }));
+  EXPECT_TRUE(ask<void>([&](auto r) { client->exchange_component("base", "other", r); }));
+  EXPECT_EQ(robot_.values().components.front().state, api::ComponentState::kInactive);
+  EXPECT_EQ(robot_.values().components.front().type, "other");
+  EXPECT_FALSE(ask<void>([&](auto r) { client->exchange_component("base", "", r); }));
+}
+
 TEST_F(NetTest, AMapOfManyTilesArrivesWhole) {
   robot_.edit([](FakeRobotValues& v) {
     v.tiles.tiles.clear();

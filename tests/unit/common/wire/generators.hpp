@@ -64,6 +64,7 @@ class ValueMaker {
   api::RobotStatus status();
   api::RobotInfo info();
   api::ComponentInfo component();
+  api::ComponentSetting setting();
   api::LeaseState lease() { return {text(), rng_.bits(), text()}; }
   api::Event event();
   api::ImageFrame frame() { return {text(), {time(), image()}, pose()}; }

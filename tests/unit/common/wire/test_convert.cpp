@@ -37,6 +37,7 @@ RC_GTEST_PROP(Convert, EveryValueComesBackUnchanged, (std::uint64_t seed)) {
   expect_round_trip<pb::RobotStatus>(make.status());
   expect_round_trip<pb::RobotInfo>(make.info());
   expect_round_trip<pb::ComponentInfo>(make.component());
+  expect_round_trip<pb::ComponentSetting>(make.setting());
   expect_round_trip<pb::LeaseState>(make.lease());
   expect_round_trip<pb::Event>(make.event());
   expect_round_trip<pb::DriveCommand>(make.drive());

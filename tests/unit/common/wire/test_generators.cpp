@@ -344,8 +344,19 @@ std::vector<api::StampedPose> ValueMaker::trajectory() {
 api::RobotInfo ValueMaker::info() { return {"r2", text(), 1, 7, {"search", "goto"}, rng_.uniform(), flag()}; }
 
 api::ComponentInfo ValueMaker::component() {
-  return {text(), text(), text(), one_of(api::ComponentState::kError), number(), text()};
+  api::ComponentInfo component{text(), text(), text(), one_of(api::ComponentState::kError), number(), text(), {}};
+  component.ports.resize(static_cast<std::size_t>(count(4)));
+  for (api::ComponentPort& port : component.ports) {
+    port = {text(), text(), flag(), {}, number(), std::nullopt};
+    port.connected.assign(static_cast<std::size_t>(count(3)), "pose.scan");
+    if (flag()) {
+      port.age = Duration(count(1000));
+    }
+  }
+  return component;
 }
+
+api::ComponentSetting ValueMaker::setting() { return {text(), text(), text(), one_of(api::SettingEffect::kRestart)}; }
 
 api::Event ValueMaker::event() {
   api::Event e{rng_.bits(), time(), {}, text(), one_of(api::Severity::kCritical), text(), text()};
