@@ -159,6 +159,7 @@ struct FleetSplitVerb : FleetOptions {
 };
 struct FleetMapVerb : FleetOptions {
   std::string file;
+  std::vector<std::string> formats;  ///< of pictures; empty: the map file
 };
 struct GridVerb {
   std::string evidence;

@@ -250,9 +250,13 @@ void add_fleet(Parse& parse) {
   auto [split, s] = add_fleet_verb<FleetSplitVerb>(parse, *fleet, "split", "Take a robot's map out of the joint one",
                                                    "seeker fleet split r2");
   split->add_option("robot_id", s->robot, "The robot's id")->required();
-  auto [map, f] = add_fleet_verb<FleetMapVerb>(parse, *fleet, "map", "Download the joint map",
-                                               "seeker fleet map out/all.seekermap");
-  map->add_option("file", f->file, "File to write")->required();
+  auto [map, f] = add_fleet_verb<FleetMapVerb>(
+      parse, *fleet, "map", "Download the joint map, or draw it with the robots, their topologies and detections",
+      "seeker fleet map out/all.seekermap\n  seeker fleet map out/all --format png,svg");
+  map->add_option("file", f->file, "File to write; with --format the path without extension")->required();
+  map->add_option("--format", f->formats, "Pictures instead of the map file: of png, svg, pgm (with its yaml)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"png", "svg", "pgm"}));
 }
 
 void add_motion(Parse& parse) {

@@ -86,8 +86,7 @@ void add_status(image::MapScene& scene, const api::RobotStatus& status) {
 void add_detections(image::MapScene& scene, const std::vector<api::Detection>& detections, const api::MissionId& only) {
   for (const api::Detection& d : detections) {
     if (only.empty() || d.mission.empty() || d.mission == only) {
-      scene.detections.push_back(
-          {d.target, d.position, d.position_covariance, d.map_T_base.translation(), d.bearing_map_rad});
+      scene.detections.push_back(mark_of(d));
     }
   }
 }
@@ -107,19 +106,28 @@ Status add_part(const Context& context, void (api::RobotApi::*method)(api::Reply
 
 }  // namespace
 
+image::DetectionMark mark_of(const api::Detection& detection) {
+  return {detection.target, detection.position, detection.position_covariance, detection.map_T_base.translation(),
+          detection.bearing_map_rad};
+}
+
+Result<std::optional<Grid<std::uint8_t>>> join_tiles(const std::vector<OccupancyTile>& tiles) {
+  if (tiles.empty()) {
+    return std::optional<Grid<std::uint8_t>>();
+  }
+  if (!fits_one_grid(tiles)) {
+    return fail(Errc::kTooLarge, "the map's tiles lie too far apart for one picture; something was sensed far away");
+  }
+  return assemble(tiles);
+}
+
 Result<std::optional<Grid<std::uint8_t>>> fetch_occupancy(const Context& context) {
   const Result<std::optional<api::TileUpdate>> tiles = optional_answer(
       ask<api::TileUpdate>(context, [&](api::Reply<api::TileUpdate> r) { context.robot->get_tiles(0, std::move(r)); }));
   if (!tiles) {
     return tl::unexpected<Error>(tiles.error());
   }
-  if (!*tiles || (*tiles)->tiles.empty()) {
-    return std::optional<Grid<std::uint8_t>>();
-  }
-  if (!fits_one_grid((*tiles)->tiles)) {
-    return fail(Errc::kTooLarge, "the map's tiles lie too far apart for one picture; something was sensed far away");
-  }
-  return assemble((*tiles)->tiles);
+  return *tiles ? join_tiles((*tiles)->tiles) : std::optional<Grid<std::uint8_t>>();
 }
 
 Result<image::MapScene> fetch_scene(const Context& context, SceneOf of) {
@@ -199,19 +207,24 @@ Result<std::vector<fs::path>> export_map(const Context& context, const std::stri
   if (!scene) {
     return tl::unexpected<Error>(scene.error());
   }
+  return export_scene(*scene, name, formats);
+}
+
+Result<std::vector<fs::path>> export_scene(const image::MapScene& scene, const std::string& name,
+                                           const std::vector<std::string>& formats) {
   std::vector<fs::path> files;
-  Status ok;
-  if (pictures.png) {
-    ok = save_scene(name + ".png", *scene);
-    files.emplace_back(name + ".png");
-  }
-  if (ok && pictures.map_server && scene->occupancy) {
-    ok = image::write_map_server(name, *scene->occupancy);
-    files.emplace_back(name + ".pgm");
-    files.emplace_back(name + ".yaml");
-  }
-  if (!ok) {
-    return tl::unexpected<Error>(ok.error());
+  for (const std::string& format : formats) {
+    const bool is_picture = format != "pgm";
+    if (!is_picture && !scene.occupancy) {
+      continue;
+    }
+    const Status ok =
+        is_picture ? save_scene(name + "." + format, scene) : image::write_map_server(name, *scene.occupancy);
+    if (!ok) {
+      return tl::unexpected<Error>(ok.error());
+    }
+    const std::vector<fs::path> written = map_export_files(name, {format});
+    files.insert(files.end(), written.begin(), written.end());
   }
   return files;
 }

@@ -11,8 +11,15 @@
 
 namespace seeker::cli {
 
-/// Fetches the occupancy as one grid. Error: kTooLarge when the tiles lie too far apart for one picture.
+/// Fetches the occupancy as one grid. Error: as join_tiles().
 [[nodiscard]] Result<std::optional<Grid<std::uint8_t>>> fetch_occupancy(const Context& context);
+
+/// Puts tiles of occupancy together; absent when there are none. Error: kTooLarge when they lie too far apart for one
+/// picture.
+[[nodiscard]] Result<std::optional<Grid<std::uint8_t>>> join_tiles(const std::vector<OccupancyTile>& tiles);
+
+/// How a detection is drawn.
+[[nodiscard]] image::DetectionMark mark_of(const api::Detection& detection);
 
 /// The content of a picture where the newest mission is an exploration and the robot still has evidence of a search.
 enum class SceneOf : std::uint8_t {
@@ -38,5 +45,11 @@ struct MapPictures {
 [[nodiscard]] Status save_picture(const std::filesystem::path& path, const Image& picture, std::string_view mark);
 /// Draws a scene into such a file, marked as an export of the map: as SVG where its name ends in .svg, else as PNG.
 [[nodiscard]] Status save_scene(const std::filesystem::path& path, const image::MapScene& scene);
+
+/// Writes a scene in formats of pgm, png and svg, after check_map_export() has passed: NAME.pgm with NAME.yaml where
+/// the scene has occupancy, NAME.png and NAME.svg. Returns the written files.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> export_scene(const image::MapScene& scene,
+                                                                      const std::string& name,
+                                                                      const std::vector<std::string>& formats);
 
 }  // namespace seeker::cli

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client/cli/export_check.hpp"
+#include "client/cli/scene.hpp"
 #include "client/cli/show_done.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/values_json.hpp"
@@ -107,6 +109,41 @@ VerbResult decide(const Context& context, const std::string& robot, const FleetO
   return show(context, client ? client->decide(decision) : tl::unexpected<Error>(client.error()));
 }
 
+Result<image::MapScene> picture_of(const api::FleetScene& fleet) {
+  image::MapScene scene;
+  scene.title = "Joint map";
+  Result<std::optional<Grid<std::uint8_t>>> occupancy = join_tiles(fleet.floor);
+  if (!occupancy) {
+    return tl::unexpected<Error>(occupancy.error());
+  }
+  scene.occupancy = std::move(*occupancy);
+  scene.topologies = fleet.robots;
+  for (const RobotTopology& robot : fleet.robots) {
+    const std::size_t nodes = robot.topology.nodes.size();
+    scene.facts.emplace_back(robot.robot_id, nodes > 0 ? count_of(nodes, "node") : "no topology");
+  }
+  scene.facts.emplace_back("found", count_of(fleet.findings.size(), "target"));
+  for (const api::FleetFinding& finding : fleet.findings) {
+    scene.detections.push_back(mark_of(finding.detection));
+  }
+  return scene;
+}
+
+VerbResult draw_joint_map(const Context& context, rpc::FleetClient& client, const FleetMapVerb& verb) {
+  if (const Status free = check_map_export(verb.file, verb.formats); !free) {
+    return tl::unexpected<Error>(free.error());
+  }
+  const Result<api::FleetScene> fleet = client.scene();
+  if (!fleet) {
+    return tl::unexpected<Error>(fleet.error());
+  }
+  const Result<image::MapScene> scene = picture_of(*fleet);
+  if (!scene) {
+    return tl::unexpected<Error>(scene.error());
+  }
+  return show_files(context, export_scene(*scene, verb.file, verb.formats));
+}
+
 }  // namespace
 
 Result<api::FleetStatus> fleet_status(const Context& context, const std::string& robot, const FleetOptions& options) {
@@ -128,7 +165,13 @@ VerbResult fleet(const Context& context, const std::string& robot, const FleetSp
 
 VerbResult fleet(const Context& context, const std::string& robot, const FleetMapVerb& verb) {
   Result<rpc::FleetClient> client = fleet_of(context, robot, verb);
-  const auto bytes = client ? client->map() : tl::unexpected<Error>(client.error());
+  if (!client) {
+    return tl::unexpected<Error>(client.error());
+  }
+  if (!verb.formats.empty()) {
+    return draw_joint_map(context, *client, verb);
+  }
+  const auto bytes = client->map();
   if (!bytes) {
     return tl::unexpected<Error>(bytes.error());
   }

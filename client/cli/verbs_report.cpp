@@ -5,6 +5,7 @@
 #include "client/cli/export_check.hpp"
 #include "client/cli/export_files.hpp"
 #include "client/cli/scene.hpp"
+#include "client/cli/show_done.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
@@ -183,21 +184,7 @@ VerbResult grab_image(const Context& context, const CameraGrabVerb& verb) {
 }
 
 VerbResult export_map(const Context& context, const MapExportVerb& verb) {
-  const auto files = export_map_files(context, verb.name, verb.formats);
-  if (!files) {
-    return tl::unexpected<Error>(files.error());
-  }
-  Json names = Json::array();
-  for (const std::filesystem::path& file : *files) {
-    names.push_back(file.string());
-    if (!context.json) {
-      *context.out << file.string() << '\n';
-    }
-  }
-  if (context.json) {
-    *context.out << json_line(Json{{"files", names}}) << '\n';
-  }
-  return ExitCode::kOk;
+  return show_files(context, export_map_files(context, verb.name, verb.formats));
 }
 
 }  // namespace seeker::cli

@@ -171,6 +171,14 @@ struct FleetSightings {
   friend bool operator==(const FleetSightings&, const FleetSightings&) = default;
 };
 
+/// What the robots of a fleet have reported, in the frame `map` of the main robot, to be looked at.
+struct FleetScene {
+  std::vector<OccupancyTile> floor;
+  std::vector<RobotTopology> robots;  ///< those that are localised, the main robot first
+  std::vector<FleetFinding> findings;
+  friend bool operator==(const FleetScene&, const FleetScene&) = default;
+};
+
 /// The tiles that are nearest to `p_map`, as many as the limits above allow.
 [[nodiscard]] std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const Point2& p_map);
 

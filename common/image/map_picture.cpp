@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "common/image/map_layers.hpp"
+#include "common/image/topology_layer.hpp"
 
 namespace seeker::image {
 namespace {
@@ -73,9 +74,26 @@ void add_map_entries(std::vector<LegendEntry>& entries, const MapScene& scene) {
   }
 }
 
+/// The signs in grey: each robot has a colour of its own.
+void add_topology_entries(std::vector<LegendEntry>& entries, const std::vector<RobotTopology>& topologies) {
+  const auto any = [&](auto has) {
+    return std::any_of(topologies.begin(), topologies.end(), [&](const RobotTopology& robot) {
+      return std::any_of(robot.topology.nodes.begin(), robot.topology.nodes.end(), has);
+    });
+  };
+  if (any([](const TopologyNode& /*node*/) { return true; })) {
+    entries.push_back(
+        {"node of the topology", [](Canvas& canvas, const Point2& at) { draw_topology_node(canvas, at, kGrey); }});
+  }
+  if (any([](const TopologyNode& node) { return !node.goals.empty(); })) {
+    entries.push_back(
+        {"goal still to visit", [](Canvas& canvas, const Point2& at) { draw_topology_goal(canvas, at, kGrey); }});
+  }
+}
+
 std::vector<LegendEntry> legend_of(const MapScene& scene) {
   std::vector<LegendEntry> entries;
-  if (scene.robot) {
+  if (scene.robot || !scene.topologies.empty()) {
     entries.push_back({"robot", [](Canvas& canvas, const Point2& at) {
                          MapView view;
                          view.low = Point2(-at.x(), at.y());
@@ -88,6 +106,7 @@ std::vector<LegendEntry> legend_of(const MapScene& scene) {
         {"target found, with 2 sigma", [](Canvas& canvas, const Point2& at) { draw_pin(canvas, at, 12.0); }});
   }
   add_map_entries(entries, scene);
+  add_topology_entries(entries, scene.topologies);
   if (!scene.searched.empty()) {
     entries.push_back(cell_sample("searched cell", look::kSearched, false));
   }
@@ -193,6 +212,7 @@ void draw_layers(Canvas& canvas, const MapView& view, const MapScene& scene) {
   draw_cells(canvas, view, scene);
   draw_paths(canvas, view, scene);
   draw_gaps(canvas, view, scene.gaps);
+  draw_topologies(canvas, view, scene.topologies, scene.robot_radius_m);
   draw_detections(canvas, view, scene.detections);
   if (scene.robot) {
     draw_robot(canvas, view, *scene.robot, scene.robot_radius_m);

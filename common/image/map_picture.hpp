@@ -12,6 +12,7 @@
 #include "common/core/image.hpp"
 #include "common/core/polygon.hpp"
 #include "common/core/result.hpp"
+#include "common/core/topology.hpp"
 
 namespace seeker::image {
 
@@ -53,6 +54,7 @@ struct MapScene {
   std::optional<Polygon> bound;
   std::vector<Polygon> keep_out;
   std::vector<DetectionMark> detections;
+  std::vector<RobotTopology> topologies;  ///< of one or several robots, each drawn with its robot
 };
 
 struct MapPictureOptions {

@@ -65,6 +65,12 @@ Bounds bounds_of(const MapScene& scene) {
   if (scene.robot) {
     bounds.add(scene.robot->translation());
   }
+  for (const RobotTopology& robot : scene.topologies) {
+    bounds.add(robot.map_T_base.translation());
+    for (const TopologyNode& node : robot.topology.nodes) {
+      bounds.add(node.map_T_base.translation());
+    }
+  }
   return bounds;
 }
 

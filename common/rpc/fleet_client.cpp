@@ -106,6 +106,13 @@ Result<api::FleetStatus> FleetClient::decide(const api::FleetDecision& decision)
   return fleet_of(link_->ask(std::move(request)));
 }
 
+Result<api::FleetScene> FleetClient::scene() {
+  pb::FleetRequest request;
+  request.set_scene(true);
+  const Result<pb::FleetReply> reply = link_->ask(std::move(request));
+  return reply ? wire::from_message<api::FleetScene>(*reply) : tl::unexpected<Error>(reply.error());
+}
+
 Result<std::vector<std::uint8_t>> FleetClient::map() {
   pb::FleetRequest request;
   request.set_map(true);

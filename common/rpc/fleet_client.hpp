@@ -35,6 +35,8 @@ class FleetClient {
   [[nodiscard]] Result<std::uint64_t> send(const api::FleetChunk& chunk);
   [[nodiscard]] Result<api::FleetStatus> status();
   [[nodiscard]] Result<api::FleetStatus> decide(const api::FleetDecision& decision);
+  /// What all robots have reported, in the frame `map` of the main robot. kNotReady: nothing yet.
+  [[nodiscard]] Result<api::FleetScene> scene();
   /// The joint map as the bytes of a map file.
   [[nodiscard]] Result<std::vector<std::uint8_t>> map();
 

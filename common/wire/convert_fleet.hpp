@@ -22,6 +22,8 @@ void write(const SearchedFloor& from, v1::SearchedFloor* to);
 void write(const api::FleetSeen& from, v1::FleetSeen* to);
 /// Writes the fields of a reply to what a robot has seen.
 void write(const api::FleetSightings& from, v1::FleetReply* to);
+/// Writes the fields of a reply to who asks for the scene.
+void write(const api::FleetScene& from, v1::FleetReply* to);
 void write(const api::FleetStatus& from, v1::FleetStatus* to);
 void write(const api::FleetDecision& from, v1::FleetDecision* to);
 void read(const v1::FleetManifest& from, api::FleetManifest& to, Check& check);
@@ -35,6 +37,7 @@ void read(const v1::FleetReply& from, api::FleetShared& to, Check& check);
 void read(const v1::SearchedFloor& from, SearchedFloor& to, Check& check);
 void read(const v1::FleetSeen& from, api::FleetSeen& to, Check& check);
 void read(const v1::FleetReply& from, api::FleetSightings& to, Check& check);
+void read(const v1::FleetReply& from, api::FleetScene& to, Check& check);
 void read(const v1::FleetStatus& from, api::FleetStatus& to, Check& check);
 void read(const v1::FleetDecision& from, api::FleetDecision& to, Check& check);
 

@@ -173,6 +173,46 @@ void read_tiles(const TileField& from, std::vector<OccupancyTile>& to, Check& ch
   }
 }
 
+void write_others(const std::vector<RobotTopology>& from, pb::FleetReply* to) {
+  for (const RobotTopology& other : from) {
+    write(other, to->add_others());
+  }
+}
+
+void read_others(const pb::FleetReply& from, std::vector<RobotTopology>& to, std::size_t most, Check& check) {
+  if (!check.count("others", static_cast<std::size_t>(from.others_size()), most)) {
+    return;
+  }
+  for (int k = 0; k < from.others_size(); ++k) {
+    const auto scope = check.in("others", static_cast<std::size_t>(k));
+    read(from.others(k), to.emplace_back(), check);
+  }
+}
+
+void write_findings(const std::vector<api::FleetFinding>& from, pb::FleetReply* to) {
+  for (const api::FleetFinding& finding : from) {
+    pb::FleetFinding* one = to->add_findings();
+    one->set_robot_id(finding.robot_id);
+    write(finding.detection, one->mutable_detection());
+  }
+}
+
+void read_findings(const pb::FleetReply& from, std::vector<api::FleetFinding>& to, std::size_t most_robots,
+                   Check& check) {
+  if (!check.count("findings", static_cast<std::size_t>(from.findings_size()),
+                   api::kMaxFleetDetections * most_robots)) {
+    return;
+  }
+  for (int k = 0; k < from.findings_size(); ++k) {
+    const auto scope = check.in("findings", static_cast<std::size_t>(k));
+    api::FleetFinding& finding = to.emplace_back();
+    finding.robot_id = read_robot_id(from.findings(k).robot_id(), check);
+    read_required(from.findings(k).has_detection(), from.findings(k).detection(), finding.detection, "detection",
+                  check);
+    check_reach(finding.detection, check);
+  }
+}
+
 }  // namespace
 
 void write(const RobotTopology& from, pb::FleetTopology* to) {
@@ -242,20 +282,12 @@ void read(const pb::FleetShare& from, api::FleetShare& to, Check& check) {
 
 void write(const api::FleetShared& from, pb::FleetReply* to) {
   to->set_state(static_cast<pb::FleetState>(wire_enum(from.state)));
-  for (const RobotTopology& other : from.others) {
-    write(other, to->add_others());
-  }
+  write_others(from.others, to);
 }
 
 void read(const pb::FleetReply& from, api::FleetShared& to, Check& check) {
-  if (!check.count("others", static_cast<std::size_t>(from.others_size()), api::kMaxFleetRobots - 1)) {
-    return;
-  }
   check.enumerator("state", from.state(), api::FleetState::kSplit, to.state);
-  for (int k = 0; k < from.others_size(); ++k) {
-    const auto scope = check.in("others", static_cast<std::size_t>(k));
-    read(from.others(k), to.others.emplace_back(), check);
-  }
+  read_others(from, to.others, api::kMaxFleetRobots - 1, check);
 }
 
 void write(const SearchedFloor& from, pb::SearchedFloor* to) {
@@ -316,30 +348,15 @@ void read(const pb::FleetSeen& from, api::FleetSeen& to, Check& check) {
 
 void write(const api::FleetSightings& from, pb::FleetReply* to) {
   write_tiles(from.floor, to->mutable_floor());
-  for (const api::FleetFinding& finding : from.findings) {
-    pb::FleetFinding* one = to->add_findings();
-    one->set_robot_id(finding.robot_id);
-    write(finding.detection, one->mutable_detection());
-  }
+  write_findings(from.findings, to);
   for (const SearchedFloor& searched : from.searched) {
     write(searched, to->add_searched());
   }
 }
 
 void read(const pb::FleetReply& from, api::FleetSightings& to, Check& check) {
-  constexpr std::size_t kMaxFindings = api::kMaxFleetDetections * (api::kMaxFleetRobots - 1);
   read_tiles(from.floor(), to.floor, check);
-  if (!check.count("findings", static_cast<std::size_t>(from.findings_size()), kMaxFindings)) {
-    return;
-  }
-  for (int k = 0; k < from.findings_size(); ++k) {
-    const auto scope = check.in("findings", static_cast<std::size_t>(k));
-    api::FleetFinding& finding = to.findings.emplace_back();
-    finding.robot_id = read_robot_id(from.findings(k).robot_id(), check);
-    read_required(from.findings(k).has_detection(), from.findings(k).detection(), finding.detection, "detection",
-                  check);
-    check_reach(finding.detection, check);
-  }
+  read_findings(from, to.findings, api::kMaxFleetRobots - 1, check);
   if (!check.count("searched", static_cast<std::size_t>(from.searched_size()), api::kMaxFleetRobots - 1)) {
     return;
   }
@@ -347,6 +364,18 @@ void read(const pb::FleetReply& from, api::FleetSightings& to, Check& check) {
     const auto scope = check.in("searched", static_cast<std::size_t>(k));
     read(from.searched(k), to.searched.emplace_back(), check);
   }
+}
+
+void write(const api::FleetScene& from, pb::FleetReply* to) {
+  write_tiles(from.floor, to->mutable_floor());
+  write_others(from.robots, to);
+  write_findings(from.findings, to);
+}
+
+void read(const pb::FleetReply& from, api::FleetScene& to, Check& check) {
+  read_tiles(from.floor(), to.floor, check);
+  read_others(from, to.robots, api::kMaxFleetRobots, check);
+  read_findings(from, to.findings, api::kMaxFleetRobots, check);
 }
 
 }  // namespace seeker::wire

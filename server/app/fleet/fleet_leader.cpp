@@ -91,6 +91,8 @@ Result<api::FleetShared> FleetLeader::share(const api::FleetShare& share) { retu
 
 Result<api::FleetSightings> FleetLeader::seen(const api::FleetSeen& seen) { return sharing_.seen(seen); }
 
+Result<api::FleetScene> FleetLeader::scene() const { return sharing_.scene(); }
+
 void FleetLeader::refresh() {
   if (sharing_.refresh()) {
     // A full queue only delays it: it is written with the next judgement, too.

@@ -51,6 +51,8 @@ class FleetLeader {
   [[nodiscard]] Result<api::FleetShared> share(const api::FleetShare& share);
   /// What a robot has seen, and the answer: what the others have. kNotFound: as above.
   [[nodiscard]] Result<api::FleetSightings> seen(const api::FleetSeen& seen);
+  /// What all of them have reported, to be looked at. kNotReady: nothing yet.
+  [[nodiscard]] Result<api::FleetScene> scene() const;
   /// Exchanges the same with the main robot itself; to be called every now and then.
   void refresh();
   [[nodiscard]] api::FleetStatus status() const;

@@ -69,6 +69,8 @@ Status serve(FleetLeader& leader, const v1::FleetRequest& request, v1::FleetRepl
       return with_value<api::FleetSeen>(request.seen(), [&](const api::FleetSeen& seen) {
         return report(leader.seen(seen), [&](const api::FleetSightings& others) { wire::write(others, &reply); });
       });
+    case v1::FleetRequest::kScene:
+      return report(leader.scene(), [&](const api::FleetScene& scene) { wire::write(scene, &reply); });
     case v1::FleetRequest::kDecide:
       return with_value<api::FleetDecision>(request.decide(), [&](const api::FleetDecision& decision) {
         return report(leader.decide(decision), put_fleet);

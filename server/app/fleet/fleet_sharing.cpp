@@ -52,6 +52,25 @@ Result<api::FleetSightings> FleetSharing::seen(const api::FleetSeen& seen) {
                              findings_of(others), searched_by(others, now, params_.search_age)};
 }
 
+Result<api::FleetScene> FleetSharing::scene() const {
+  std::vector<OtherRobot> robots;
+  robots.push_back({main_.id(), main_.report(), Pose2{}, false});
+  std::vector<OtherRobot> merged = others_of_main(std::chrono::steady_clock::now());
+  robots.insert(robots.end(), std::make_move_iterator(merged.begin()), std::make_move_iterator(merged.end()));
+
+  api::FleetScene scene;
+  scene.robots = topologies_of(robots);
+  const Point2 p_map = scene.robots.empty() ? Point2::Zero() : scene.robots.front().map_T_base.translation();
+  if (const nav::SharedFloor floor = nav::carried(floors_of(robots))) {
+    scene.floor = api::within_limits(cut(*floor), p_map);
+  }
+  scene.findings = findings_of(robots);
+  if (scene.robots.empty() && scene.floor.empty()) {
+    return fail(Errc::kNotReady, "no robot of the fleet has reported floor or its pose yet; try again in some seconds");
+  }
+  return scene;
+}
+
 /// Floors of buildings are large: they are exchanged less often than topologies.
 bool FleetSharing::refresh_seen(WallTime now) {
   const std::optional<OwnSeen> own = seen_inbox_.take();

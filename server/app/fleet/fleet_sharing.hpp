@@ -20,8 +20,8 @@ struct FleetSharingParams {
 };
 
 /// Topologies, floor, finds and searched floor of all robots that are merged, carried into the frame of the robot that
-/// receives them. Any thread may call share() and seen(): they hold no state of this, the book and the main robot lock
-/// themselves. One thread at a time may call refresh(), whose state is guarded by no mutex.
+/// receives them. Any thread may call share(), seen() and scene(): they hold no state of this, the book and the main
+/// robot lock themselves. One thread at a time may call refresh(), whose state is guarded by no mutex.
 class FleetSharing {
  public:
   /// `book` and `main` must outlive this.
@@ -31,7 +31,10 @@ class FleetSharing {
   [[nodiscard]] Result<api::FleetShared> share(const api::FleetShare& share);
   /// What a robot has seen for what the others have. kNotFound: as above.
   [[nodiscard]] Result<api::FleetSightings> seen(const api::FleetSeen& seen);
-  /// The same for the main robot itself: asks its loop for both, and gives it its view of the fleet. The answer is
+  /// What the main robot and all that are merged with it have reported, in the frame `map` of the main robot.
+  /// kNotReady: none of them has reported floor or a pose yet.
+  [[nodiscard]] Result<api::FleetScene> scene() const;
+  /// The exchange for the main robot itself: asks its loop for both, and gives it its view of the fleet. The answer is
   /// whether it has found other targets than before.
   [[nodiscard]] bool refresh();
 

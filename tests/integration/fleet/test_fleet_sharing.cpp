@@ -1,32 +1,12 @@
 // What robots hear of where the others go, and who belongs together when there are more than two.
 
-#include "tests/integration/fleet/fleet_world.hpp"
-#include "tests/integration/fleet/toy_robot.hpp"
-#include "tests/support/matchers.hpp"
+#include "tests/integration/fleet/sharing_robots.hpp"
 
 namespace seeker::testing {
 namespace {
 
 using app::FleetLeader;
 using app::FleetLeaderParams;
-
-/// A main robot that does not give up on the silent.
-FleetLeaderParams patient_params(const std::string& folder) {
-  FleetLeaderParams params = leader_params(folder);
-  params.silence_limit = std::chrono::hours(1);
-  return params;
-}
-
-bool placed(const api::FleetMember& member) {
-  return member.state == api::FleetState::kMerged && member.main_T_map.has_value();
-}
-
-api::FleetShared reported(FleetLeader& leader, const std::string& robot_id,
-                          const std::optional<RobotTopology>& topology, std::uint64_t instance = 1) {
-  const auto shared = leader.share({robot_id, instance, topology});
-  EXPECT_TRUE(shared) << shared.error().message;
-  return shared ? *shared : api::FleetShared{};
-}
 
 const RobotTopology& of(const std::vector<RobotTopology>& others, const std::string& robot_id) {
   static const RobotTopology nobody;
@@ -35,8 +15,6 @@ const RobotTopology& of(const std::vector<RobotTopology>& others, const std::str
   EXPECT_NE(found, others.end()) << robot_id;
   return found == others.end() ? nobody : *found;
 }
-
-const Point2 kPlace(2.0, 1.0);
 
 TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
   const ToyHost main(west(), at_place("main", kPlace));

@@ -69,6 +69,12 @@ TEST(FleetProcesses, ARobotJoinsAndNothingIsLostWhenTheMainOneDies) {
   EXPECT_TRUE(has(kept, "\"linked\":false")) << kept;
   const Daemon back(joins(port, "r1"));
   static_cast<void>(until(port, [](const std::string& answer) { return !has(answer, "\"linked\":false"); }));
+  const fs::path picture = fresh_folder("fleet_picture") / "joint";
+  ChildProcess draw(program("seeker"),
+                    {"fleet", "map", picture.string(), "--format", "png,svg", "--main", "127.0.0.1:" + port},
+                    fresh_folder("fleet_draw") / "out");
+  EXPECT_EQ(draw.wait(seconds(60)), 0) << draw.output();
+  EXPECT_TRUE(fs::exists(picture.string() + ".png") && fs::exists(picture.string() + ".svg")) << draw.output();
   ChildProcess split(program("seeker"), {"fleet", "split", "r1", "--main", "127.0.0.1:" + port},
                      fresh_folder("fleet_split") / "out");
   EXPECT_EQ(split.wait(seconds(60)), 0) << split.output();

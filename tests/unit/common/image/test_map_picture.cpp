@@ -248,5 +248,47 @@ TEST(MapServer, EmptyMapIsRefused) {
   EXPECT_EQ(write_map_server("/tmp/never", Grid<std::uint8_t>()).error().code, Errc::kNotReady);
 }
 
+RobotTopology robot_with_goal(const std::string& id, const Point2& p_map, const Point2& goal_map) {
+  RobotTopology robot;
+  robot.robot_id = id;
+  robot.map_T_base = {p_map.x(), p_map.y(), 0.0};
+  TopologyNode first;
+  first.id = 1;
+  first.map_T_base = {p_map.x(), p_map.y() + 2.0, 0.0};
+  TopologyNode second;
+  second.id = 2;
+  second.map_T_base = robot.map_T_base;
+  second.goals = {{1, goal_map, 2}};
+  robot.topology.nodes = {first, second};
+  robot.topology.edges = {{1, 2}, {2, 77}};  // one leads to a node that is not there
+  robot.target_map = goal_map;
+  return robot;
+}
+
+TEST(MapPicture, ShowsTheTopologyOfEveryRobotInAColourOfItsOwn) {
+  MapScene scene;
+  scene.occupancy = two_rooms().occupancy;
+  scene.topologies = {robot_with_goal("main", {2.0, 2.0}, {4.0, 2.0}), robot_with_goal("r1", {9.0, 2.0}, {11.0, 2.0})};
+  const auto picture = draw_map(scene);
+  ASSERT_TRUE(picture) << picture.error().message;
+  const Canvas canvas(*picture);
+  const auto view = fit_view(scene, {});
+  ASSERT_TRUE(view);
+  const double top_px = (picture->height_px() - view->height_px) / 2;  // whole pixels, as the map is laid
+  for (std::size_t k = 0; k < scene.topologies.size(); ++k) {
+    const Point2 node = view->to_px(scene.topologies[k].topology.nodes[0].map_T_base.translation());
+    EXPECT_EQ(canvas.pixel(static_cast<int>(node.x()), static_cast<int>(node.y() + top_px)), series_colour(k)) << k;
+  }
+  const auto drawing = map_svg(scene);
+  ASSERT_TRUE(drawing);
+  EXPECT_NE(drawing->find("<svg"), std::string::npos);
+}
+
+TEST(MapPicture, OfATopologyAloneIsDrawnToo) {
+  MapScene scene;
+  scene.topologies = {robot_with_goal("main", {2.0, 2.0}, {4.0, 2.0})};
+  EXPECT_TRUE(draw_map(scene));
+}
+
 }  // namespace
 }  // namespace seeker::image

@@ -227,5 +227,22 @@ TEST(ConvertFleet, MoreThanAFleetTakesIsRefusedAndWithinTheLimitsItIsNot) {
   EXPECT_EQ(api::within_limits(*share().topology), *share().topology) << "what is little stays as it is";
 }
 
+TEST(ConvertFleet, TheSceneOfAllRobotsComesBackUnchangedAndHoldsTheMainRobotToo) {
+  api::FleetScene scene;
+  scene.floor = {tile(-3, 0), tile(2, 9)};
+  for (std::size_t k = 0; k < api::kMaxFleetRobots; ++k) {
+    scene.robots.push_back(*share().topology);
+    scene.robots.back().robot_id = "r" + std::to_string(k);
+    scene.findings.push_back({"r" + std::to_string(k), detection(k + 1, {2.0, 3.0})});
+  }
+  pb::FleetReply reply;
+  write(scene, &reply);
+  pb::FleetReply again;
+  ASSERT_TRUE(again.ParseFromString(reply.SerializeAsString()));
+  EXPECT_EQ(from_message<api::FleetScene>(again).value(), scene);
+  write(*share().topology, again.add_others());
+  EXPECT_EQ(from_message<api::FleetScene>(again).error().code, Errc::kTooLarge);
+}
+
 }  // namespace
 }  // namespace seeker::wire
