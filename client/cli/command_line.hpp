@@ -161,6 +161,9 @@ struct FleetMapVerb : FleetOptions {
   std::string file;
   std::vector<std::string> formats;  ///< of pictures; empty: the map file
 };
+struct TopologyVerb {
+  std::string picture;  ///< file; empty: none
+};
 struct GridVerb {
   std::string evidence;
 };
@@ -196,7 +199,7 @@ using Verb =
                  MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb,
                  LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksRevertVerb,
                  LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
-                 DetectionsVerb, LinesVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+                 TopologyVerb, DetectionsVerb, LinesVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

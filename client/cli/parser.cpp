@@ -373,10 +373,10 @@ void add_reports(Parse& parse) {
                                         "seeker watch --topics status,event --json");
   watch
       ->add_option("--topics", w->topics,
-                   "Of status, scan, sonar, tiles, grid, image, mission, event, detection, segments, lines")
+                   "Of status, scan, sonar, tiles, grid, image, mission, event, detection, segments, lines, topology")
       ->delimiter(',')
-      ->check(CLI::IsMember(
-          {"status", "scan", "sonar", "tiles", "grid", "image", "mission", "event", "detection", "segments", "lines"}));
+      ->check(CLI::IsMember({"status", "scan", "sonar", "tiles", "grid", "image", "mission", "event", "detection",
+                             "segments", "lines", "topology"}));
   watch->add_option("--rate", w->rate_hz, "Highest rate of each topic, Hz")
       ->check(config::number_above_zero, "above 0")
       ->capture_default_str();
@@ -384,6 +384,10 @@ void add_reports(Parse& parse) {
   auto [grid, g] = add_verb<GridVerb>(parse, parse.app, "grid", "What was searched, what was not, and the gaps",
                                       "seeker grid --evidence out/evidence.png");
   grid->add_option("--evidence", g->evidence, "Write the picture of what was seen and the gaps (.png or .svg)");
+  auto [topology, t] = add_verb<TopologyVerb>(
+      parse, parse.app, "topology", "Nodes, edges and goals of an exploration by topology, and its space tree",
+      "seeker topology --picture out/topology.png");
+  topology->add_option("--picture", t->picture, "Draw them on the map (.png or .svg)");
   add_verb<DetectionsVerb>(parse, parse.app, "detections", "What was found and where", "seeker detections --json");
   auto [lines, l] = add_verb<LinesVerb>(parse, parse.app, "lines", "The straight lines in the newest laser scan",
                                         "seeker lines --json\n  seeker lines --out out/lines.svg");

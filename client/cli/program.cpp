@@ -111,6 +111,9 @@ class Dispatch {
   VerbResult operator()(const GridVerb& verb) {
     return with_robot([&] { return show_grid(context_, verb); });
   }
+  VerbResult operator()(const TopologyVerb& verb) {
+    return with_robot([&] { return show_topology(context_, verb); });
+  }
   VerbResult operator()(const DetectionsVerb&) {
     return with_robot([&] { return show_detections(context_); });
   }

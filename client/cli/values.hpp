@@ -27,6 +27,8 @@ namespace seeker::cli {
 [[nodiscard]] std::vector<std::string> lines_of(const std::vector<api::Gap>& gaps);
 /// A decision of an exploration in one line: number, rule, count of candidates, reason.
 [[nodiscard]] std::string text_of(const ExploreDecision& decision);
+/// A topology in one line: its nodes, edges and goals, and the goal that the robot drives to.
+[[nodiscard]] std::string text_of(const RobotTopology& robot);
 /// The pose of the robot in the map, or that it is not known.
 [[nodiscard]] std::string place_text(const PoseEstimate& pose);
 /// One line for people about any update.

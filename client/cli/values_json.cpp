@@ -67,6 +67,44 @@ void to_json(Json& json, const UnreachablePlace& place) {
           {"remedy", remedy_of(place.cause)}};
 }
 
+namespace {
+
+Json json_of(const FreeSector& sector) {
+  return {{"x_m", sector.from_base.x()},
+          {"y_m", sector.from_base.y()},
+          {"start_rad", sector.start_rad},
+          {"span_rad", sector.span_rad},
+          {"range_m", sector.radius_m}};
+}
+
+Json json_of(const TopologyNode& node) {
+  Json sectors = Json::array();
+  for (const FreeSector& sector : node.sectors) {
+    sectors.push_back(json_of(sector));
+  }
+  Json goals = Json::array();
+  for (const TopologyGoal& goal : node.goals) {
+    goals.push_back({{"id", goal.id}, {"x_m", goal.p_map.x()}, {"y_m", goal.p_map.y()}, {"layer", goal.layer}});
+  }
+  return {{"id", node.id}, {"pose", node.map_T_base}, {"sectors", std::move(sectors)}, {"goals", std::move(goals)}};
+}
+
+}  // namespace
+
+void to_json(Json& json, const RobotTopology& robot) {
+  Json nodes = Json::array();
+  for (const TopologyNode& node : robot.topology.nodes) {
+    nodes.push_back(json_of(node));
+  }
+  Json edges = Json::array();
+  for (const TopologyEdge& edge : robot.topology.edges) {
+    edges.push_back({edge.a, edge.b});
+  }
+  json = {{"robot_id", robot.robot_id},        {"pose", robot.map_T_base},  {"active", robot.active},
+          {"current", robot.topology.current}, {"nodes", std::move(nodes)}, {"edges", std::move(edges)}};
+  json["target"] = robot.target_map ? Json{{"x_m", robot.target_map->x()}, {"y_m", robot.target_map->y()}} : Json();
+}
+
 namespace api {
 
 void to_json(Json& json, const Detection& detection) {

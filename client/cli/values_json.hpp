@@ -19,6 +19,7 @@ void to_json(nlohmann::ordered_json& json, const DecisionCandidate& candidate);
 void to_json(nlohmann::ordered_json& json, const ExploreDecision& decision);
 void to_json(nlohmann::ordered_json& json, const MapSegment& segment);
 void to_json(nlohmann::ordered_json& json, const UnreachablePlace& place);
+void to_json(nlohmann::ordered_json& json, const RobotTopology& robot);
 
 namespace api {
 

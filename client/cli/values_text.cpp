@@ -60,6 +60,7 @@ struct Describe {
   std::string operator()(const api::LineReport& report) const {
     return count_of(report.lines.size(), "line") + " by " + report.extractor;
   }
+  std::string operator()(const RobotTopology& robot) const { return text_of(robot); }
   std::string operator()(const api::Detection& detection) const {
     return (detection.withdrawn ? "withdrawn: " : "") + text_of(detection);
   }
@@ -94,6 +95,15 @@ std::string text_of(const Point2& p) { return "(" + fixed("%.2f, ", p.x()) + fix
 
 std::string text_of(const Pose2& pose) {
   return text_of(pose.translation()) + " m, " + fixed("%.0f deg", rad_to_deg(pose.theta_rad));
+}
+
+std::string text_of(const RobotTopology& robot) {
+  std::size_t goals = 0;
+  for (const TopologyNode& node : robot.topology.nodes) {
+    goals += node.goals.size();
+  }
+  return count_of(robot.topology.nodes.size(), "node") + ", " + count_of(robot.topology.edges.size(), "edge") + ", " +
+         count_of(goals, "goal") + (robot.target_map ? ", drives to " + text_of(*robot.target_map) + " m" : "");
 }
 
 std::string place_text(const PoseEstimate& pose) {

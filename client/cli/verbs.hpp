@@ -29,6 +29,7 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult show_grid(const Context& context, const GridVerb& verb);
 /// Prints the lines of the newest scan, and draws them over it where the verb names a file.
 [[nodiscard]] VerbResult show_lines(const Context& context, const LinesVerb& verb);
+[[nodiscard]] VerbResult show_topology(const Context& context, const TopologyVerb& verb);
 [[nodiscard]] VerbResult grab_image(const Context& context, const CameraGrabVerb& verb);
 [[nodiscard]] VerbResult export_map(const Context& context, const MapExportVerb& verb);
 [[nodiscard]] VerbResult save_map(const Context& context, const MapSaveVerb& verb);

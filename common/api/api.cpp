@@ -375,6 +375,7 @@ std::string_view to_string(Topic topic) {
     case Topic::kDetection: return "detection";
     case Topic::kSegments: return "segments";
     case Topic::kLines: return "lines";
+    case Topic::kTopology: return "topology";
   }
   return "status";
 }

@@ -20,6 +20,7 @@
 #include "common/api/robot_state.hpp"
 #include "common/api/scan_lines.hpp"
 #include "common/core/result.hpp"
+#include "common/core/topology.hpp"
 
 namespace seeker::api {
 
@@ -41,8 +42,9 @@ enum class Topic : std::uint8_t {
   kDetection,  ///< Detection (new, refined, gone)   RELIABLE
   kSegments,   ///< SegmentUpdate                    RELIABLE
   kLines,      ///< LineReport                       LATEST
+  kTopology,   ///< RobotTopology                    LATEST
 };
-inline constexpr std::size_t kTopicCount = 11;
+inline constexpr std::size_t kTopicCount = 12;
 
 /// LATEST: a slow receiver gets the newest item and the number of items it missed. RELIABLE: the items are numbered,
 /// complete, and resumable after a reconnect.
@@ -51,7 +53,7 @@ enum class StreamClass : std::uint8_t { kLatest, kReliable };
 [[nodiscard]] std::string_view to_string(Topic topic);
 
 using Payload = std::variant<RobotStatus, LaserScan, SonarScan, TileUpdate, GridReport, ImageFrame, MissionStatus,
-                             Event, Detection, SegmentUpdate, LineReport>;
+                             Event, Detection, SegmentUpdate, LineReport, RobotTopology>;
 
 /// One item of a stream. Immutable and shared between all who receive it.
 struct Update {

@@ -18,6 +18,7 @@ inline constexpr Stroke kPlan{kPurple, 2.2, LineStyle::kDotted, 0.9};
 inline constexpr Stroke kSearched{{0, 110, 120}, 1.3, LineStyle::kSolid, 0.75};
 inline constexpr Stroke kUnsearched{kOrange, 1.8, LineStyle::kDashed, 1.0};
 inline constexpr Stroke kUnreachable{kRed, 1.8, LineStyle::kSolid, 0.9};
+inline constexpr Stroke kSpaceTree{kGreen, 1.3, LineStyle::kSolid, 0.8};
 inline constexpr Stroke kBound{kPurple, 2.0, LineStyle::kDashDot, 0.9};
 inline constexpr Stroke kKeepOut{kRed, 1.6, LineStyle::kSolid, 0.8};
 inline constexpr Colour kTarget{214, 0, 110};

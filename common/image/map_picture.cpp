@@ -106,6 +106,9 @@ std::vector<LegendEntry> legend_of(const MapScene& scene) {
         {"target found, with 2 sigma", [](Canvas& canvas, const Point2& at) { draw_pin(canvas, at, 12.0); }});
   }
   add_map_entries(entries, scene);
+  if (scene.space_tree) {
+    entries.push_back(line_sample("space tree", look::kSpaceTree));
+  }
   add_topology_entries(entries, scene.topologies);
   if (!scene.searched.empty()) {
     entries.push_back(cell_sample("searched cell", look::kSearched, false));
@@ -212,6 +215,9 @@ void draw_layers(Canvas& canvas, const MapView& view, const MapScene& scene) {
   draw_cells(canvas, view, scene);
   draw_paths(canvas, view, scene);
   draw_gaps(canvas, view, scene.gaps);
+  if (scene.space_tree) {
+    draw_space_tree(canvas, view, *scene.space_tree);
+  }
   draw_topologies(canvas, view, scene.topologies, scene.robot_radius_m);
   draw_detections(canvas, view, scene.detections);
   if (scene.robot) {

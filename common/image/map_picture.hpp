@@ -54,7 +54,8 @@ struct MapScene {
   std::optional<Polygon> bound;
   std::vector<Polygon> keep_out;
   std::vector<DetectionMark> detections;
-  std::vector<RobotTopology> topologies;  ///< of one or several robots, each drawn with its robot
+  std::vector<RobotTopology> topologies;   ///< of one or several robots, each drawn with its robot
+  std::optional<TopologyNode> space_tree;  ///< the node whose admissible space tree is drawn
 };
 
 struct MapPictureOptions {

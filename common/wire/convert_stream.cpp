@@ -1,4 +1,5 @@
 #include "common/wire/convert.hpp"
+#include "common/wire/convert_fleet.hpp"
 
 namespace seeker::wire {
 namespace {
@@ -17,6 +18,7 @@ struct PayloadWriter {
   void operator()(const api::Detection& from) const { write(from, to->mutable_detection()); }
   void operator()(const api::SegmentUpdate& from) const { write(from, to->mutable_segments()); }
   void operator()(const api::LineReport& from) const { write(from, to->mutable_lines()); }
+  void operator()(const RobotTopology& from) const { write(api::within_limits(from), to->mutable_topology()); }
 };
 
 template <class T, class M>
@@ -39,7 +41,7 @@ void write(const api::Update& from, pb::StreamUpdate* to) {
 }
 
 void read(const pb::StreamUpdate& from, api::Update& to, Check& check) {
-  check.enumerator("topic", from.topic(), api::Topic::kLines, to.topic);
+  check.enumerator("topic", from.topic(), api::Topic::kTopology, to.topic);
   to.sequence = from.sequence();
   to.dropped = from.dropped();
   to.stamp = RobotTime(Duration(from.stamp_ns()));
@@ -57,6 +59,7 @@ void read(const pb::StreamUpdate& from, api::Update& to, Check& check) {
     case P::kDetection: return read_payload<api::Detection>(from.detection(), T::kDetection, "detection", to, check);
     case P::kSegments: return read_payload<api::SegmentUpdate>(from.segments(), T::kSegments, "segments", to, check);
     case P::kLines: return read_payload<api::LineReport>(from.lines(), T::kLines, "lines", to, check);
+    case P::kTopology: return read_payload<RobotTopology>(from.topology(), T::kTopology, "topology", to, check);
     case P::PAYLOAD_NOT_SET: check.refuse("payload", Errc::kInvalidArgument, "is missing"); return;
   }
 }
@@ -68,7 +71,7 @@ void write(const api::TopicRequest& from, pb::TopicRequest* to) {
 }
 
 void read(const pb::TopicRequest& from, api::TopicRequest& to, Check& check) {
-  check.enumerator("topic", from.topic(), api::Topic::kLines, to.topic);
+  check.enumerator("topic", from.topic(), api::Topic::kTopology, to.topic);
   to.max_rate_hz = check.finite("max_rate_hz", from.max_rate_hz());
   if (to.max_rate_hz < 0.0 || to.max_rate_hz > kMaxStreamRate_hz) {
     check.refuse("max_rate_hz", Errc::kInvalidArgument, "must be from 0 to 1000");

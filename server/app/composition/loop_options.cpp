@@ -91,6 +91,7 @@ void describe(config::Fields& f, LoopParams& params) {
   f.seconds("sonar_timeout_s", params.sonar_timeout);
   f.seconds("tile_period_s", params.tile_period);
   f.seconds("grid_period_s", params.grid_period);
+  f.seconds("topology_period_s", params.topology_period);
   f.field("trajectory_spacing_m", params.trajectory_spacing_m);
   f.section("safety", params.safety);
   f.section("mission", params.mission);

@@ -57,6 +57,7 @@ struct Connections {
 };
 
 struct LoopParams {
+  std::string robot_id = "seeker-1";  ///< under which its topology is reported
   Duration period = std::chrono::milliseconds(100);
   Duration base_timeout = std::chrono::milliseconds(500);  ///< the base counts as silent after this robot time
   Duration lidar_timeout = std::chrono::seconds(1);
@@ -64,6 +65,7 @@ struct LoopParams {
   Duration tile_period = std::chrono::milliseconds(500);  ///< robot time between publications of changed tiles
   Duration grid_period =
       std::chrono::seconds(2);  ///< robot time between publications of a search's cell lists and evidence
+  Duration topology_period = std::chrono::seconds(1);  ///< robot time between publications of the topology
   double trajectory_spacing_m = 0.1;
   std::size_t max_trajectory = 100'000;  ///< most poses kept; beyond it every second pose of the older half is dropped
   SafetyParams safety;

@@ -77,7 +77,7 @@ void Neighbours::map_moved(const Pose2& new_T_old) {
 }
 
 void Neighbours::forget_places() {
-  own_ = {};
+  own_ = {.robot_id = std::move(own_.robot_id)};
   fleet_.reset();
 }
 

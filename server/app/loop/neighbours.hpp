@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "common/core/pose2.hpp"
@@ -20,7 +22,9 @@ namespace seeker::app {
 /// loop's thread; places are in frame `map`.
 class Neighbours {
  public:
-  explicit Neighbours(const FleetMotionParams& params) : params_(params) {}
+  Neighbours(const FleetMotionParams& params, std::string robot_id) : params_(params) {
+    own_.robot_id = std::move(robot_id);
+  }
 
   /// Sets what is known of the fleet from `now` on; without a value the robot is alone.
   void set_fleet(std::optional<FleetView> fleet, RobotTime now);
@@ -37,7 +41,7 @@ class Neighbours {
   /// Updates what is reported to the fleet: where the robot is, and its exploration by topology while one runs.
   /// `behaviour` may be null.
   void note_own(const Behaviour* behaviour, const Pose2& map_T_base, const Twist2& velocity);
-  /// Returns that report, without the robot's id; it is inactive while no exploration by topology runs.
+  /// Returns that report; it is inactive while no exploration by topology runs.
   [[nodiscard]] const RobotTopology& own() const { return own_; }
 
   /// The map was corrected around the robot by `new_T_old`: everything that is known here moves with it.

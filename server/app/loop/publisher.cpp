@@ -7,7 +7,12 @@ namespace seeker::app {
 
 Publisher::Publisher(const LoopParams& params, const lines::ExtractorParams& lines, const Sources& sources,
                      UpdateHub& hub)
-    : tile_period_(params.tile_period), grid_period_(params.grid_period), sources_(sources), hub_(hub), lines_(lines) {}
+    : tile_period_(params.tile_period),
+      grid_period_(params.grid_period),
+      topology_period_(params.topology_period),
+      sources_(sources),
+      hub_(hub),
+      lines_(lines) {}
 
 void Publisher::publish() {
   const RobotTime stamp = sources_.world.now();
@@ -18,6 +23,7 @@ void Publisher::publish() {
   publish_tiles(stamp);
   publish_grid(stamp);
   publish_segments(stamp);
+  publish_topology(stamp);
   republish_ = false;
 }
 
@@ -71,6 +77,15 @@ void Publisher::publish_segments(RobotTime stamp) {
   published_segments_ = update->revision;
   for (api::SegmentUpdate& part : api::split(*update)) {
     hub_.publish(api::Topic::kSegments, stamp, std::move(part));
+  }
+}
+
+/// A robot that does not know where it is has no place in the topology to report.
+void Publisher::publish_topology(RobotTime stamp) {
+  const bool due = republish_ || stamp - topology_at_ >= topology_period_;
+  if (due && hub_.wanted(api::Topic::kTopology) && is_placed(sources_.localiser.pose().quality)) {
+    topology_at_ = stamp;
+    hub_.publish(api::Topic::kTopology, stamp, sources_.neighbours.own());
   }
 }
 

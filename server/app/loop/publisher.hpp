@@ -11,6 +11,7 @@
 #include "server/app/loop/localiser.hpp"
 #include "server/app/loop/mission_resumption.hpp"
 #include "server/app/loop/motion_control.hpp"
+#include "server/app/loop/neighbours.hpp"
 #include "server/app/loop/sensing.hpp"
 #include "server/app/loop/world_link.hpp"
 #include "server/app/missions/mission_executor.hpp"
@@ -26,6 +27,7 @@ class Publisher {
     const WorldLink& world;
     const Sensing& sensing;
     Localiser& localiser;
+    const Neighbours& neighbours;
     const MotionControl& motion;
     const MissionExecutor& missions;
     const MissionResumption& resumption;
@@ -38,6 +40,7 @@ class Publisher {
   void use(const LoopParams& params) {
     tile_period_ = params.tile_period;
     grid_period_ = params.grid_period;
+    topology_period_ = params.topology_period;
   }
   /// Publishes what is new and due. A topic without subscribers is not built.
   void publish();
@@ -52,9 +55,11 @@ class Publisher {
   void publish_tiles(RobotTime stamp);
   void publish_grid(RobotTime stamp);
   void publish_segments(RobotTime stamp);
+  void publish_topology(RobotTime stamp);
 
   Duration tile_period_;
   Duration grid_period_;
+  Duration topology_period_;
   Sources sources_;
   UpdateHub& hub_;
   LineReporter lines_;
@@ -63,6 +68,7 @@ class Publisher {
   std::uint64_t published_segments_ = 0;
   RobotTime tiles_at_;
   RobotTime grid_at_;
+  RobotTime topology_at_;
 };
 
 }  // namespace seeker::app

@@ -12,7 +12,7 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
       diagnostics_(devices_.clock, hub, hooks_),
       world_(devices_.clock, devices_.type, params.period, params.mission.fault_grace, diagnostics_),
       sensing_(params, devices_, world_, diagnostics_),
-      neighbours_(params.fleet),
+      neighbours_(params.fleet, params.robot_id),
       localiser_(params, parts.occupancy, std::move(parts.estimator), diagnostics_),
       situation_(world_, sensing_, localiser_, neighbours_, devices_.stereo != nullptr && parts.stereo != nullptr),
       motion_(params.safety, devices_.base, sensing_, situation_, world_, diagnostics_),
@@ -22,7 +22,8 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
       missions_(params.map,
                 {executor_, world_, sensing_, situation_, localiser_, maps_, motion_, diagnostics_, hooks_}),
       publisher_(params, parts.lines,
-                 {world_, sensing_, localiser_, motion_, executor_, missions_.resumption(), diagnostics_}, hub),
+                 {world_, sensing_, localiser_, neighbours_, motion_, executor_, missions_.resumption(), diagnostics_},
+                 hub),
       components_(
           {world_, sensing_, neighbours_, localiser_, motion_, executor_, missions_, maps_, publisher_, diagnostics_},
           devices_, parts.configuration),

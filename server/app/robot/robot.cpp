@@ -37,6 +37,11 @@ void tell_log(const api::Event& event) {
   }
 }
 
+LoopParams of_robot(LoopParams params, const RobotIdentity& identity) {
+  params.robot_id = identity.robot_id;
+  return params;
+}
+
 }  // namespace
 
 /// One client's view: every call becomes a task of the loop's thread.
@@ -196,7 +201,7 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
 Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal,
              const std::filesystem::path& maps, std::shared_ptr<LandmarkLibrary> landmarks)
     : identity_(std::move(identity)),
-      loop_(params, std::move(parts), hub_),
+      loop_(of_robot(params, identity_), std::move(parts), hub_),
       mailbox_(kMailboxCapacity),
       journal_(std::move(journal)),
       map_store_({maps, identity_.robot_id, identity_.software_version}),
@@ -268,7 +273,6 @@ void Robot::give_own_topology(const api::Reply<OwnTopology>& reply) {
     OwnTopology own;
     if (known_place(loop_) && !loop_.mission_control().map_waits_for_resume()) {
       own = loop_.neighbours().own();
-      own->robot_id = identity_.robot_id;
     }
     reply(std::move(own));
   });

@@ -48,6 +48,7 @@ class ValueMaker {
   MapSegment segment();
   api::SegmentUpdate segments();
   api::LineReport lines();
+  RobotTopology topology();
   api::MapSummary map_summary();
   api::LandmarkSummary landmark_summary();
   api::LandmarkPoint landmark();

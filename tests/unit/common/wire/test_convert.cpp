@@ -55,7 +55,7 @@ RC_GTEST_PROP(Convert, EveryValueComesBackUnchanged, (std::uint64_t seed)) {
 RC_GTEST_PROP(Convert, AnUpdateEncodedOnceIsReadByEveryReceiver, (std::uint64_t seed)) {
   ValueMaker make(seed);
   api::Update update;
-  update.topic = make.one_of(api::Topic::kLines);
+  update.topic = make.one_of(api::Topic::kTopology);
   update.sequence = seed + 1;
   update.stamp = make.time();
   update.payload = make.payload(update.topic);

@@ -366,6 +366,24 @@ api::Event ValueMaker::event() {
   return e;
 }
 
+RobotTopology ValueMaker::topology() {
+  RobotTopology robot;
+  robot.robot_id = "r1";
+  robot.map_T_base = pose();
+  for (int k = 1; k <= count(4); ++k) {
+    TopologyNode node;
+    node.id = static_cast<std::uint64_t>(k);
+    node.map_T_base = pose();
+    node.sectors = {{{0.25, 0.0}, -1.5, 3.0, 4.5}};  // in single precision on the wire
+    node.goals = {{node.id, node.map_T_base.translation() + Point2(1.0, 2.0), 1 + count(5)}};
+    robot.topology.nodes.push_back(std::move(node));
+    robot.topology.current = static_cast<std::uint64_t>(k);
+    robot.topology.edges.push_back({1, robot.topology.current});
+  }
+  robot.active = flag();
+  return robot;
+}
+
 api::Payload ValueMaker::payload(api::Topic topic) {
   switch (topic) {
     case api::Topic::kStatus: return status();
@@ -379,6 +397,7 @@ api::Payload ValueMaker::payload(api::Topic topic) {
     case api::Topic::kEvent: return event();
     case api::Topic::kDetection: return detection();
     case api::Topic::kLines: return lines();
+    case api::Topic::kTopology: return topology();
   }
   return status();
 }

@@ -66,7 +66,7 @@ struct FakeDeck {
   Diagnostics diagnostics{clock, hub, hooks};
   WorldLink world{clock, "fake", std::chrono::milliseconds(100), std::chrono::seconds(10), diagnostics};
   Sensing sensing{params, devices(), world, diagnostics};
-  Neighbours neighbours{params.fleet};
+  Neighbours neighbours{params.fleet, params.robot_id};
   FakeEstimator* estimator = new FakeEstimator;  ///< owned by the localiser
   Localiser localiser{params, nav::OccupancyParams{}, std::unique_ptr<Estimator>(estimator), diagnostics};
   SituationSource situation{world, sensing, localiser, neighbours, false};

@@ -31,8 +31,8 @@ class PublisherTest : public ::testing::Test {
   testing::FakeDeck deck;
   Publisher publisher{deck.params,
                       {},
-                      {deck.world, deck.sensing, deck.localiser, deck.motion, deck.executor, deck.missions.resumption(),
-                       deck.diagnostics},
+                      {deck.world, deck.sensing, deck.localiser, deck.neighbours, deck.motion, deck.executor,
+                       deck.missions.resumption(), deck.diagnostics},
                       deck.hub};
   std::map<api::Topic, int> updates;
   std::unique_ptr<api::Subscription> subscription;
@@ -71,6 +71,19 @@ TEST_F(PublisherTest, TilesComeAtTheirOwnPace) {
   EXPECT_EQ(updates[api::Topic::kStatus], 10);
   EXPECT_GE(updates[api::Topic::kTiles], 1);
   EXPECT_LE(updates[api::Topic::kTiles], 3) << "twice a second";
+}
+
+TEST_F(PublisherTest, TheTopologyNamesItsRobotAndComesAtItsOwnPace) {
+  std::string robot_id;
+  subscription = deck.hub.subscribe({{.topic = api::Topic::kTopology}}, [&](const auto& update) {
+    ++updates[update->topic];
+    robot_id = std::get<RobotTopology>(update->payload).robot_id;
+  });
+  for (int k = 0; k < 10; ++k) {
+    tick_with_sweep();
+  }
+  EXPECT_EQ(updates[api::Topic::kTopology], 1) << "once a second";
+  EXPECT_EQ(robot_id, deck.params.robot_id);
 }
 
 TEST_F(PublisherTest, NobodyGetsWhatNobodyHasSubscribedTo) {

@@ -1,0 +1,76 @@
+// What the robot reports of its exploration by topology.
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "client/cli/scene.hpp"
+#include "client/cli/update_queue.hpp"
+#include "client/cli/values.hpp"
+#include "client/cli/values_json.hpp"
+#include "client/cli/verbs.hpp"
+
+namespace seeker::cli {
+namespace {
+
+/// The next update of the stream.
+Result<RobotTopology> fetch_topology(const Context& context) {
+  const Result<Stream> stream = open_stream(*context.robot, {{api::Topic::kTopology, 0.0, 0}});
+  if (!stream) {
+    return tl::unexpected<Error>(stream.error());
+  }
+  const std::optional<api::UpdatePtr> update = stream->queue->pop(context.answer_time());
+  if (!update) {
+    return fail(
+        Errc::kTimeout,
+        "the robot sends no topology: it does not know where it is, or its software is older than this program");
+  }
+  return std::get<RobotTopology>((*update)->payload);
+}
+
+Status draw(const Context& context, const RobotTopology& robot, const std::string& file) {
+  Result<image::MapScene> scene = fetch_scene(context, SceneOf::kMission);
+  if (!scene) {
+    return tl::unexpected<Error>(scene.error());
+  }
+  const std::vector<TopologyNode>& nodes = robot.topology.nodes;
+  const auto current = std::find_if(nodes.begin(), nodes.end(),
+                                    [&](const TopologyNode& node) { return node.id == robot.topology.current; });
+  if (current != nodes.end()) {
+    scene->space_tree = *current;
+  }
+  scene->robot.reset();  // drawn with its topology
+  scene->topologies = {robot};
+  return save_scene(file, *scene);
+}
+
+}  // namespace
+
+VerbResult show_topology(const Context& context, const TopologyVerb& verb) {
+  const Result<RobotTopology> robot = fetch_topology(context);
+  if (!robot) {
+    return tl::unexpected<Error>(robot.error());
+  }
+  if (context.json) {
+    *context.out << json_line(Json(*robot)) << '\n';
+  } else {
+    *context.out << text_of(*robot) << '\n';
+    for (const TopologyNode& node : robot->topology.nodes) {
+      *context.out << "  " << node.id << " at " << text_of(node.map_T_base.translation()) << " m, "
+                   << count_of(node.goals.size(), "goal") << (node.id == robot->topology.current ? ", here" : "")
+                   << '\n';
+    }
+  }
+  if (robot->topology.nodes.empty()) {
+    say(context, "no exploration by topology yet; 'seeker explore --strategy topological' begins one");
+  }
+  if (!verb.picture.empty()) {
+    if (const Status ok = draw(context, *robot, verb.picture); !ok) {
+      return tl::unexpected<Error>(ok.error());
+    }
+    say(context, "wrote " + verb.picture);
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace seeker::cli
