@@ -8,7 +8,7 @@ source tests/lint/sources.sh
 
 readonly database=build/dev/compile_commands.json
 readonly cache=build/lint-cache
-readonly batch_files=10
+readonly batch_files=20
 mkdir -p "$cache"
 [[ -e $database ]] || { echo "no $database: configure first (cmake --preset dev)" >&2; exit 2; }
 
@@ -59,15 +59,16 @@ flags_of() {
   done
 }
 
-# tidy FILE FLAGS_OF: findings and exit code of clang-tidy on FILE, compiled as FLAGS_OF is.
+# tidy FILE FLAGS_OF...: findings and exit code of clang-tidy on FILE, compiled with all flags of the others.
 tidy() {
-  local flags
-  mapfile -t flags < <(flags_of "$2")
+  local flags other
+  mapfile -t flags < <(for other in "${@:2}"; do flags_of "$other"; done |
+    awk '$0 == "-isystem" {getline path; $0 = "-isystem" path} !seen[$0]++')
   clang-tidy --quiet --config-file=.clang-tidy --extra-arg=-Wno-unknown-warning-option "$1" -- "${flags[@]}" 2>&1
 }
 
-# check_batch "FILE KEY" ...: most of the time of one file goes into the headers, so that the files of one folder are checked as
-# one, and halved where that finds something: names may clash that never meet. What a file alone shows is what counts.
+# check_batch "FILE KEY" ...: most of the time of one file goes into the headers, so that files are checked twenty at a time,
+# and halved where that finds something: names may clash that never meet. What a file alone shows is what counts.
 check_batch() {
   local pair half=$(($# / 2)) failed=0 output
   if (($# == 1)); then
@@ -82,7 +83,7 @@ check_batch() {
   local joined
   joined=$(mktemp --suffix=.cpp)
   for pair in "$@"; do cat "${pair% *}"; done >"$joined"
-  if tidy "$joined" "${1% *}" >/dev/null; then
+  if tidy "$joined" "${@% *}" >/dev/null; then
     for pair in "$@"; do touch "$cache/${pair##* }"; done
   else
     check_batch "${@:1:half}" || failed=1
@@ -101,21 +102,28 @@ check_line() {
 export -f flags_of tidy check_batch check_line
 export database cache
 
-# A line of tab-separated "FILE KEY" for each batch: files of one folder; alone are the main files of programs, and those that
-# are compiled alone for the names in them.
+# A line of tab-separated "FILE KEY" for each batch: files of one folder, or of small ones that lie beside each other in a
+# larger one, and apart from them those that are compiled alone for the names in them, which mostly clash with other files
+# than each other. The main files of programs are alone.
 batches() {
   local alone
   alone=$(grep -oE '(common|server|client)/[a-z0-9_/]+\.cpp' cmake/SeekerUnity.cmake | tr '\n' ' ')
-  sort "$work" | awk -v most="$batch_files" -v alone=" $alone" '
-    $1 ~ /\/main[^\/]*\.cpp$/ || index(alone, " " $1 " ") { print; next }
+  awk -v alone=" $alone" '{
+    group = $1
+    if (group !~ /\/main[^\/]*\.cpp$/) {
+      sub(/\/[^\/]*$/, "", group)
+      sub(/^common\/.*/, "common", group)
+      if (group ~ /^[^\/]*\/[^\/]*\//) sub(/\/[^\/]*$/, "", group)
+      group = group (index(alone, " " $1 " ") ? "/2" : "/1")
+    }
+    print group, $0
+  }' "$work" | sort | awk -v most="$batch_files" '
     {
-      folder = $1
-      sub(/\/[^\/]*$/, "", folder)
-      if (folder != last || count == most) {
+      if ($1 != last || count == most) {
         if (line != "") print line
-        line = ""; count = 0; last = folder
+        line = ""; count = 0; last = $1
       }
-      line = line (count++ ? "\t" : "") $0
+      line = line (count++ ? "\t" : "") $2 " " $3
     }
     END { if (line != "") print line }'
 }
