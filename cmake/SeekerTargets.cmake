@@ -8,6 +8,8 @@ function(seeker_library name)
   if(sources)
     add_library(${target} STATIC ${sources})
     target_link_libraries(${target} PUBLIC seeker_flags ${ARG_DEPS})
+    # A section for each function: programs are linked without those that they cannot reach (tests/arch/unreached.sh).
+    target_compile_options(${target} PRIVATE -ffunction-sections)
     seeker_unite(${target})
   else()
     add_library(${target} INTERFACE)
@@ -23,7 +25,9 @@ function(seeker_program name source)
   endif()
   add_executable(${name} ${source})
   target_link_libraries(${name} PRIVATE seeker_flags ${ARG_DEPS})
+  target_link_options(${name} PRIVATE LINKER:--gc-sections)
   target_compile_definitions(${name} PRIVATE SEEKER_VERSION="${PROJECT_VERSION}")
+  set_property(GLOBAL APPEND PROPERTY SEEKER_PROGRAMS ${name})
 endfunction()
 
 # seeker_test(NAME [DEPS ...] [LABELS ...] [TIMEOUT S] [THREADS]): one test program from all test_*.cpp of the current

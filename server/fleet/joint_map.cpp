@@ -297,11 +297,11 @@ Origin origin_of_segment(std::uint64_t joint_id) {
 LineMap as_one_robots(LineMap map) {
   std::uint32_t next_node = 0;
   for (const MapNode& node : map.nodes) {
-    next_node = node.id < kMaxJointNodes ? std::max(next_node, node.id + 1) : next_node;
+    next_node = origin_of_node(node.id).slot == 0 ? std::max(next_node, node.id + 1) : next_node;
   }
   std::map<std::uint32_t, std::uint32_t> renamed;
   for (MapNode& node : map.nodes) {
-    if (node.id >= kMaxJointNodes) {
+    if (origin_of_node(node.id).slot != 0) {
       node.id = renamed.try_emplace(node.id, next_node + static_cast<std::uint32_t>(renamed.size())).first->second;
     }
   }
@@ -318,11 +318,11 @@ LineMap as_one_robots(LineMap map) {
   }
   std::uint64_t next_segment = 1;
   for (const MapSegment& segment : map.segments) {
-    next_segment = segment.id < kMaxJointSegments ? std::max(next_segment, segment.id + 1) : next_segment;
+    next_segment = origin_of_segment(segment.id).slot == 0 ? std::max(next_segment, segment.id + 1) : next_segment;
   }
   for (MapSegment& segment : map.segments) {
     rename(segment.node);
-    segment.id = segment.id < kMaxJointSegments ? segment.id : next_segment++;
+    segment.id = origin_of_segment(segment.id).slot == 0 ? segment.id : next_segment++;
   }
   map.next_id = map.next_id > kMaxJointSegments ? next_segment : map.next_id;
   return map;

@@ -72,32 +72,6 @@ Moments moments_of(std::span<const PolarPoint> points) {
   return sums;
 }
 
-DoubleAngle centred_double_angle(std::span<const PolarPoint> points) {
-  const Shared s = shared_of(moments_of(points));
-  return {s.num, s.den};
-}
-
-DoubleAngle paired_double_angle(std::span<const PolarPoint> points) {
-  double w = 0.0;
-  for (const PolarPoint& p : points) {
-    w += p.weight;
-  }
-  DoubleAngle sum;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const PolarPoint& p = points[i];
-    const double own = (p.weight - w) * p.weight * p.range_m * p.range_m / w;
-    sum.num += own * std::sin(2.0 * p.angle_rad);
-    sum.den += own * std::cos(2.0 * p.angle_rad);
-    for (std::size_t j = i + 1; j < points.size(); ++j) {
-      const PolarPoint& q = points[j];
-      const double both = 2.0 / w * p.weight * q.weight * p.range_m * q.range_m;
-      sum.num += both * std::sin(p.angle_rad + q.angle_rad);
-      sum.den += both * std::cos(p.angle_rad + q.angle_rad);
-    }
-  }
-  return sum;
-}
-
 LineGradient range_gradient(std::span<const PolarPoint> points, const LineFit& fit, std::size_t i) {
   return range_gradient(points[i], fit, shared_of(moments_of(points)));
 }

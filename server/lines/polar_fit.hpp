@@ -19,12 +19,6 @@ struct PolarPoint {
   [[nodiscard]] Point2 cartesian() const { return {range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)}; }
 };
 
-/// The double angle 2 alpha by tan(2 alpha) = num / den.
-struct DoubleAngle {
-  double num = 0.0;
-  double den = 0.0;
-};
-
 /// Derivative of (r, alpha) by one coordinate of one point.
 struct LineGradient {
   double r = 0.0;
@@ -32,10 +26,6 @@ struct LineGradient {
 };
 
 [[nodiscard]] Moments moments_of(std::span<const PolarPoint> points);
-/// Num and Den from centred sums, eqs (8) and (9).
-[[nodiscard]] DoubleAngle centred_double_angle(std::span<const PolarPoint> points);
-/// The same from the double sums over pairs, eqs (10) and (11). O(n^2): a cross-check.
-[[nodiscard]] DoubleAngle paired_double_angle(std::span<const PolarPoint> points);
 
 /// d(r, alpha) / d rho_i and d(r, alpha) / d theta_i, eqs before (5). `fit` must be of these points.
 [[nodiscard]] LineGradient range_gradient(std::span<const PolarPoint> points, const LineFit& fit, std::size_t i);

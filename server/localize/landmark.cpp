@@ -63,11 +63,6 @@ Matrix3 Landmark::covariance() const {
   return 0.5 * (inverse + inverse.transpose());
 }
 
-double Landmark::direction_spread_rad() const {
-  constexpr double kLeast = 1e-6;
-  return std::sqrt(-2.0 * std::log(std::clamp(concentration, kLeast, 1.0)));
-}
-
 Landmark make_landmark(const SeenPoint& point, const vision::Descriptor& descriptor) {
   Landmark landmark;
   landmark.p_map = point.map.p;

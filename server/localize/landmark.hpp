@@ -43,8 +43,6 @@ struct Landmark {
   std::uint64_t last_seen = 0;      ///< number of the newest sighting that showed it (LandmarkDatabase::sightings)
 
   [[nodiscard]] Matrix3 covariance() const;
-  /// Spread of the directions from which it was observed (circular standard deviation).
-  [[nodiscard]] double direction_spread_rad() const;
 
   friend bool operator==(const Landmark&, const Landmark&) = default;
 };

@@ -52,41 +52,6 @@ bool line_of_sight(const Grid<std::uint8_t>& occupancy, const Point2& a_map, con
   return sees(occupancy, in_cells(frame, a_map), in_cells(frame, b_map), Hides(params));
 }
 
-std::vector<CellIndex> visible_cells(const Grid<std::uint8_t>& occupancy, const Point2& from_map, double range_m,
-                                     const VisibilityParams& params) {
-  std::vector<CellIndex> seen;
-  if (!inside(occupancy, from_map) || range_m <= 0.0) {
-    return seen;
-  }
-  const Hides hides(params);
-  const GridFrame& frame = occupancy.frame();
-  const Point2 from = in_cells(frame, from_map);
-  const double range_cells = range_m / frame.resolution_m;
-  // Neighbouring rays are at most 0.7 cells apart at the far end, so that no cell falls between them.
-  const int rays = std::max(8, static_cast<int>(std::ceil(kTwoPi * range_cells / 0.7)));
-  std::vector<bool> marked(occupancy.cells().size(), false);
-  for (int k = 0; k < rays; ++k) {
-    const double angle_rad = kTwoPi * k / rays;
-    RayWalk walk(from, from + range_cells * Point2(std::cos(angle_rad), std::sin(angle_rad)));
-    bool first = true;
-    do {
-      const CellIndex cell = walk.cell();
-      if (!occupancy.contains(cell)) {
-        break;
-      }
-      if (!marked[occupancy.index(cell)]) {
-        marked[occupancy.index(cell)] = true;
-        seen.push_back(cell);
-      }
-      if (!first && hides(occupancy[cell])) {
-        break;
-      }
-      first = false;
-    } while (walk.advance());
-  }
-  return seen;
-}
-
 std::vector<CellIndex> visible_cells_of(const Grid<std::uint8_t>& wanted, const Grid<std::uint8_t>& occupancy,
                                         const Point2& from_map, double range_m, const VisibilityParams& params) {
   std::vector<CellIndex> seen;

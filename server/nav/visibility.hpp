@@ -20,11 +20,6 @@ struct VisibilityParams {
 [[nodiscard]] bool line_of_sight(const Grid<std::uint8_t>& occupancy, const Point2& a_map, const Point2& b_map,
                                  const VisibilityParams& params = {});
 
-/// Cells of `occupancy` that a fan of rays from `from_map` up to `range_m` passes, each once, including the cell that
-/// ends each ray. Empty when `from_map` lies outside the grid.
-[[nodiscard]] std::vector<CellIndex> visible_cells(const Grid<std::uint8_t>& occupancy, const Point2& from_map,
-                                                   double range_m, const VisibilityParams& params = {});
-
 /// Cells of a coarser grid (`wanted` != 0, for example the reachable floor at 0.2 m) whose centre is within `range_m`
 /// and in line of sight: the cells that one observation from `from_map` covers in a search.
 [[nodiscard]] std::vector<CellIndex> visible_cells_of(const Grid<std::uint8_t>& wanted,

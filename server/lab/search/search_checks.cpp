@@ -9,6 +9,7 @@
 #include "server/lab/experiments/seeds.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/search/reproduce_search.hpp"
+#include "server/search/fuzzy_planner.hpp"
 #include "server/search/fuzzy_rules.hpp"
 #include "server/vision/omni_camera.hpp"
 
@@ -60,10 +61,14 @@ void check_rules(const std::filesystem::path& config, Report& report) {
   }
   const Result<std::string> file = config::read_text_file(config / "fuzzy" / "planner.fll");
   const bool file_agrees = file && *file == search::generate_fll();
+  const Result<search::FuzzyPlanner> planner =
+      file ? search::FuzzyPlanner::create(*file) : tl::unexpected<Error>(file.error());
   constexpr std::size_t kRules = 160;
   report.add({.id = "R7",
-              .passed = rules.size() == kRules && counts == kRuleCounts && file_agrees,
+              .passed = rules.size() == kRules && counts == kRuleCounts && file_agrees && planner &&
+                        planner->rule_count() == kRules,
               .figures = {{"rules", std::to_string(rules.size())},
+                          {"planner_rules", planner ? std::to_string(planner->rule_count()) : "none"},
                           {"TNB", std::to_string(counts[0])},
                           {"TNS", std::to_string(counts[1])},
                           {"TZ", std::to_string(counts[2])},
