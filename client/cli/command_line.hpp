@@ -193,13 +193,13 @@ struct CompletionVerb {
 };
 struct VersionVerb {};
 
-using Verb =
-    std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb, RecogniseVerb,
-                 DriveVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb, MapLoadVerb,
-                 MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb, RelocaliseVerb,
-                 LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksRevertVerb,
-                 LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
-                 TopologyVerb, DetectionsVerb, LinesVerb, CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb,
+                          RecogniseVerb, DriveVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb,
+                          MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb,
+                          MapUploadVerb, RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb,
+                          LandmarksRevertVerb, LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb,
+                          FleetMapVerb, GridVerb, TopologyVerb, DetectionsVerb, LinesVerb, CameraGrabVerb,
+                          ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

@@ -15,7 +15,7 @@ namespace {
 std::vector<api::TopicRequest> topics_of(const WatchVerb& verb) {
   constexpr std::array kAll{api::Topic::kStatus,    api::Topic::kScan,     api::Topic::kSonar,   api::Topic::kTiles,
                             api::Topic::kGrid,      api::Topic::kImage,    api::Topic::kMission, api::Topic::kEvent,
-                            api::Topic::kDetection, api::Topic::kSegments, api::Topic::kLines,    api::Topic::kTopology};
+                            api::Topic::kDetection, api::Topic::kSegments, api::Topic::kLines,   api::Topic::kTopology};
   const std::vector<std::string> names =
       verb.topics.empty() ? std::vector<std::string>{"status", "mission", "event", "detection"} : verb.topics;
   std::vector<api::TopicRequest> topics;

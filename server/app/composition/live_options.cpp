@@ -21,7 +21,7 @@ struct Row {
   std::string_view key;
   std::string_view path;
   SettingEffect effect = SettingEffect::kNow;
-  std::string_view why_restart = "";
+  std::string_view why_restart{};
 };
 
 constexpr std::array kRows = {
@@ -195,7 +195,7 @@ Result<Exchange> LiveOptions::exchange(const std::string& component, const std::
       return tl::unexpected<Error>(estimator.error());
     }
     next.estimator = *estimator;
-    return exchange_estimator(std::move(next));
+    return exchange_estimator(next);
   }
   Exchange exchange;
   if (component == "recogniser") {
@@ -219,7 +219,7 @@ Result<Exchange> LiveOptions::exchange(const std::string& component, const std::
                                   "can; compose the robot in its file and restart seekerd");
 }
 
-Result<Exchange> LiveOptions::exchange_estimator(RobotOptions next) const {
+Result<Exchange> LiveOptions::exchange_estimator(const RobotOptions& next) const {
   Result<std::unique_ptr<Estimator>> estimator = make_estimator(next, devices_, landmarks_);
   if (!estimator) {
     return tl::unexpected<Error>(estimator.error());

@@ -27,7 +27,7 @@ class LiveOptions final : public Configuration {
  private:
   [[nodiscard]] std::vector<api::ComponentSetting> settings_in(const RobotOptions& options,
                                                                const std::string& component) const;
-  [[nodiscard]] Result<Exchange> exchange_estimator(RobotOptions next) const;
+  [[nodiscard]] Result<Exchange> exchange_estimator(const RobotOptions& next) const;
 
   std::shared_ptr<RobotOptions> options_;
   Devices devices_;

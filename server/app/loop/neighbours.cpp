@@ -77,7 +77,9 @@ void Neighbours::map_moved(const Pose2& new_T_old) {
 }
 
 void Neighbours::forget_places() {
-  own_ = {.robot_id = std::move(own_.robot_id)};
+  std::string robot_id = std::move(own_.robot_id);
+  own_ = {};
+  own_.robot_id = std::move(robot_id);
   fleet_.reset();
 }
 

@@ -69,7 +69,7 @@ api::ComponentPort* Components::port_of(const std::string& path) {
     return nullptr;
   }
   const auto found = std::find_if(entry->info.ports.begin(), entry->info.ports.end(),
-                                  [&](const api::ComponentPort& one) { return one.name == port; });
+                                  [&port = port](const api::ComponentPort& one) { return one.name == port; });
   return found == entry->info.ports.end() ? nullptr : &*found;
 }
 
@@ -85,10 +85,11 @@ bool Components::connected(const std::string& output, const std::string& input) 
   const auto [name, port] = split(output);
   const Entry* entry = find(name);
   return entry != nullptr &&
-         std::any_of(entry->info.ports.begin(), entry->info.ports.end(), [&](const api::ComponentPort& one) {
-           return one.name == port &&
-                  std::find(one.connected.begin(), one.connected.end(), input) != one.connected.end();
-         });
+         std::any_of(entry->info.ports.begin(), entry->info.ports.end(),
+                     [&, &port = port](const api::ComponentPort& one) {
+                       return one.name == port &&
+                              std::find(one.connected.begin(), one.connected.end(), input) != one.connected.end();
+                     });
 }
 
 void Components::activate(Entry& entry) {

@@ -21,8 +21,8 @@ inline bool placed(const api::FleetMember& member) {
   return member.state == api::FleetState::kMerged && member.main_T_map.has_value();
 }
 
-inline api::FleetShared reported(app::FleetLeader& leader, const std::string& robot_id,
-                                 const std::optional<RobotTopology>& topology, std::uint64_t instance = 1) {
+inline api::FleetShared answer_to(app::FleetLeader& leader, const std::string& robot_id,
+                                  const std::optional<RobotTopology>& topology, std::uint64_t instance = 1) {
   const auto shared = leader.share({robot_id, instance, topology});
   EXPECT_TRUE(shared) << shared.error().message;
   return shared ? *shared : api::FleetShared{};

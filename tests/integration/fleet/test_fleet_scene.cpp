@@ -21,7 +21,7 @@ TEST(FleetScene, ShowsAllRobotsInTheFrameOfTheMainOne) {
   EXPECT_EQ(leader.scene().error().code, Errc::kNotReady) << "nobody has reported anything";
   join(leader, packed(east(), "r1"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
-  EXPECT_EQ(reported(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
+  EXPECT_EQ(answer_to(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
   ASSERT_TRUE(leader.seen({"r1", 1, true, floor_with(seen_by_r1), {found_at(1, found_by_r1)}, {}}));
   leader.refresh();
   leader.refresh();

@@ -23,10 +23,10 @@ TEST(FleetSharing, EveryRobotHearsOfTheOthersInItsOwnFrame) {
   join(leader, packed(fleet::toy_map(fleet::office(1), fleet::drive(kEast), 21), "r2"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
   const Pose2 west_T_r2 = *until(leader, "r2", placed).main_T_map;
-  EXPECT_EQ(reported(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
+  EXPECT_EQ(answer_to(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
   leader.refresh();
 
-  const auto r2_hears = reported(leader, "r2", at_place("r2", kPlace)).others;
+  const auto r2_hears = answer_to(leader, "r2", at_place("r2", kPlace)).others;
   ASSERT_EQ(r2_hears.size(), 2U);
   EXPECT_THAT(of(r2_hears, "r1").map_T_base, Pose2Near(Pose2{kPlace.x(), kPlace.y(), 0.0}, 0.3, 0.06))
       << "both maps begin at the same place";
@@ -55,7 +55,7 @@ TEST(FleetSharing, EveryRobotIsToldTheFloorOfTheOthersInItsOwnFrame) {
   EXPECT_EQ(leader.seen(seen_by("r1")).error().code, Errc::kNotFound) << "it has to announce itself first";
   join(leader, packed(east(), "r1"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
-  EXPECT_EQ(reported(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
+  EXPECT_EQ(answer_to(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
   leader.refresh();
   leader.refresh();
 
@@ -116,7 +116,7 @@ TEST(FleetSharing, WhatOneHasSearchedTheOthersAreToldInTheirOwnFrames) {
   FleetLeader leader(params, main.host());
   join(leader, packed(east(), "r1"));
   const Pose2 west_T_r1 = *until(leader, "r1", placed).main_T_map;
-  EXPECT_EQ(reported(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
+  EXPECT_EQ(answer_to(leader, "r1", at_place("r1", kPlace)).state, api::FleetState::kMerged);
   leader.refresh();
   leader.refresh();
   const auto r1_hears = leader.seen(seen_by("r1", {}, by_r1));
@@ -142,7 +142,7 @@ TEST(FleetSharing, FloorThatWasSearchedTooLongAgoIsNotPassedOn) {
   FleetLeader leader(params, main.host());
   join(leader, packed(east(), "r1"));
   static_cast<void>(until(leader, "r1", placed));
-  static_cast<void>(reported(leader, "r1", at_place("r1", kPlace)));
+  static_cast<void>(answer_to(leader, "r1", at_place("r1", kPlace)));
   leader.refresh();
   leader.refresh();
   const auto r1_hears = leader.seen(seen_by("r1", {found_at(1, kPlace)}, searched_at({}, 4, 100)));
@@ -160,7 +160,7 @@ TEST(FleetSharing, WhoDoesNotKnowItsPlaceTakesNothingBackAndHearsOfTheOthers) {
   FleetLeader leader(params, main.host());
   join(leader, packed(east(), "r1"));
   static_cast<void>(until(leader, "r1", placed));
-  static_cast<void>(reported(leader, "r1", at_place("r1", kPlace)));
+  static_cast<void>(answer_to(leader, "r1", at_place("r1", kPlace)));
   leader.refresh();
   leader.refresh();
   ASSERT_TRUE(leader.seen({"r1", 1, true, floor_with(kPlace), {found_at(1, kPlace)}, searched_at({}, 4, 100)}));
@@ -255,7 +255,7 @@ TEST(FleetSharing, ASilentRobotsGoalsAreAnybodys) {
   FleetLeader leader(impatient, main.host());
   join(leader, packed(east(), "r1"));
   static_cast<void>(until(leader, "r1", placed));
-  static_cast<void>(reported(leader, "r1", at_place("r1", kPlace)));
+  static_cast<void>(answer_to(leader, "r1", at_place("r1", kPlace)));
   leader.refresh();
   ASSERT_TRUE(main.view());
   EXPECT_FALSE(of(main.view()->others, "r1").active);
@@ -268,13 +268,13 @@ TEST(FleetSharing, ARobotThatWasTakenOutHearsNothingAndNobodyHearsOfIt) {
   FleetLeader leader(patient_params("share_split"), main.host());
   join(leader, packed(east(), "r1"));
   static_cast<void>(until(leader, "r1", placed));
-  static_cast<void>(reported(leader, "r1", at_place("r1", kPlace)));
+  static_cast<void>(answer_to(leader, "r1", at_place("r1", kPlace)));
   leader.refresh();
   ASSERT_TRUE(main.view());
   ASSERT_TRUE(leader.decide({"r1", api::FleetVerb::kSplit, 0}));
   leader.refresh();
   EXPECT_FALSE(main.view());
-  const auto hears = reported(leader, "r1", at_place("r1", kPlace));
+  const auto hears = answer_to(leader, "r1", at_place("r1", kPlace));
   EXPECT_EQ(hears.state, api::FleetState::kSplit);
   EXPECT_TRUE(hears.others.empty());
 }
@@ -293,7 +293,7 @@ TEST(FleetSharing, PlacesAreKeptOverRestartsOfBothButNotInANewMap) {
   {
     FleetLeader leader(same, holds(west()));
     ASSERT_TRUE(leader.announce(robot.manifest));
-    static_cast<void>(reported(leader, "r1", at_place("r1", kPlace)));
+    static_cast<void>(answer_to(leader, "r1", at_place("r1", kPlace)));
     join(leader, robot);
     static_cast<void>(until(leader, "r1", placed));
   }
@@ -308,7 +308,7 @@ TEST(FleetSharing, PlacesAreKeptOverRestartsOfBothButNotInANewMap) {
   EXPECT_FALSE(of(main.view()->others, "r1").velocity);
   // The robot comes back, with its map but without a mission.
   join(again, packed(east(), "r1", 2));
-  static_cast<void>(reported(again, "r1", {}, 2));
+  static_cast<void>(answer_to(again, "r1", {}, 2));
   again.refresh();
   EXPECT_EQ(of(main.view()->others, "r1").topology.nodes.size(), 1U);
   EXPECT_FALSE(of(main.view()->others, "r1").active);
@@ -347,7 +347,7 @@ TEST(FleetOperator, IsToldOfWhatIsNotCertainAndHasTheLastWord) {
   static_cast<void>(until(leader, "r1", api::FleetState::kAmbiguous));
   ASSERT_EQ(main.events().size(), 1U);
   EXPECT_NE(main.events().front().find("fleet-ambiguous robot 'r1' is AMBIGUOUS"), std::string::npos);
-  EXPECT_EQ(reported(leader, "r1", {}).state, api::FleetState::kAmbiguous);
+  EXPECT_EQ(answer_to(leader, "r1", {}).state, api::FleetState::kAmbiguous);
   ASSERT_TRUE(leader.decide({"r1", api::FleetVerb::kMerge, 0}));
   const api::FleetMember member = until(leader, "r1", placed);
   EXPECT_TRUE(member.by_operator);

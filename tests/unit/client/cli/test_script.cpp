@@ -139,7 +139,9 @@ TEST(Script, EveryKindOfMissionAndTheFleetHaveAShippedScript) {
   std::set<std::string> kinds = mission_kinds(std::make_index_sequence<std::variant_size_v<api::MissionTask>>());
   kinds.insert("fleet");
   for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/missions"))) {
-    for (const Step& step : load_script(entry.path()).value().steps) {
+    const auto script = load_script(entry.path());
+    ASSERT_TRUE(script) << script.error().message;
+    for (const Step& step : script->steps) {
       kinds.erase(step.kind);
     }
   }

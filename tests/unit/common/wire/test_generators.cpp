@@ -367,20 +367,14 @@ api::Event ValueMaker::event() {
 }
 
 RobotTopology ValueMaker::topology() {
-  RobotTopology robot;
-  robot.robot_id = "r1";
-  robot.map_T_base = pose();
-  for (int k = 1; k <= count(4); ++k) {
-    TopologyNode node;
-    node.id = static_cast<std::uint64_t>(k);
-    node.map_T_base = pose();
-    node.sectors = {{{0.25, 0.0}, -1.5, 3.0, 4.5}};  // in single precision on the wire
-    node.goals = {{node.id, node.map_T_base.translation() + Point2(1.0, 2.0), 1 + count(5)}};
-    robot.topology.nodes.push_back(std::move(node));
-    robot.topology.current = static_cast<std::uint64_t>(k);
-    robot.topology.edges.push_back({1, robot.topology.current});
+  RobotTopology robot{"r1", pose(), std::nullopt, {}, std::nullopt, flag()};
+  for (int k = count(4); k >= 0; --k) {
+    const std::uint64_t id = ++robot.topology.current;
+    // Sectors are in single precision on the wire.
+    robot.topology.nodes.push_back({id, pose(), {{{0.25, 0.0}, -1.5, 3.0, 4.5}}, {}});
+    robot.topology.nodes.back().goals = {{id, robot.topology.nodes.back().map_T_base * Point2(1.0, 2.0), 1 + count(5)}};
+    robot.topology.edges.push_back({1, id});
   }
-  robot.active = flag();
   return robot;
 }
 

@@ -296,7 +296,7 @@ class SenderTest : public ::testing::Test {
   }
   Backlogs backlogs_{Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000),
                      Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000),
-                     Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000)};
+                     Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000), Backlog(3, 1000)};
   StreamSender sender_;
 };
 

@@ -1,5 +1,7 @@
 // Other robots: where they are now, how long a report holds, what follows the map.
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "server/app/loop/neighbours.hpp"
@@ -21,7 +23,7 @@ FleetView one_other(const Pose2& map_T_base, const Twist2& velocity) {
 const RobotTime kReportedAt{seconds(50)};
 
 TEST(Neighbours, AReportedRobotIsBroughtOnByItsVelocityForTheTimeSince) {
-  Neighbours neighbours(FleetMotionParams{});
+  Neighbours neighbours(FleetMotionParams{}, "r1");
   neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {0.5, 0.0}), kReportedAt);
   const auto movers = neighbours.movers_base(Pose2{1.0, 0.0, 0.0}, std::nullopt, kReportedAt + seconds(1));
   ASSERT_EQ(movers.size(), 1U);
@@ -31,7 +33,7 @@ TEST(Neighbours, AReportedRobotIsBroughtOnByItsVelocityForTheTimeSince) {
 }
 
 TEST(Neighbours, AnOldReportSaysNothing) {
-  Neighbours neighbours(FleetMotionParams{});
+  Neighbours neighbours(FleetMotionParams{}, "r1");
   neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {0.5, 0.0}), kReportedAt);
   const RobotTime later = kReportedAt + FleetMotionParams{}.max_age + milliseconds(1);
   EXPECT_TRUE(neighbours.movers_base({}, std::nullopt, later).empty());
@@ -39,7 +41,7 @@ TEST(Neighbours, AnOldReportSaysNothing) {
 }
 
 TEST(Neighbours, AMapCorrectionMovesWhatIsKnownOfTheOthers) {
-  Neighbours neighbours(FleetMotionParams{});
+  Neighbours neighbours(FleetMotionParams{}, "r1");
   neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kReportedAt);
   neighbours.map_moved(Pose2{0.0, 1.0, 0.0});
   EXPECT_NEAR(neighbours.fleet()->others[0].map_T_base.y_m, 1.0, 1e-9);
@@ -47,7 +49,7 @@ TEST(Neighbours, AMapCorrectionMovesWhatIsKnownOfTheOthers) {
 }
 
 TEST(Neighbours, WithoutAnExplorationTheOwnReportIsInactive) {
-  Neighbours neighbours(FleetMotionParams{});
+  Neighbours neighbours(FleetMotionParams{}, "r1");
   neighbours.note_own(nullptr, Pose2{1.0, 2.0, 0.0}, {0.1, 0.0});
   EXPECT_FALSE(neighbours.own().active);
   EXPECT_EQ(neighbours.own().map_T_base, (Pose2{1.0, 2.0, 0.0}));
@@ -55,12 +57,14 @@ TEST(Neighbours, WithoutAnExplorationTheOwnReportIsInactive) {
 }
 
 TEST(Neighbours, AnotherMapVoidsAllPlaces) {
-  Neighbours neighbours(FleetMotionParams{});
+  Neighbours neighbours(FleetMotionParams{}, "r1");
   neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kReportedAt);
   neighbours.note_own(nullptr, Pose2{1.0, 2.0, 0.0}, {});
   neighbours.forget_places();
   EXPECT_EQ(neighbours.fleet(), nullptr);
-  EXPECT_EQ(neighbours.own(), RobotTopology{});
+  RobotTopology nameless = neighbours.own();
+  EXPECT_EQ(std::exchange(nameless.robot_id, ""), "r1");
+  EXPECT_EQ(nameless, RobotTopology{});
 }
 
 }  // namespace
