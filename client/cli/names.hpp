@@ -2,10 +2,22 @@
 /// Names of an enum's values, as help and messages list them.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "common/api/robot_api.hpp"
+
 namespace seeker::cli {
+
+/// All topics, as the API numbers them.
+[[nodiscard]] constexpr std::array<api::Topic, api::kTopicCount> all_topics() {
+  std::array<api::Topic, api::kTopicCount> topics{};
+  for (std::size_t k = 0; k < topics.size(); ++k) {
+    topics[k] = static_cast<api::Topic>(k);
+  }
+  return topics;
+}
 
 /// The to_string() of each of `values`.
 template <class Values>

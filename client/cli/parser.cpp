@@ -371,12 +371,9 @@ void add_reports(Parse& parse) {
   add_verb<StatusVerb>(parse, parse.app, "status", "Where the robot is, what it does, what is wrong", "seeker status");
   auto [watch, w] = add_verb<WatchVerb>(parse, parse.app, "watch", "Follow the robot live until Ctrl-C or --timeout",
                                         "seeker watch --topics status,event --json");
-  watch
-      ->add_option("--topics", w->topics,
-                   "Of status, scan, sonar, tiles, grid, image, mission, event, detection, segments, lines, topology")
+  watch->add_option("--topics", w->topics, "Of " + listed(all_topics()))
       ->delimiter(',')
-      ->check(CLI::IsMember({"status", "scan", "sonar", "tiles", "grid", "image", "mission", "event", "detection",
-                             "segments", "lines", "topology"}));
+      ->check(CLI::IsMember(names_of(all_topics())));
   watch->add_option("--rate", w->rate_hz, "Highest rate of each topic, Hz")
       ->check(config::number_above_zero, "above 0")
       ->capture_default_str();

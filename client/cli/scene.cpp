@@ -182,14 +182,20 @@ Status save_picture(const fs::path& path, const Image& picture, std::string_view
   return ok ? image::write_png(path, picture, mark) : ok;
 }
 
-Status save_scene(const fs::path& path, const image::MapScene& scene) {
+Status save_drawing(const fs::path& path, std::string_view mark, const std::function<Result<Image>()>& pixels,
+                    const std::function<Result<std::string>()>& shapes) {
   if (path.extension() != ".svg") {
-    const Result<Image> picture = image::draw_map(scene);
-    return picture ? save_picture(path, *picture, image::kMapExport) : Status(tl::unexpected<Error>(picture.error()));
+    const Result<Image> picture = pixels();
+    return picture ? save_picture(path, *picture, mark) : Status(tl::unexpected<Error>(picture.error()));
   }
-  const Result<std::string> drawing = image::map_svg(scene);
+  const Result<std::string> drawing = shapes();
   const Status ok = drawing ? make_folder_of(path) : Status(tl::unexpected<Error>(drawing.error()));
-  return ok ? files::write_file(path, image::with_xml_mark(*drawing, image::kMapExport)) : ok;
+  return ok ? files::write_file(path, image::with_xml_mark(*drawing, mark)) : ok;
+}
+
+Status save_scene(const fs::path& path, const image::MapScene& scene) {
+  return save_drawing(
+      path, image::kMapExport, [&] { return image::draw_map(scene); }, [&] { return image::map_svg(scene); });
 }
 
 Result<std::vector<fs::path>> export_map(const Context& context, const std::string& name, const MapPictures& pictures) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "client/cli/context.hpp"
@@ -43,7 +45,11 @@ struct MapPictures {
 
 /// Writes a picture as PNG into a folder that is made when absent, with a mark of common/image/export_mark.hpp.
 [[nodiscard]] Status save_picture(const std::filesystem::path& path, const Image& picture, std::string_view mark);
-/// Draws a scene into such a file, marked as an export of the map: as SVG where its name ends in .svg, else as PNG.
+/// Draws into such a file: as SVG by `shapes` where its name ends in .svg, else as PNG by `pixels`.
+[[nodiscard]] Status save_drawing(const std::filesystem::path& path, std::string_view mark,
+                                  const std::function<Result<Image>()>& pixels,
+                                  const std::function<Result<std::string>()>& shapes);
+/// Draws a scene with save_drawing(), marked as an export of the map.
 [[nodiscard]] Status save_scene(const std::filesystem::path& path, const image::MapScene& scene);
 
 /// Writes a scene in formats of pgm, png and svg, after check_map_export() has passed: NAME.pgm with NAME.yaml where

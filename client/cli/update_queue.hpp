@@ -2,12 +2,16 @@
 /// Updates of a subscription, handed from the thread that delivers them to the verb that waits for them.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <variant>
 
+#include "client/cli/context.hpp"
 #include "common/api/robot_api.hpp"
 
 namespace seeker::cli {
@@ -66,6 +70,28 @@ struct Stream {
   }
   stream.subscription = std::move(*subscription);
   return stream;
+}
+
+/// The first value of a topic that comes within the answer time. Errors: kTimeout with `nothing_came`, and what broke
+/// the connection meanwhile.
+template <class T>
+[[nodiscard]] Result<T> first_of(const Context& context, api::Topic topic, const std::string& nothing_came) {
+  const Result<Stream> stream = open_stream(*context.robot, {{topic, 0.0, 0}});
+  if (!stream) {
+    return tl::unexpected<Error>(stream.error());
+  }
+  const auto end = std::chrono::steady_clock::now() + context.answer_time();
+  while (std::chrono::steady_clock::now() < end) {
+    if (const auto update = stream->queue->pop(kPollPeriod)) {
+      if (const T* value = std::get_if<T>(&(*update)->payload)) {
+        return *value;
+      }
+    }
+    if (const std::optional<Error> error = broken(context)) {
+      return tl::unexpected<Error>(*error);
+    }
+  }
+  return fail(Errc::kTimeout, nothing_came);
 }
 
 }  // namespace seeker::cli

@@ -3,41 +3,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/cli/export_check.hpp"
 #include "client/cli/scene.hpp"
 #include "client/cli/update_queue.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 #include "common/core/angle.hpp"
-#include "common/files/files.hpp"
 #include "common/image/export_mark.hpp"
 #include "common/image/scan_picture.hpp"
 
 namespace seeker::cli {
 namespace {
-
-/// The lines of the newest scan, as the topic brings them to a new subscriber.
-Result<api::LineReport> newest_lines(const Context& context) {
-  const Result<Stream> stream = open_stream(*context.robot, {{api::Topic::kLines, 0.0, 0}});
-  if (!stream) {
-    return tl::unexpected<Error>(stream.error());
-  }
-  const auto end = std::chrono::steady_clock::now() + context.answer_time();
-  while (std::chrono::steady_clock::now() < end) {
-    if (const auto update = stream->queue->pop(kPollPeriod)) {
-      if (const auto* report = std::get_if<api::LineReport>(&(*update)->payload)) {
-        return *report;
-      }
-    }
-    if (const std::optional<Error> error = broken(context)) {
-      return tl::unexpected<Error>(*error);
-    }
-  }
-  return fail(Errc::kTimeout,
-              "no laser scan came in time; 'seeker components' says whether the robot has a laser scanner that works, "
-              "and --timeout waits longer");
-}
 
 image::ScanScene scene_of(const api::LineReport& report) {
   LaserScan in_laser = report.scan;
@@ -54,14 +30,8 @@ image::ScanScene scene_of(const api::LineReport& report) {
 
 Status save_lines(const std::filesystem::path& path, const api::LineReport& report) {
   const image::ScanScene scene = scene_of(report);
-  if (path.extension() != ".svg") {
-    const Result<Image> picture = image::draw_scan(scene);
-    return picture ? save_picture(path, *picture, image::kLinesPicture)
-                   : Status(tl::unexpected<Error>(picture.error()));
-  }
-  const Result<std::string> drawing = image::scan_svg(scene);
-  const Status ok = drawing ? make_folder_of(path) : Status(tl::unexpected<Error>(drawing.error()));
-  return ok ? files::write_file(path, image::with_xml_mark(*drawing, image::kLinesPicture)) : ok;
+  return save_drawing(
+      path, image::kLinesPicture, [&] { return image::draw_scan(scene); }, [&] { return image::scan_svg(scene); });
 }
 
 std::string row_of(std::size_t number, const api::ScanLine& line) {
@@ -78,7 +48,10 @@ std::string row_of(std::size_t number, const api::ScanLine& line) {
 }  // namespace
 
 VerbResult show_lines(const Context& context, const LinesVerb& verb) {
-  const Result<api::LineReport> report = newest_lines(context);
+  const Result<api::LineReport> report = first_of<api::LineReport>(
+      context, api::Topic::kLines,
+      "no laser scan came in time; 'seeker components' says whether the robot has a laser scanner that works, and "
+      "--timeout waits longer");
   if (!report) {
     return tl::unexpected<Error>(report.error());
   }

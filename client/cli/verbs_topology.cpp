@@ -13,21 +13,6 @@
 namespace seeker::cli {
 namespace {
 
-/// The next update of the stream.
-Result<RobotTopology> fetch_topology(const Context& context) {
-  const Result<Stream> stream = open_stream(*context.robot, {{api::Topic::kTopology, 0.0, 0}});
-  if (!stream) {
-    return tl::unexpected<Error>(stream.error());
-  }
-  const std::optional<api::UpdatePtr> update = stream->queue->pop(context.answer_time());
-  if (!update) {
-    return fail(
-        Errc::kTimeout,
-        "the robot sends no topology: it does not know where it is, or its software is older than this program");
-  }
-  return std::get<RobotTopology>((*update)->payload);
-}
-
 Status draw(const Context& context, const RobotTopology& robot, const std::string& file) {
   Result<image::MapScene> scene = fetch_scene(context, SceneOf::kMission);
   if (!scene) {
@@ -47,7 +32,9 @@ Status draw(const Context& context, const RobotTopology& robot, const std::strin
 }  // namespace
 
 VerbResult show_topology(const Context& context, const TopologyVerb& verb) {
-  const Result<RobotTopology> robot = fetch_topology(context);
+  const Result<RobotTopology> robot = first_of<RobotTopology>(
+      context, api::Topic::kTopology,
+      "the robot sends no topology: it does not know where it is, or its software is older than this program");
   if (!robot) {
     return tl::unexpected<Error>(robot.error());
   }

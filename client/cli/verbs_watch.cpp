@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include <nlohmann/json.hpp>
 
+#include "client/cli/names.hpp"
 #include "client/cli/update_queue.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/values_json.hpp"
@@ -13,13 +13,10 @@ namespace seeker::cli {
 namespace {
 
 std::vector<api::TopicRequest> topics_of(const WatchVerb& verb) {
-  constexpr std::array kAll{api::Topic::kStatus,    api::Topic::kScan,     api::Topic::kSonar,   api::Topic::kTiles,
-                            api::Topic::kGrid,      api::Topic::kImage,    api::Topic::kMission, api::Topic::kEvent,
-                            api::Topic::kDetection, api::Topic::kSegments, api::Topic::kLines,   api::Topic::kTopology};
   const std::vector<std::string> names =
       verb.topics.empty() ? std::vector<std::string>{"status", "mission", "event", "detection"} : verb.topics;
   std::vector<api::TopicRequest> topics;
-  for (const api::Topic topic : kAll) {
+  for (const api::Topic topic : all_topics()) {
     if (std::find(names.begin(), names.end(), to_string(topic)) != names.end()) {
       topics.push_back({topic, verb.rate_hz, 0});
     }

@@ -1,7 +1,7 @@
 #include "server/net/handlers.hpp"
 
-#include <algorithm>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <boost/asio/post.hpp>
@@ -108,7 +108,8 @@ Result<std::vector<wire::TopicWish>> read_wishes(const pb::SubscribeRequest& req
   wire::Check check;
   const auto n = static_cast<std::size_t>(request.topics_size());
   if (request.subscription_id() == 0 || n == 0 || n > api::kTopicCount) {
-    return fail(Errc::kInvalidArgument, "a subscription needs an id above zero and 1 to 11 topics");
+    return fail(Errc::kInvalidArgument,
+                "a subscription needs an id above zero and 1 to " + std::to_string(api::kTopicCount) + " topics");
   }
   std::vector<wire::TopicWish> wishes(n);
   std::set<api::Topic> seen;
@@ -145,12 +146,10 @@ void subscribe(const Responder& responder, Session& session, const pb::Subscribe
     *response.mutable_subscribe()->add_topics() = std::move(reply);
   }
   session.respond(response, responder.call);
-  const api::UpdatePtr& lines = session.hub().newest_lines;
-  const bool wants_lines = std::any_of(wishes->begin(), wishes->end(), [](const wire::TopicWish& wish) {
-    return wish.request.topic == api::Topic::kLines;
-  });
-  if (lines != nullptr && wants_lines) {
-    session.offer(lines->topic, lines->sequence, wire::encode_body(*lines));
+  for (const wire::TopicWish& wish : *wishes) {
+    if (const api::UpdatePtr& newest = session.hub().newest.at(static_cast<std::size_t>(wish.request.topic))) {
+      session.offer(newest->topic, newest->sequence, wire::encode_body(*newest));
+    }
   }
   session.wake();
 }

@@ -238,12 +238,14 @@ class Server::Impl {
     }
     for (const api::UpdatePtr& update : mailbox_->drain()) {
       newest_ = std::max(newest_, update->stamp);
-      if (update->topic == api::Topic::kLines) {
-        hub_.newest_lines = update;
-      }
       if (api::stream_class(update->topic) == api::StreamClass::kReliable) {
         publish_reliable(*update);
-      } else if (wanted()) {
+        continue;
+      }
+      if (update->topic != api::Topic::kTiles) {
+        hub_.newest.at(static_cast<std::size_t>(update->topic)) = update;
+      }
+      if (wanted()) {
         publish_latest(*update);
       }
     }

@@ -2,6 +2,7 @@
 /// One client: its connection, its protocol state, its streams and its RobotApi.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -33,8 +34,9 @@ struct SessionHub {
   std::function<void(const std::shared_ptr<Session>&)> opened;
   std::function<void(const std::shared_ptr<Session>&, const wire::Ending&)> ended;
   ServerStats stats;
-  /// What a new subscriber gets at once: a robot that stands still in a simulation takes no other scan.
-  api::UpdatePtr newest_lines;
+  /// By topic: what a new subscriber gets at once, since a robot that stands still in a simulation publishes nothing
+  /// more. Null for RELIABLE topics, which are resumed, and for tiles, which get_tiles gives.
+  std::array<api::UpdatePtr, api::kTopicCount> newest;
 };
 
 /// All methods run on the network thread.
