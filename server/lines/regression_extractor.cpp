@@ -198,6 +198,21 @@ class Regression {
     }
   }
 
+  /// Parts of a list of points between which there is a gap: no line goes on where its inliers end. Without this, a
+  /// line across a corner would be held by the few points at which it crosses the two walls.
+  [[nodiscard]] std::vector<Indices> split_at_gaps(const Indices& points) const {
+    std::vector<Indices> parts;
+    for (const std::size_t i : points) {
+      const bool goes_on = !parts.empty() && (row_.points[i] - row_.points[parts.back().back()]).norm() <=
+                                                 gap_limit_m(i, params_.merge_gap_m);
+      if (!goes_on) {
+        parts.emplace_back();
+      }
+      parts.back().push_back(i);
+    }
+    return parts;
+  }
+
   /// The inliers of each run; points of a run without return in between are not in the row.
   [[nodiscard]] ScanLines build() const {
     std::vector<Indices> lines;
@@ -208,9 +223,12 @@ class Regression {
       Indices inliers;
       std::copy_if(all.begin(), all.end(), std::back_inserter(inliers),
                    [&](std::size_t i) { return is_inlier(fit, i); });
-      if (static_cast<int>(inliers.size()) >= std::max(params_.min_points, 2) &&
-          (row_.points[inliers.back()] - row_.points[inliers.front()]).norm() >= std::max(params_.min_length_m, 1e-3)) {
-        lines.push_back(std::move(inliers));
+      for (Indices& part : split_at_gaps(inliers)) {
+        const double length_m = (row_.points[part.back()] - row_.points[part.front()]).norm();
+        if (static_cast<int>(part.size()) >= std::max(params_.min_points, 2) &&
+            length_m >= std::max(params_.min_length_m, 1e-3)) {
+          lines.push_back(std::move(part));
+        }
       }
     }
     return build_lines(scan_, row_, std::move(lines), params_.bearing_sigma_rad);

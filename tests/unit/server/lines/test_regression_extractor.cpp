@@ -1,7 +1,11 @@
 #include "server/lines/regression_extractor.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
+#include "common/core/pose2.hpp"
 #include "server/lines/make_extractor.hpp"
 #include "tests/unit/server/lines/scenes.hpp"
 
@@ -43,6 +47,24 @@ TEST(RegressionExtractor, CutsNeighboursWhereTheirLinesMeet) {
   EXPECT_NEAR(found.lines[0].end.y(), 0.0, 0.08);
   EXPECT_NEAR(found.lines[1].start.y(), 0.0, 0.08);
   EXPECT_LE(found.lines[0].last_beam, found.lines[1].first_beam);
+}
+
+TEST(RegressionExtractor, FindsNoWallAcrossACornerThatIsNear) {
+  // The windows about a near corner turn so slowly that neighbours agree; a chord would have inliers at both its ends.
+  Rng rng(1);
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const double ahead_m = rng.uniform(0.35, 1.0);
+    const double left_m = rng.uniform(0.35, 1.0);
+    const Pose2 base_T_room{0.0, 0.0, rng.uniform(-1.0, 1.0)};
+    const Point2 meet = base_T_room * Point2(ahead_m, left_m);
+    const testing::Room corner{{base_T_room * Point2(ahead_m, -2.0), meet}, {meet, base_T_room * Point2(-2.0, left_m)}};
+    const ScanLines found =
+        RegressionExtractor().extract(scan_of(corner, ScannerModel::half_circle(181, 0.0), 0.01, seed));
+    for (const Line& line : found.lines) {
+      const double off_axis_rad = std::remainder(line.alpha_rad - base_T_room.theta_rad, std::numbers::pi / 2.0);
+      EXPECT_NEAR(off_axis_rad, 0.0, 0.2) << "walls at " << ahead_m << ", " << left_m << " m, seed " << seed;
+    }
+  }
 }
 
 TEST(RegressionExtractor, JoinsAWallAcrossABeamWithoutReturn) {
