@@ -49,7 +49,7 @@ bool WallFollower::start(const Pose2& map_T_base, const std::vector<MapSegment>&
   }
   side_ = right && (!left || right->cost_m < left->cost_m) ? WallSide::kRight : WallSide::kLeft;
   followed_ = segments[*nearest].id;
-  lap_start_map_ = segments[*nearest].map_T_segment * Point2(along_m, -params_.distance_m);
+  lap_start_map_.reset();
   lap_begun_ = false;
   return true;
 }
@@ -186,8 +186,13 @@ bool WallFollower::ends_loose(const Pose2& map_T_base, const std::vector<MapSegm
   return ends && !next_segment(map_T_base, segments, followed);
 }
 
-bool WallFollower::lap_is_over(const Pose2& map_T_base) {
-  const double from_start_m = (map_T_base.translation() - lap_start_map_).norm();
+bool WallFollower::lap_is_over(const Pose2& map_T_base, const MapSegment& followed) {
+  const double off_line_m = std::abs(in_segment(followed, map_T_base).y_m + params_.distance_m);
+  if (!lap_start_map_ && off_line_m > params_.switch_m) {
+    return false;  // still on its way to the wall
+  }
+  lap_start_map_ = lap_start_map_.value_or(map_T_base.translation());
+  const double from_start_m = (map_T_base.translation() - *lap_start_map_).norm();
   lap_begun_ = lap_begun_ || from_start_m > kLapBegun * params_.switch_m;
   return lap_begun_ && from_start_m <= params_.switch_m;
 }
@@ -195,7 +200,7 @@ bool WallFollower::lap_is_over(const Pose2& map_T_base) {
 std::string WallFollower::end_of_path(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
                                       std::size_t followed, const std::optional<WallRoute>& route) {
   if (params_.whole_lap) {
-    return lap_is_over(map_T_base) ? "one lap along the walls has shown nothing new" : "";
+    return lap_is_over(map_T_base, segments[followed]) ? "one lap along the walls has shown nothing new" : "";
   }
   if (!route && !ends_loose(map_T_base, segments, followed)) {
     return "the walls lead to no open end";

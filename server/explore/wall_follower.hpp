@@ -59,8 +59,8 @@ class WallFollower {
   /// Whether the segment ends ahead without another one that continues it, so that the robot rounds its end.
   [[nodiscard]] bool ends_loose(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
                                 std::size_t followed) const;
-  /// Whether the robot is back where it began to follow walls, on its line.
-  [[nodiscard]] bool lap_is_over(const Pose2& map_T_base);
+  /// Whether the robot is back where it first reached the line along a wall.
+  [[nodiscard]] bool lap_is_over(const Pose2& map_T_base, const MapSegment& followed);
   /// Why the path along the walls has ended; empty: it goes on. `route` leads to the open end.
   [[nodiscard]] std::string end_of_path(const Pose2& map_T_base, const std::vector<MapSegment>& segments,
                                         std::size_t followed, const std::optional<WallRoute>& route);
@@ -68,10 +68,10 @@ class WallFollower {
   OneStepParams step_;
   WallParams params_;
   WallSide side_ = WallSide::kLeft;
-  std::uint64_t followed_ = 0;             ///< id of the followed segment
-  std::vector<Point2> places_;             ///< robot positions at the last decisions, frame `map`
-  Point2 lap_start_map_ = Point2::Zero();  ///< where the lap began, on the line that the robot follows
-  bool lap_begun_ = false;                 ///< whether the robot has left that place since
+  std::uint64_t followed_ = 0;           ///< id of the followed segment
+  std::vector<Point2> places_;           ///< robot positions at the last decisions, frame `map`
+  std::optional<Point2> lap_start_map_;  ///< where the lap began; nothing: the robot has not reached its line yet
+  bool lap_begun_ = false;               ///< whether the robot has left that place since
 };
 
 }  // namespace seeker::explore
