@@ -67,7 +67,8 @@ double landmark_distance(const Landmark& landmark, const vision::Descriptor& des
   return vision::unit_distance(least, metric);
 }
 
-DescriptorTable::DescriptorTable(const LandmarkDatabase& database) {
+DescriptorTable::DescriptorTable(const LandmarkDatabase& database, int bbf_leaves_in, vision::Metric metric)
+    : bbf_leaves(bbf_leaves_in) {
   for (std::size_t i = 0; i < database.size(); ++i) {
     const std::vector<LandmarkView>& views = database.at(i).views;
     layers.resize(std::max(layers.size(), views.size()));
@@ -76,6 +77,16 @@ DescriptorTable::DescriptorTable(const LandmarkDatabase& database) {
       layers[k].owners.push_back(i);
     }
   }
+  if (bbf_leaves > 0) {
+    for (Layer& layer : layers) {
+      layer.tree.emplace(layer.rows, metric, vision::BbfParams{.max_leaves = bbf_leaves});
+    }
+  }
+}
+
+std::vector<vision::NearestTwo> DescriptorTable::Layer::nearest_two(std::span<const vision::Descriptor> queries,
+                                                                    vision::Metric metric) const {
+  return tree ? tree->nearest_two(queries) : vision::nearest_two(queries, rows, metric);
 }
 
 std::vector<std::vector<AlikeLandmark>> alike_landmarks(const DescriptorTable& known,
@@ -83,7 +94,7 @@ std::vector<std::vector<AlikeLandmark>> alike_landmarks(const DescriptorTable& k
                                                         vision::Metric metric) {
   std::vector<std::vector<AlikeLandmark>> alike(queries.size());
   for (const DescriptorTable::Layer& layer : known.layers) {
-    const auto nearest = vision::nearest_two(queries, layer.rows, metric);
+    const auto nearest = layer.nearest_two(queries, metric);
     const auto add = [&](std::size_t query, std::int32_t row, std::uint32_t byte_distance) {
       if (row >= 0) {
         const auto at = static_cast<std::size_t>(row);
@@ -127,7 +138,7 @@ std::vector<Pairing> associate_anywhere(const DescriptorTable& known, std::span<
     }
   }
   // Backward: the feature most alike to the chosen descriptor must be the one that chose it.
-  const auto back = vision::nearest_two(chosen, queries, params.metric);
+  const auto back = vision::nearest_two(chosen, queries, params.metric, known.bbf_leaves);
   std::vector<Pairing> mutual;
   for (std::size_t k = 0; k < forward.size(); ++k) {
     if (back[k].best == static_cast<std::int32_t>(forward[k].point)) {
@@ -143,7 +154,7 @@ std::vector<Pairing> associate(const LandmarkDatabase& database, std::span<const
     return {};
   }
   if (params.anywhere) {
-    return associate_anywhere(DescriptorTable(database), features, points, params);
+    return associate_anywhere(DescriptorTable(database, params.bbf_leaves, params.metric), features, points, params);
   }
   std::vector<Pairing> forward;
   for (std::size_t i = 0; i < points.size(); ++i) {

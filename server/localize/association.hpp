@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "server/localize/landmark_database.hpp"
+#include "server/vision/bbf_tree.hpp"
 
 namespace seeker::localize {
 
@@ -25,6 +27,9 @@ struct AssociationParams {
   /// Spec S2.5 as printed: the mutually nearest descriptors of the whole database, at any position. Otherwise only
   /// landmarks whose position agrees are compared.
   bool anywhere = false;
+  /// Number of leaves of a k-d tree that best-bin-first search of the whole database examines for each feature, 200 in
+  /// the paper (spec S2.1); 0: all landmarks are compared.
+  int bbf_leaves = 0;
   double gate_chi2 = 11.345;   ///< gate of the difference in position, 3 degrees of freedom, 99 %
   double max_offset_m = 1.5;   ///< upper limit of this difference
   double min_offset_m = 0.05;  ///< difference that is always accepted, for any covariances
@@ -55,12 +60,19 @@ struct SparsityParams {
 struct DescriptorTable {
   struct Layer {
     std::vector<vision::Descriptor> rows;
-    std::vector<std::size_t> owners;  ///< index of each row's landmark
+    std::vector<std::size_t> owners;      ///< index of each row's landmark
+    std::optional<vision::BbfTree> tree;  ///< of the rows, where best-bin-first search is wanted
+
+    [[nodiscard]] std::vector<vision::NearestTwo> nearest_two(std::span<const vision::Descriptor> queries,
+                                                              vision::Metric metric) const;
   };
   std::vector<Layer> layers;
+  int bbf_leaves = 0;
 
   DescriptorTable() = default;
-  explicit DescriptorTable(const LandmarkDatabase& database);
+  /// With `bbf_leaves` above 0 it is searched by best-bin-first search, by `metric` alone; else exactly, by any.
+  explicit DescriptorTable(const LandmarkDatabase& database, int bbf_leaves = 0,
+                           vision::Metric metric = vision::Metric::kL2);
 };
 
 /// A landmark with a descriptor similar to a feature's.

@@ -29,6 +29,10 @@ struct PixelNoise {
   friend bool operator==(const PixelNoise&, const PixelNoise&) = default;
 };
 
+/// r_min of the paper's robot: its constraint (2), disparities below 20 px, lets no point nearer than 5.04 m be
+/// measured (spec S2.1), so that a landmark nearer than this is not expected to be visible (S2.10).
+inline constexpr double kPaperMinRange_m = 5.0;
+
 /// A point with the covariance of its position.
 struct UncertainPoint {
   Point3 p = Point3::Zero();

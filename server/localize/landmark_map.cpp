@@ -7,8 +7,9 @@
 
 namespace seeker::localize {
 
-LandmarkMap::LandmarkMap(std::shared_ptr<const LandmarkDatabase> database_in, double sigma_floor_m)
-    : database(std::move(database_in)), table(*database) {
+LandmarkMap::LandmarkMap(std::shared_ptr<const LandmarkDatabase> database_in, double sigma_floor_m, int bbf_leaves,
+                         vision::Metric metric)
+    : database(std::move(database_in)), table(*database, bbf_leaves, metric) {
   covariances.reserve(database->size());
   const Matrix3 floor = sigma_floor_m * sigma_floor_m * Matrix3::Identity();
   for (const Landmark& landmark : database->landmarks()) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "server/localize/localiser_params.hpp"
@@ -15,8 +16,13 @@ struct LandmarkMap {
   DescriptorTable table;
   std::vector<Matrix3> covariances;  ///< covariance of each landmark's position
 
-  /// `sigma_floor_m` is the lower limit of the standard deviation of a landmark in any direction.
-  LandmarkMap(std::shared_ptr<const LandmarkDatabase> database, double sigma_floor_m);
+  /// `sigma_floor_m` is the lower limit of the standard deviation of a landmark in any direction. The table is searched
+  /// by best-bin-first search where `bbf_leaves` is above 0.
+  LandmarkMap(std::shared_ptr<const LandmarkDatabase> database, double sigma_floor_m, int bbf_leaves = 0,
+              vision::Metric metric = vision::Metric::kL2);
+  /// Prepares a database for a localiser with these parameters.
+  LandmarkMap(std::shared_ptr<const LandmarkDatabase> landmarks, const LocaliserParams& params)
+      : LandmarkMap(std::move(landmarks), params.landmark_sigma_floor_m, params.bbf_leaves, params.metric) {}
   [[nodiscard]] const Landmark& at(std::size_t index) const { return database->at(index); }
 };
 

@@ -26,7 +26,8 @@ Status at_least(std::initializer_list<Bound> bounds) {
 constexpr double kLeast = 1e-6;  ///< for what must be above zero
 
 Status check_filter(const LocaliserParams& p) {
-  return at_least({{"noise.sigma_px", p.noise.sigma_px, kLeast},
+  return at_least({{"bbf_leaves", static_cast<double>(p.bbf_leaves), 0.0},
+                   {"noise.sigma_px", p.noise.sigma_px, kLeast},
                    {"noise.sigma_disparity_px", p.noise.sigma_disparity_px, kLeast},
                    {"range.min_m", p.range.min_m, kLeast},
                    {"range.max_m", p.range.max_m, p.range.min_m + kLeast},
@@ -103,6 +104,8 @@ LocaliserParams paper_localiser_params() {
   LocaliserParams params;
   params.mode = FilterMode::kPaper;
   params.metric = vision::Metric::kL1;
+  params.bbf_leaves = vision::kPaperLeaves;
+  params.range.min_m = kPaperMinRange_m;
   params.noise.separate_eyes = true;
   params.measurement = {.range_floor_m = 0.02, .bearing_floor_rad = 0.005, .landmark_covariance = false};
   params.disparity_offset_sigma_px = 0.0;

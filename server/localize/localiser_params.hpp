@@ -87,6 +87,8 @@ struct ConfidenceParams {
 struct LocaliserParams {
   FilterMode mode = FilterMode::kJoint;
   vision::Metric metric = vision::Metric::kL2;
+  /// As AssociationParams::bbf_leaves, wherever the whole database is searched.
+  int bbf_leaves = 0;
   LeverArm arm;
   double eye_height_m = 0.0;  ///< height above the reference plane of the database
   PixelNoise noise;

@@ -52,7 +52,7 @@ struct StereoLocaliser::State {
         const LocaliserParams& params_in)
       : geometry(geometry_in),
         params(params_in),
-        map(std::move(database), params_in.landmark_sigma_floor_m),
+        map(std::move(database), params_in),
         confidence(params_in.confidence) {}
 
   void begin(const EyeBelief& at);
@@ -265,7 +265,7 @@ Status StereoLocaliser::use(std::shared_ptr<const LandmarkDatabase> database) {
   if (Status ok = check_database(state_->geometry, *database); !ok) {
     return ok;
   }
-  state_->map = LandmarkMap(std::move(database), state_->params.landmark_sigma_floor_m);
+  state_->map = LandmarkMap(std::move(database), state_->params);
   return {};
 }
 

@@ -11,9 +11,11 @@ namespace seeker::localize {
 DatabaseParams paper_database_params() {
   DatabaseParams params;
   params.noise.separate_eyes = true;
+  params.range.min_m = kPaperMinRange_m;
   params.association.metric = vision::Metric::kL1;
   params.association.max_distance = 2.5;
   params.association.anywhere = true;
+  params.association.bbf_leaves = vision::kPaperLeaves;
   params.sparsity.inner_radius_m = 0.10;
   params.sparsity.outer_radius_m = 0.50;
   params.sparsity.min_distance = 2.5;
@@ -50,6 +52,9 @@ Status validate(const DatabaseParams& params) {
   if (adjustment.rounds < 1 || adjustment.iterations < 1 || !positive(adjustment.huber_sigmas) ||
       !positive(adjustment.point_sigma_m) || !positive(adjustment.offset_sigma_px)) {
     return bad("adjustment: rounds and iterations must be at least 1, huber_sigmas and the sigmas above zero");
+  }
+  if (pairs.bbf_leaves < 0) {
+    return bad("association.bbf_leaves must be at least 0");
   }
   return params.salient_seen >= 1 ? Status() : bad("salient_seen must be at least 1");
 }

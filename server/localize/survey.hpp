@@ -38,7 +38,8 @@ struct DatabaseParams {
   friend bool operator==(const DatabaseParams&, const DatabaseParams&) = default;
 };
 
-/// The parameters of the paper: L1, 2.5, whole database, running mean, first descriptor.
+/// The parameters of the paper: L1, 2.5, whole database by best-bin-first search, running mean, first descriptor, and
+/// poses as given.
 [[nodiscard]] DatabaseParams paper_database_params();
 /// Fails with kInvalidArgument and the field's name.
 [[nodiscard]] Status validate(const DatabaseParams& params);

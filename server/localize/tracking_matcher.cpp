@@ -88,17 +88,21 @@ std::vector<ExpectedLandmark> expected_landmarks(const StereoGeometry& geometry,
   const Pose2& map_T_eye = belief.map_T_eye;
   const Point3 eye(map_T_eye.x_m, map_T_eye.y_m, params.eye_height_m);
   const double cos_side = std::cos(params.tracking.max_view_angle_rad);
+  const bool paper = params.mode == FilterMode::kPaper;
   map.database->for_near(eye, params.range.max_m, [&](std::size_t index) {
     const Landmark& landmark = map.at(index);
-    const Point3 p_eye = to_eye(map_T_eye, params.eye_height_m, landmark.p_map);
+    Point3 p_eye = to_eye(map_T_eye, params.eye_height_m, landmark.p_map);
+    if (paper) {
+      p_eye.z() = 0.0;  // the paper asks for range and bearing only, from any side
+    }
     const auto pixel = project(geometry, p_eye);
     if (!pixel || p_eye.head<2>().norm() < params.range.min_m) {
       return;
     }
     const Point3 to_eye_now = (eye - landmark.p_map).normalized();
-    const bool known_side = std::any_of(landmark.views.begin(), landmark.views.end(), [&](const LandmarkView& view) {
-      return view.to_eye.dot(to_eye_now) >= cos_side;
-    });
+    const bool known_side =
+        paper || std::any_of(landmark.views.begin(), landmark.views.end(),
+                             [&](const LandmarkView& view) { return view.to_eye.dot(to_eye_now) >= cos_side; });
     if (known_side) {
       expected.push_back({index, *pixel});
     }

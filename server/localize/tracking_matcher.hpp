@@ -16,7 +16,8 @@ struct ExpectedLandmark {
   Pixel pixel;               ///< predicted position in the picture
 };
 
-/// Landmarks within range and in the picture that were observed before from a similar direction.
+/// Landmarks within range and in the picture that were observed before from a similar direction. In the paper's mode
+/// those within range and bearing, from any direction (spec S2.10); their pixel has the height of the eye.
 [[nodiscard]] std::vector<ExpectedLandmark> expected_landmarks(const StereoGeometry& geometry, const LandmarkMap& map,
                                                                const EyeBelief& belief, const LocaliserParams& params);
 

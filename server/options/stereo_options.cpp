@@ -32,6 +32,7 @@ void describe(config::Fields& f, StereoMatchParams& params) {
   f.field("max_distance", params.max_distance);
   f.field("paper_uniqueness", params.paper_uniqueness);
   f.field("max_ratio", params.max_ratio);
+  f.field("bbf_leaves", params.bbf_leaves);
   f.field("refine_disparity", params.refine_disparity);
 }
 
@@ -62,6 +63,7 @@ void describe(config::Fields& f, AssociationParams& params) {
   f.choice("metric", params.metric, kMetrics);
   f.field("max_distance", params.max_distance);
   f.field("anywhere", params.anywhere);
+  f.field("bbf_leaves", params.bbf_leaves);
   f.field("gate_chi2", params.gate_chi2);
   f.field("max_offset_m", params.max_offset_m);
   f.field("min_offset_m", params.min_offset_m);
@@ -180,6 +182,7 @@ void describe(config::Fields& f, LocaliserParams& params) {
   f.choice("mode", params.mode,
            config::Choices<FilterMode>{{"joint", FilterMode::kJoint}, {"paper", FilterMode::kPaper}});
   f.choice("metric", params.metric, kMetrics);
+  f.field("bbf_leaves", params.bbf_leaves);
   f.section("arm", params.arm);
   f.field("eye_height_m", params.eye_height_m);
   f.section("noise", params.noise);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <queue>
+#include <utility>
 
 #include "common/core/assert.hpp"
 
@@ -37,12 +39,20 @@ std::uint32_t cost(std::uint32_t offset, Metric metric) { return metric == Metri
 
 struct BbfTree::Search {
   const Descriptor& query;
-  NearestTwo nearest;
+  NearestTwo nearest = {};
+  /// All candidates up to this distance are wanted instead of the two nearest.
+  std::optional<std::uint32_t> radius = std::nullopt;
+  std::vector<NearCandidate> within = {};
   int leaves = 0;
   std::uint32_t bound = 0;   ///< of the branch that is descended
   std::int32_t detour = -1;  ///< its last one
-  std::vector<Detour> detours;
-  std::priority_queue<Branch, std::vector<Branch>, Farther> branches;
+  std::vector<Detour> detours = {};
+  std::priority_queue<Branch, std::vector<Branch>, Farther> branches = {};
+
+  /// Whether a branch with this bound cannot hold what is wanted.
+  [[nodiscard]] bool too_far(std::uint32_t branch_bound) const {
+    return radius ? branch_bound > *radius : branch_bound >= nearest.second_distance;
+  }
 
   /// How far the query already is outside the branch along a dimension.
   [[nodiscard]] std::uint8_t offset_along(std::uint8_t dimension) const {
@@ -59,7 +69,7 @@ struct BbfTree::Search {
     const std::uint8_t before = offset_along(dimension);
     const std::uint8_t now = std::max(before, offset);
     const std::uint32_t branch_bound = bound - cost(before, metric) + cost(now, metric);
-    if (branch_bound >= nearest.second_distance) {
+    if (too_far(branch_bound)) {
       return;
     }
     detours.push_back({detour, dimension, now});
@@ -131,11 +141,16 @@ std::int32_t BbfTree::build(std::uint32_t first, std::uint32_t last) {
   return index;
 }
 
-void BbfTree::look_at(const Node& leaf, Search& search) const {
+void BbfTree::examine(const Node& leaf, Search& search) const {
   ++search.leaves;
   for (std::uint32_t i = leaf.first; i < leaf.last; ++i) {
-    search.nearest.offer(static_cast<std::int32_t>(order_[i]),
-                         descriptor_distance(search.query, descriptors_[i], metric_));
+    const auto index = static_cast<std::int32_t>(order_[i]);
+    const std::uint32_t distance = descriptor_distance(search.query, descriptors_[i], metric_);
+    if (!search.radius) {
+      search.nearest.offer(index, distance);
+    } else if (distance <= *search.radius) {
+      search.within.push_back({index, distance});
+    }
   }
 }
 
@@ -149,30 +164,50 @@ void BbfTree::descend(std::int32_t node_index, Search& search) const {
                    metric_);
     node = &nodes_[static_cast<std::size_t>(go_left ? node->left : node->right)];
   }
-  look_at(*node, search);
+  examine(*node, search);
+}
+
+void BbfTree::run(Search& search) const {
+  if (!nodes_.empty()) {
+    descend(0, search);
+  }
+  while (!search.branches.empty() && search.leaves < params_.max_leaves) {
+    const Branch next = search.branches.top();
+    search.branches.pop();
+    if (search.too_far(next.bound)) {
+      break;  // all others are further still
+    }
+    search.bound = next.bound;
+    search.detour = next.detour;
+    descend(next.node, search);
+  }
 }
 
 std::vector<NearestTwo> BbfTree::nearest_two(std::span<const Descriptor> queries) const {
   std::vector<NearestTwo> found;
   found.reserve(queries.size());
   for (const Descriptor& query : queries) {
-    Search search{query, {}, 0, 0, -1, {}, {}};
-    if (!nodes_.empty()) {
-      descend(0, search);
-    }
-    while (!search.branches.empty() && search.leaves < params_.max_leaves) {
-      const Branch next = search.branches.top();
-      search.branches.pop();
-      if (next.bound >= search.nearest.second_distance) {
-        break;  // all others are further still
-      }
-      search.bound = next.bound;
-      search.detour = next.detour;
-      descend(next.node, search);
-    }
+    Search search{.query = query};
+    run(search);
     found.push_back(search.nearest);
   }
   return found;
+}
+
+std::vector<NearCandidate> BbfTree::within(const Descriptor& query, std::uint32_t distance) const {
+  Search search{.query = query, .radius = distance};
+  run(search);
+  std::sort(search.within.begin(), search.within.end(),
+            [](const NearCandidate& a, const NearCandidate& b) { return a.index < b.index; });
+  return std::move(search.within);
+}
+
+std::vector<NearestTwo> nearest_two(std::span<const Descriptor> queries, std::span<const Descriptor> candidates,
+                                    Metric metric, int bbf_leaves) {
+  if (bbf_leaves <= 0) {
+    return nearest_two(queries, candidates, metric);
+  }
+  return BbfTree(candidates, metric, {.max_leaves = bbf_leaves}).nearest_two(queries);
 }
 
 }  // namespace seeker::vision

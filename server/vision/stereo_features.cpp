@@ -74,13 +74,17 @@ Result<StereoFeatures> SiftStereoExtractor::extract(const StereoFrame& frame) co
   if (Status ok = check_pair(fault_of_pair(left, right, sure_pairs, row_gate_px())); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
-  const MatchParams alone{params_.match.metric, params_.match.max_distance,
-                          params_.match.paper_uniqueness ? 1.0 : params_.match.max_ratio};
-  const auto alike = alone == sure ? sure_pairs : match_mutually(left.descriptors, right.descriptors, alone);
+  const MatchParams alone{params_.match.metric, params_.match.max_distance, params_.match.max_ratio};
+  const bool are_sure = alone == sure && params_.match.bbf_leaves == 0 && !params_.match.paper_uniqueness;
+  const auto alike = are_sure ? sure_pairs : match_by_descriptor(left, right, params_.match);
   StereoFeatures found;
   found.left_keypoints = count_places(left);
   found.right_keypoints = count_places(right);
-  found.matches_before_constraints = static_cast<int>(alike.size());
+  found.before_constraints.reserve(alike.size());
+  for (const FeatureMatch& m : alike) {
+    found.before_constraints.push_back(
+        {left.keypoints[static_cast<std::size_t>(m.first)], right.keypoints[static_cast<std::size_t>(m.second)]});
+  }
   found.inliers_of_rows = count_on_rows(left, right, alike, row_gate_px());
   const std::vector<FeatureMatch> matches = match_stereo(left, right, params_.match, row_gate_px());
   found.features.reserve(matches.size());

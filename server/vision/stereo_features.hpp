@@ -38,6 +38,9 @@ struct StereoMatchParams {
   bool paper_uniqueness =
       false;               ///< (5): drop a left point with more than one right point that passes (1)-(4) and the gate
   double max_ratio = 0.8;  ///< otherwise: best over second best distance, in either direction
+  /// Number of leaves of a k-d tree that best-bin-first search examines for each left point, 200 in the paper (spec
+  /// S2.1); 0: all right points of its rows are compared.
+  int bbf_leaves = 0;
   bool refine_disparity = true;  ///< to a fraction of a pixel, by correlation around the match
 
   friend bool operator==(const StereoMatchParams&, const StereoMatchParams&) = default;
@@ -50,18 +53,27 @@ struct StereoFeatureParams {
   friend bool operator==(const StereoFeatureParams&, const StereoFeatureParams&) = default;
 };
 
-/// The gates and the descriptor of the paper (spec S2.1): SIFT, L1, scale as a difference, uniqueness by counting.
+/// The gates, the descriptor and the search of the paper (spec S2.1): SIFT, L1, scale as a difference, uniqueness by
+/// counting, best-bin-first search, and disparities below 20 px, so that only points beyond 5.04 m are measured.
 [[nodiscard]] StereoFeatureParams paper_stereo_params();
 /// kInvalidArgument with the field's name.
 [[nodiscard]] Status validate(const StereoFeatureParams& params);
 
-/// Features of one pair, and the counts of its candidates.
+/// Key points of the two pictures that match by their descriptors alone.
+struct KeypointPair {
+  Keypoint left;
+  Keypoint right;
+
+  friend bool operator==(const KeypointPair&, const KeypointPair&) = default;
+};
+
+/// Features of one pair, and the candidates they were chosen from.
 struct StereoFeatures {
   std::vector<StereoFeature> features;
-  int left_keypoints = 0;              ///< number of positions in the left picture
-  int right_keypoints = 0;             ///< number of positions in the right picture
-  int matches_before_constraints = 0;  ///< mutual best by descriptor alone, spec S2.11 Table 1
-  int inliers_of_rows = 0;             ///< pairs of those that pass (1): a small share indicates a wrong calibration
+  int left_keypoints = 0;                        ///< number of positions in the left picture
+  int right_keypoints = 0;                       ///< number of positions in the right picture
+  std::vector<KeypointPair> before_constraints;  ///< match_by_descriptor(), spec S2.11 Table 1 and Fig 1
+  int inliers_of_rows = 0;  ///< pairs of those that pass (1): a small share indicates a wrong calibration
 };
 
 /// Detects and matches features. Not thread-safe; the eyes are processed with as many threads as OpenCV is given.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "common/core/angle.hpp"
+#include "server/vision/bbf_tree.hpp"
 #include "server/vision/sift_features.hpp"
 
 namespace seeker::vision {
@@ -79,22 +81,84 @@ struct Candidates {
   }
 };
 
+/// Right points that pass constraints (1) to (4) for a left one: all of them, or those that best-bin-first search
+/// examines.
+class CandidateSource {
+ public:
+  CandidateSource(const FeatureList& right, const StereoMatchParams& params, double row_gate_px)
+      : right_(right), params_(params), row_gate_px_(row_gate_px), rows_(right.keypoints) {
+    if (params.bbf_leaves > 0) {
+      tree_.emplace(right.descriptors, params.metric, BbfParams{.max_leaves = params.bbf_leaves});
+    }
+  }
+
+  /// Calls visit(right index, distance of the descriptors) for every one.
+  template <class Visit>
+  void for_each(const Keypoint& left, const Descriptor& descriptor, const Visit& visit) const {
+    if (!tree_) {
+      rows_.near(left.v_px, row_gate_px_, [&](int index) {
+        const auto r = static_cast<std::size_t>(index);
+        if (may_match(left, right_.keypoints[r], params_)) {
+          visit(index, descriptor_distance(descriptor, right_.descriptors[r], params_.metric));
+        }
+      });
+      return;
+    }
+    // By counting only points within the gate matter; otherwise the second best does, however far it is.
+    const std::uint32_t reach =
+        params_.paper_uniqueness ? byte_distance(params_.max_distance, params_.metric) : NearestTwo::kFar - 1;
+    for (const NearCandidate& near : tree_->within(descriptor, reach)) {
+      const Keypoint& right = right_.keypoints[static_cast<std::size_t>(near.index)];
+      const double rows_px = std::abs(static_cast<double>(right.v_px) - static_cast<double>(left.v_px));
+      if (rows_px < row_gate_px_ && may_match(left, right, params_)) {
+        visit(near.index, near.distance);
+      }
+    }
+  }
+
+ private:
+  const FeatureList& right_;
+  const StereoMatchParams& params_;
+  double row_gate_px_;
+  RowIndex rows_;
+  std::optional<BbfTree> tree_;
+};
+
 }  // namespace
+
+std::vector<FeatureMatch> match_by_descriptor(const FeatureList& left, const FeatureList& right,
+                                              const StereoMatchParams& params) {
+  if (params.bbf_leaves == 0) {
+    return match_mutually(left.descriptors, right.descriptors,
+                          {params.metric, params.max_distance, params.paper_uniqueness ? 1.0 : params.max_ratio});
+  }
+  const std::uint32_t gate = byte_distance(params.max_distance, params.metric);
+  const auto nearest = nearest_two(left.descriptors, right.descriptors, params.metric, params.bbf_leaves);
+  std::vector<FeatureMatch> matches;
+  for (std::size_t l = 0; l < nearest.size(); ++l) {
+    if (nearest[l].best == NearestTwo::kNone || nearest[l].best_distance > gate) {
+      continue;
+    }
+    // Orientations of one position follow each other: it counts once.
+    const bool repeated = !matches.empty() &&
+                          same_place(left.keypoints[l], left.keypoints[static_cast<std::size_t>(matches.back().first)]);
+    if (!repeated) {
+      matches.push_back({static_cast<int>(l), nearest[l].best});
+    }
+  }
+  return matches;
+}
 
 std::vector<FeatureMatch> match_stereo(const FeatureList& left, const FeatureList& right,
                                        const StereoMatchParams& params, double row_gate_px) {
-  const RowIndex rows(right.keypoints);
+  const CandidateSource candidates(right, params, row_gate_px);
   const std::uint32_t gate = byte_distance(params.max_distance, params.metric);
   std::vector<Candidates> forth(left.size());
   std::vector<Candidates> back(right.size());
   for (std::size_t l = 0; l < left.size(); ++l) {
-    rows.near(left.keypoints[l].v_px, row_gate_px, [&](int index) {
-      const auto r = static_cast<std::size_t>(index);
-      if (may_match(left.keypoints[l], right.keypoints[r], params)) {
-        const std::uint32_t distance = descriptor_distance(left.descriptors[l], right.descriptors[r], params.metric);
-        forth[l].offer(index, distance, gate, right.keypoints);
-        back[r].offer(static_cast<int>(l), distance, gate, left.keypoints);
-      }
+    candidates.for_each(left.keypoints[l], left.descriptors[l], [&](int r, std::uint32_t distance) {
+      forth[l].offer(r, distance, gate, right.keypoints);
+      back[static_cast<std::size_t>(r)].offer(static_cast<int>(l), distance, gate, left.keypoints);
     });
   }
   const auto clear = [&](const NearestTwo& n) {

@@ -109,6 +109,24 @@ TEST(RobotFiles, ALargerRobotPlansAsOneUnlessItsFileSaysOtherwise) {
   EXPECT_EQ(larger->explore.cost.robot_radius_m, 0.4);
 }
 
+TEST(RobotFiles, ThePapersStereoModeIsAllOfItBeforeTheFilesOwnValues) {
+  const Result<app::RobotOptions> paper = app::load_robot_options(source_file("config/robots/paper/stereo-2017.yaml"));
+  ASSERT_TRUE(paper) << paper.error().message;
+  const app::StereoSettings& stereo = paper->stereo;
+  EXPECT_EQ(stereo.features.match, vision::paper_stereo_params().match);
+  EXPECT_EQ(stereo.database, localize::paper_database_params());
+  EXPECT_EQ(stereo.estimator.update, localize::paper_update_params());
+  EXPECT_EQ(stereo.localiser.mode, localize::FilterMode::kPaper);
+  EXPECT_EQ(stereo.localiser.eye_height_m, 0.9) << "where the camera is mounted is no method";
+  const Result<app::RobotOptions> mixed =
+      load_first({{"mine.yaml", "base: paper.yaml\nstereo: {features: {match: {max_disparity_px: 100}}}\n"},
+                  {"paper.yaml", "stereo: {mode: paper, database: {salient_seen: 2}}\n"}});
+  ASSERT_TRUE(mixed) << mixed.error().message;
+  EXPECT_EQ(mixed->stereo.features.match.max_disparity_px, 100.0);
+  EXPECT_EQ(mixed->stereo.database.salient_seen, 2);
+  EXPECT_EQ(mixed->stereo.database.association.bbf_leaves, 200);
+}
+
 TEST(RobotFiles, ARobotOfNoSizeIsRefused) {
   for (const char* radius : {"0", "-0.2", "50"}) {
     const Result<app::RobotOptions> options =

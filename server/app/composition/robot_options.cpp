@@ -3,6 +3,7 @@
 #include "common/api/robot_state.hpp"
 #include "server/app/composition/estimators.hpp"
 #include "server/app/composition/loop_options.hpp"
+#include "server/app/composition/stereo_mode.hpp"
 #include "server/options/camera_options.hpp"
 #include "server/options/explore_options.hpp"
 #include "server/options/fleet_options.hpp"
@@ -172,7 +173,21 @@ void describe(config::Fields& f, SurveyParams& params) {
   f.section("look", params.look);
 }
 
+namespace {
+
+void describe_mode(config::Fields& f, StereoSettings& settings) {
+  const StereoMode before = settings.mode;
+  f.choice("mode", settings.mode,
+           config::Choices<StereoMode>{{"default", StereoMode::kDefault}, {"paper", StereoMode::kPaper}});
+  if (f.reading() && settings.mode != before) {
+    take_mode(settings);
+  }
+}
+
+}  // namespace
+
 void describe(config::Fields& f, StereoSettings& settings) {
+  describe_mode(f, settings);
   f.optional_section("camera", settings.camera);
   f.section("features", settings.features);
   f.section("database", settings.database);

@@ -64,8 +64,17 @@ struct FittedSensors {
   bool stereo = true;
 };
 
+/// Whose method the stereo camera serves.
+enum class StereoMode : std::uint8_t {
+  kDefault,  ///< ours
+  kPaper,    ///< as printed in the paper of spec S2: gates, search, association, database, filter, update
+};
+
 /// The stereo camera, and what is made of its pictures.
 struct StereoSettings {
+  /// A file that names another mode than its base means all parameters of that mode, before its own ones; the mounting
+  /// of the camera and the numbers of key points stay.
+  StereoMode mode = StereoMode::kDefault;
   std::optional<drivers::StereoCameraParams> camera;  ///< a real one, or recorded pictures; else the simulated one
   vision::StereoFeatureParams features;
   localize::DatabaseParams database;

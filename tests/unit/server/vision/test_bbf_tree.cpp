@@ -59,6 +59,31 @@ RC_GTEST_PROP(BbfTree, WhatItNamesHasTheDistanceItTells, ()) {
   }
 }
 
+RC_GTEST_PROP(BbfTree, WithLeavesEnoughAllWithinARadiusAreFound, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint64_t>());
+  const auto candidates = random_descriptors(*rc::gen::inRange<std::size_t>(0, 200), rng, 60);
+  const auto queries = random_descriptors(1, rng, 60);
+  const auto radius = *rc::gen::inRange<std::uint32_t>(1500, 3500);
+  std::vector<NearCandidate> wanted;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const std::uint32_t distance = descriptor_distance(queries[0], candidates[k], Metric::kL1);
+    if (distance <= radius) {
+      wanted.push_back({static_cast<std::int32_t>(k), distance});
+    }
+  }
+  RC_ASSERT(BbfTree(candidates, Metric::kL1, {.max_leaves = 1000}).within(queries[0], radius) == wanted);
+}
+
+TEST(BbfTree, WithFewLeavesOnlySomeAreExamined) {
+  Rng rng(43);
+  const auto candidates = random_descriptors(500, rng, 120);
+  const BbfTree tree(candidates, Metric::kL1, {.max_leaves = 20});
+  EXPECT_EQ(tree.within(candidates[7], NearestTwo::kFar - 1).size(), 20U);
+  EXPECT_EQ(nearest_two({&candidates[7], 1}, candidates, Metric::kL1, 20)[0].best, 7);
+  EXPECT_EQ(nearest_two({&candidates[7], 1}, candidates, Metric::kL1, 0),
+            nearest_two({&candidates[7], 1}, candidates, Metric::kL1));
+}
+
 TEST(BbfTree, FindsAlmostAllThatIsSeenAgain) {
   Rng rng(41);
   const auto candidates = random_descriptors(2000, rng, 120);

@@ -109,6 +109,24 @@ TEST(StereoMatch, FindsMostOfWhatBothEyesSeeWithinTheGates) {
   EXPECT_EQ(match_stereo(left, right, {}, kRowGate_px).size(), 100U);
 }
 
+TEST(StereoMatch, BestBinFirstSearchMissesOnlyWhatItDoesNotExamine) {
+  Rng rng(83);
+  const FeatureList left = random_features(400, rng);
+  const FeatureList right = seen_from_the_right(left, rng);
+  StereoMatchParams params = paper_stereo_params().match;
+  const auto found = match_stereo(left, right, params, kRowGate_px);
+  const auto alike = match_by_descriptor(left, right, params);
+  EXPECT_GT(alike.size(), found.size()) << "the constraints drop some";
+  params.bbf_leaves = 0;
+  const auto exact = match_stereo(left, right, params, kRowGate_px);
+  int missed = 0;
+  for (const FeatureMatch& m : exact) {
+    missed += std::find(found.begin(), found.end(), m) == found.end() ? 1 : 0;
+  }
+  EXPECT_GT(exact.size(), 20U);
+  EXPECT_LE(missed, static_cast<int>(exact.size()) / 10);
+}
+
 TEST(StereoMatch, APlaceIsMatchedByWhicheverOfItsOrientationsBothEyesHave) {
   Rng rng(82);
   const Descriptor first = random_descriptor(rng);
