@@ -2,11 +2,15 @@
 #include "server/lab/experiments/load_run.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "common/files/files.hpp"
 #include "common/image/png.hpp"
+#include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/resumable.hpp"
 #include "server/lab/experiments/table.hpp"
+#include "server/lab/stereo_database/stereo_bisection.hpp"
+#include "server/lab/stereo_database/stereo_comparison.hpp"
 #include "server/lab/stereo_database/stereo_run.hpp"
 
 namespace seeker::lab {
@@ -36,6 +40,11 @@ Status keep_figures(const fs::path& out, const StereoSpec& spec, const StereoRec
   std::vector<ErrorCurve> curves;
   std::copy_if(record.curves.begin(), record.curves.end(), std::back_inserter(curves),
                [](const ErrorCurve& curve) { return curve.name != "changed" && curve.name != "outdated"; });
+  for (const StereoPicture& picture : record.pictures) {
+    if (Status ok = image::write_png(file_of(out, spec, "-" + picture.name + ".png"), picture.image); !ok) {
+      return ok;
+    }
+  }
   for (const std::string what : {"x", "y", "angle", "x-y"}) {
     if (Status ok = image::write_png(file_of(out, spec, "-fig13-" + what + ".png"), error_figure(curves, what)); !ok) {
       return ok;
@@ -84,15 +93,50 @@ RunKind<StereoSpec, StereoResult> kind_of(const fs::path& out) {
   return kind;
 }
 
-std::vector<StereoSpec> specs_of(const ReproduceParams& params, bool paper) {
+RunKind<StereoSpec, BisectionResult> bisection_of(const fs::path& out) {
+  RunKind<StereoSpec, BisectionResult> kind;
+  kind.file = [out](const StereoSpec& spec) {
+    return out / "runs" / "bisection" / ("seed-" + std::to_string(spec.seed) + ".json");
+  };
+  kind.settings = bisection_settings_of;
+  kind.load = load_run<BisectionResult>;
+  kind.make = [file = kind.file](const StereoSpec& spec, const std::string& settings) -> Result<BisectionResult> {
+    Result<BisectionResult> result = bisect_stereo(spec);
+    if (!result) {
+      return result;
+    }
+    result->settings = settings;
+    std::error_code error;
+    fs::create_directories(file(spec).parent_path(), error);
+    if (const Status kept = files::write_file(file(spec), to_json(*result)); !kept) {
+      return tl::unexpected<Error>(kept.error());
+    }
+    return result;
+  };
+  kind.progress_line = [](const BisectionResult& result) { return "bisection of seed " + std::to_string(result.seed); };
+  return kind;
+}
+
+std::vector<StereoSpec> specs_of(const ReproduceParams& params, bool paper, std::size_t at_most) {
   std::vector<StereoSpec> specs;
   for (const std::uint64_t seed : params.seeds) {
-    // The paper's descriptors are computed again in every run: one seed shows the result.
-    if (!paper || seed == params.seeds.front()) {
+    if (specs.size() < at_most) {
       specs.push_back({params.config, seed, paper, params.overrides, params.smallest});
     }
   }
   return specs;
+}
+
+/// The bisection, of the first seeds only: it is a robot for each printed choice.
+Status bisect(const ReproduceParams& params, Report& report) {
+  constexpr std::size_t kSeeds = 3;
+  const auto bisections =
+      resume_runs(specs_of(params, true, kSeeds), bisection_of(params.out), params.jobs, params.show_progress);
+  if (!bisections) {
+    return tl::unexpected<Error>(bisections.error());
+  }
+  report_bisection(*bisections, report);
+  return files::write_file(params.out / "bisection.csv", bisection_csv(*bisections));
 }
 
 }  // namespace
@@ -104,22 +148,24 @@ Status reproduce_stereo_database(const ReproduceParams& params, Report& report) 
   std::error_code error;
   fs::create_directories(params.out, error);
   std::vector<StereoResult> all;
+  std::array<std::vector<StereoResult>, 2> modes;  // ours, printed
   for (const bool paper : {false, true}) {
-    if (paper && params.smallest) {
-      continue;
-    }
-    const Result<std::vector<StereoResult>> runs =
-        resume_runs(specs_of(params, paper), kind_of(params.out), params.jobs, params.show_progress);
+    Result<std::vector<StereoResult>> runs = resume_runs(specs_of(params, paper, params.seeds.size()),
+                                                         kind_of(params.out), params.jobs, params.show_progress);
     if (!runs) {
       return tl::unexpected<Error>(runs.error());
     }
-    check_stereo(*runs, report);
     all.insert(all.end(), runs->begin(), runs->end());
     if (Status ok = files::write_file(params.out / "table3.csv", table3_csv(all)); !ok) {
       return ok;
     }
+    if (!paper) {
+      check_stereo(*runs, report);
+    }
+    modes[paper ? 1 : 0] = std::move(*runs);
   }
-  return {};
+  compare_stereo(modes[1], modes[0], report);
+  return params.smallest ? Status() : bisect(params, report);
 }
 
 }  // namespace seeker::lab

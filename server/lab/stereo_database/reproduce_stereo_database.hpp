@@ -19,7 +19,8 @@ inline constexpr double kS2Rms_deg = 1.0;
 inline constexpr double kS2Nees = 6.0;
 inline constexpr double kS2PlaceShare = 0.95;
 
-/// Checks R3, R4 and the further limits of the localiser, with one line for each, over the runs of one mode.
+/// Checks R3, R4 and the further limits of the localiser, with one line for each, over the runs of our
+/// robot. The printed one is judged beside it by compare_stereo().
 void check_stereo(const std::vector<StereoResult>& runs, Report& report);
 
 /// Rows: databases of each seed (spec S2.11, Table 3), and the means over the seeds.
@@ -29,8 +30,10 @@ void check_stereo(const std::vector<StereoResult>& runs, Report& report);
 /// Fig 13: errors in x, y, angle, and in the plane.
 [[nodiscard]] Image error_figure(const std::vector<ErrorCurve>& curves, const std::string& what);
 
-/// Makes one run with the default parameters for every seed, and one with the paper's for the first seed. Each mode has
-/// a folder; Tables 1 and 2 and all figures are of the first seed.
+/// Makes one run with our parameters and one with the printed robot (robots/paper/stereo-2017.yaml) for every seed,
+/// each mode in a folder of its own, checks ours, compares both row by row (compare_stereo()), and bisects the printed
+/// robot's error on the first seeds (bisection.csv; not in the smallest form). Tables 1 and 2 and all figures are
+/// written for each seed.
 [[nodiscard]] Status reproduce_stereo_database(const ReproduceParams& params, Report& report);
 
 }  // namespace seeker::lab

@@ -168,11 +168,8 @@ void check_stereo(const std::vector<StereoResult>& runs, Report& report) {
   }
   check_r3(runs, report);
   check_r4(runs, report);
-  // What is asked of the localiser is not asked of the paper's.
-  if (runs.front().mode != "paper") {
-    check_accuracy(runs, report);
-    check_places(runs, report);
-  }
+  check_accuracy(runs, report);
+  check_places(runs, report);
 }
 
 }  // namespace seeker::lab

@@ -1,8 +1,8 @@
 #include "server/lab/stereo_database/stereo_parts.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include <Eigen/LU>
 
@@ -16,44 +16,51 @@ namespace {
 constexpr double kTripodSigma_m = 0.01;
 constexpr double kDialSigma_rad = deg_to_rad(0.3);
 
+/// Time that the processor has spent on this thread: other programs do not count.
+double thread_ms() {
+  constexpr double kPerSecond = 1e3;
+  constexpr double kPerNanosecond = 1e-6;
+  std::timespec now{};
+  static_cast<void>(::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now));
+  return kPerSecond * static_cast<double>(now.tv_sec) + kPerNanosecond * static_cast<double>(now.tv_nsec);
+}
+
 }  // namespace
 
-Bench bench_of(const StereoSpec& spec, const app::RobotOptions& options) {
+Bench bench_of(const app::RobotOptions& options) {
   const sim::RobotModel& model = options.sim.robot;
   Bench bench{model, options.stereo.features, options.stereo.database, options.stereo.localiser,
               options.stereo.estimator.update};
-  if (spec.paper) {
-    bench.features = vision::paper_stereo_params();
-    bench.database = localize::paper_database_params();
-    bench.localiser = localize::paper_localiser_params();
-    bench.update = localize::paper_update_params();
-  }
   const Pose2& eye = model.stereo.base_T_left_eye;
   bench.localiser.arm = {eye.x_m, eye.y_m, eye.theta_rad};
   bench.localiser.eye_height_m = model.stereo.height_m;
   return bench;
 }
 
-Result<std::vector<localize::Sighting>> survey_views(const Bench& bench, const sim::World& world, Rng& rng) {
-  const std::vector<Pose2> truth = survey_poses(world, bench.model);
+SurveyPictures photograph_survey(const sim::World& world, const sim::RobotModel& model, Rng& rng) {
+  SurveyPictures pictures;
+  pictures.world_T_eyes = survey_poses(world, model);
   std::vector<Pose2> bases;
-  bases.reserve(truth.size());
-  for (const Pose2& eye : truth) {
-    bases.push_back(eye * inverse(bench.model.stereo.base_T_left_eye));
+  bases.reserve(pictures.world_T_eyes.size());
+  for (const Pose2& eye : pictures.world_T_eyes) {
+    bases.push_back(eye * inverse(model.stereo.base_T_left_eye));
   }
-  Result<std::vector<vision::StereoFeatures>> seen = look_from(world, bench.model, bench.features, bases, rng);
-  if (!seen) {
-    return tl::unexpected<Error>(seen.error());
-  }
-  std::vector<localize::Sighting> views(truth.size());
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    views[i].map_T_eye = {truth[i].x_m + rng.normal(kTripodSigma_m), truth[i].y_m + rng.normal(kTripodSigma_m),
-                          truth[i].theta_rad + rng.normal(kDialSigma_rad)};
+  pictures.pairs = photograph_from(world, model, bases, rng);
+  return pictures;
+}
+
+Result<std::vector<localize::Sighting>> survey_views(const Bench& bench, const std::vector<Pose2>& world_T_eyes,
+                                                     const std::vector<vision::StereoFeatures>& seen, Rng& rng) {
+  std::vector<localize::Sighting> views(world_T_eyes.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Pose2& truth = world_T_eyes[i];
+    views[i].map_T_eye = {truth.x_m + rng.normal(kTripodSigma_m), truth.y_m + rng.normal(kTripodSigma_m),
+                          truth.theta_rad + rng.normal(kDialSigma_rad)};
     views[i].pose_covariance = Eigen::Vector3d(kTripodSigma_m * kTripodSigma_m, kTripodSigma_m * kTripodSigma_m,
                                                kDialSigma_rad * kDialSigma_rad)
                                    .asDiagonal();
     views[i].eye_height_m = bench.model.stereo.height_m;
-    views[i].features = std::move((*seen)[i].features);
+    views[i].features = seen[i].features;
   }
   const auto adjusted = localize::adjust_poses(bench.model.stereo.geometry, bench.database, views);
   if (!adjusted) {
@@ -62,28 +69,34 @@ Result<std::vector<localize::Sighting>> survey_views(const Bench& bench, const s
   return views;
 }
 
-Result<Database> build(const Bench& bench, const std::vector<localize::Sighting>& views, bool sparse, bool salient,
-                       Table* table2) {
+Result<Built> build(const Bench& bench, const std::vector<localize::Sighting>& views, bool sparse, bool salient) {
   localize::DatabaseParams params = bench.database;
   params.sparsity.on = sparse;
   params.salient_seen = salient ? params.salient_seen : 1;
   localize::SurveyBuilder builder(bench.model.stereo.geometry, params);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const Result<localize::SightingCounts> counts = builder.add(views[i]);
+  Built built;
+  for (const localize::Sighting& view : views) {
+    const Result<localize::SightingCounts> counts = builder.add(view);
     if (!counts) {
       return tl::unexpected<Error>(counts.error());
     }
-    if (table2 != nullptr) {
-      table2->add({std::to_string(i + 1), std::to_string(counts->features), std::to_string(counts->in_range),
-                   std::to_string(counts->matched), std::to_string(counts->sparsified),
-                   std::to_string(counts->inserted), std::to_string(builder.database().size())});
-    }
+    built.counts.push_back(*counts);
+    built.sizes.push_back(builder.database().size());
+    built.fates.push_back({builder.fates(), builder.landmarks()});
   }
-  auto database = std::make_shared<const localize::LandmarkDatabase>(builder.salient());
-  if (table2 != nullptr) {
-    table2->add({"end", "", "", "", "", "", std::to_string(database->size())});  // seen seldom, or too close together
-  }
-  return database;
+  built.database = std::make_shared<const localize::LandmarkDatabase>(builder.salient());
+  return built;
+}
+
+double share_inside(const localize::LandmarkDatabase& database, const sim::World& world) {
+  constexpr double kSlack_m = 0.1;
+  const auto inside = [&](const localize::Landmark& landmark) {
+    const Point2 p = landmark.p_map.head<2>();
+    return ((p - world.min_corner).array() >= -kSlack_m).all() && ((p - world.max_corner).array() <= kSlack_m).all();
+  };
+  const auto& landmarks = database.landmarks();
+  return static_cast<double>(std::count_if(landmarks.begin(), landmarks.end(), inside)) /
+         static_cast<double>(std::max<std::size_t>(1, landmarks.size()));
 }
 
 /// Spec S2.9: P0 is diag(0.05^2, 0.05^2, 0.03^2).
@@ -110,10 +123,9 @@ Status Localisation::run(const Frames& frames, std::uint64_t seed, localize::Dat
     for (const Twist2& velocity : frame.velocities) {
       localiser->predict(velocity, kEncoderPeriod_s);
     }
-    const auto before = std::chrono::steady_clock::now();
+    const double before_ms = thread_ms();
     const localize::LocaliserStep& step = localiser->update(frame.seen.features, rng);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
-    steps_ms_.push_back(took.count());
+    steps_ms_.push_back(thread_ms() - before_ms);
     add(frame, *localiser);
     if (update != nullptr) {
       localize::Sighting sighting;
@@ -141,7 +153,11 @@ void Localisation::add(const DriveFrame& frame, const localize::StereoLocaliser&
   score_.rms_x_m += error(0) * error(0);
   score_.rms_y_m += error(1) * error(1);
   score_.rms_rad += error(2) * error(2);
-  curve_.samples.push_back({kFramePeriod_s * score_.frames, error(0), error(1), error(2)});
+  std::vector<std::size_t>& matched = matched_.emplace_back();
+  for (const localize::FrameMatch& match : localiser.last().inliers) {
+    matched.push_back(match.feature);
+  }
+  curve_.samples.push_back({frame_period_s_ * score_.frames, error(0), error(1), error(2)});
   ++score_.frames;
 }
 

@@ -18,8 +18,7 @@ bool is_wrong(const Pose2& reported, const Pose2& truth) {
 /// The whole database is asked for the place of one view.
 class OneView {
  public:
-  OneView(const Bench& bench, const Database& database)
-      : bench_(bench), map_(database, bench.localiser.landmark_sigma_floor_m) {}
+  OneView(const Bench& bench, const Database& database) : bench_(bench), map_(database, bench.localiser) {}
 
   /// Of the base; nothing where no place is certain.
   std::optional<Pose2> ask(const vision::StereoFeatures& seen, Rng& rng) {

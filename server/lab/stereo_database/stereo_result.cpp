@@ -20,6 +20,7 @@ void describe(config::Fields& f, DatabaseScore& score) {
   f.field("mean_compared", score.mean_compared);
   f.field("median_step_ms", score.median_step_ms);
   f.field("not_localised", score.not_localised);
+  f.field("inside", score.inside);
   f.field("unnoticed", score.unnoticed);
 }
 
@@ -28,6 +29,16 @@ void describe(config::Fields& f, StereoResult& result) {
   f.field("mode", result.mode);
   f.field("seed", result.seed);
   f.field("settings", result.settings);
+  f.field("survey_pictures", result.survey_pictures);
+  f.field("survey_before", result.survey_before);
+  f.field("survey_after", result.survey_after);
+  f.field("survey_reduced", result.survey_reduced);
+  f.field("added_features", result.added_features);
+  f.field("known_features", result.known_features);
+  f.field("thinned_features", result.thinned_features);
+  f.field("frames_shown", result.frames_shown);
+  f.field("frames_matched", result.frames_matched);
+  f.field("frames_unmatched", result.frames_unmatched);
   f.list("scores", result.scores);
   f.field("dynamic", result.dynamic);
   f.field("duplicates", result.duplicates);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/config/fields.hpp"
+#include "common/core/image.hpp"
 #include "common/core/result.hpp"
 #include "server/localize/landmark_database.hpp"
 
@@ -25,8 +26,9 @@ struct DatabaseScore {
   double mean_nees = 0.0;  ///< mean NEES of (x, y, theta): 3 for a consistent filter
   double mean_inliers = 0.0;
   double mean_compared = 0.0;   ///< features of a frame times landmarks expected in it: the work of association
-  double median_step_ms = 0.0;  ///< association and update of a frame, without its features
+  double median_step_ms = 0.0;  ///< processor time of association and update of a frame, without its features
   int not_localised = 0;        ///< frames that were not LOCALISED
+  double inside = 0.0;          ///< share of the landmarks that lie within the room (Figs 4, 6, 8)
   int unnoticed = 0;            ///< frames that were LOCALISED with an error above kUnnoticed_m or kUnnoticed_rad
 };
 void describe(config::Fields& f, DatabaseScore& score);
@@ -35,10 +37,21 @@ inline constexpr double kUnnoticed_m = 0.25;
 inline constexpr double kUnnoticed_rad = 0.087;  ///< 5 degrees
 
 struct StereoResult {
-  int schema = 2;    ///< 2: with mean_compared
+  int schema = 3;    ///< 2: with mean_compared; 3: with the survey's counts
   std::string mode;  ///< default or paper
   std::uint64_t seed = 0;
   std::string settings;
+
+  int survey_pictures = 0;   ///< number of pairs of pictures of the survey (Table 1)
+  int survey_before = 0;     ///< matches before the constraints, over all of them
+  int survey_after = 0;      ///< matches after the constraints
+  int survey_reduced = 0;    ///< number of pairs of which the constraints dropped matches
+  int added_features = 0;    ///< of the four views of Fig 7: features that became landmarks and stayed,
+  int known_features = 0;    ///< those that were associated with landmarks,
+  int thinned_features = 0;  ///< and those that the sparsity rule refused or dropped
+  int frames_shown = 0;      ///< number of frames of Fig 12 with a matched feature
+  int frames_matched = 0;    ///< number of their features that corrected the pose
+  int frames_unmatched = 0;  ///< number of their other features
 
   std::vector<DatabaseScore> scores;
   int dynamic = 0;  ///< number of dynamic landmarks in the drive through the changed room
@@ -86,10 +99,17 @@ struct DatabasePlan {
   std::vector<Point2> landmarks;
 };
 
+/// A figure that is a picture.
+struct StereoPicture {
+  std::string name;  ///< fig1, fig7, fig12
+  Image image;
+};
+
 /// All results of one seed.
 struct StereoRecord {
   StereoResult result;
-  std::string table1_csv;  ///< matches of every frame before and after the constraints
+  std::vector<StereoPicture> pictures;
+  std::string table1_csv;  ///< matches of every pair of the survey before and after the constraints
   std::string table2_csv;  ///< use of the features of every view of the survey
   std::vector<DatabasePlan> plans;
   std::vector<ErrorCurve> curves;

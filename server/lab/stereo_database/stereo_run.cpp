@@ -6,6 +6,7 @@
 
 #include "server/lab/experiments/sim_run.hpp"
 #include "server/lab/experiments/table.hpp"
+#include "server/lab/stereo_database/stereo_notes.hpp"
 #include "server/lab/stereo_database/stereo_parts.hpp"
 #include "server/lab/stereo_database/stereo_places.hpp"
 #include "server/localize/database_update.hpp"
@@ -18,7 +19,6 @@ using localize::LandmarkDatabase;
 using Database = stereo::Database;
 using Frames = stereo::Frames;
 using stereo::Bench;
-using stereo::kFramePeriod_s;
 using stereo::Localisation;
 
 constexpr double kMovedShare = 0.2;
@@ -37,7 +37,7 @@ constexpr std::uint64_t kForeignTextures = 100'000;
 
 SimSpec sim_spec_of(const StereoSpec& spec) {
   SimSpec sim;
-  sim.robot_file = spec.config / "robots" / "stereo.yaml";
+  sim.robot_file = spec.config / "robots" / (spec.paper ? "paper/stereo-2017.yaml" : "stereo.yaml");
   sim.world_file = spec.config / "worlds" / "laboratory.yaml";
   sim.seed = spec.seed;
   sim.overrides = spec.overrides;
@@ -56,9 +56,10 @@ class StereoRun {
   StereoRecord take() { return std::move(record_); }
 
  private:
+  Status survey();
+  Result<Frames> drive(const sim::World& world, std::uint64_t seed) const;
   Status localise(const std::string& name, const Database& database, const Frames& frames,
                   localize::DatabaseUpdate* update);
-  void note_frames(const Frames& frames);
   Status wake_up();
   Status observe_foreign();
 
@@ -67,17 +68,22 @@ class StereoRun {
   sim::World world_;
   Rng rng_;
   Database salient_;
+  std::vector<localize::Sighting> views_;          ///< of the survey
+  std::vector<Image> shown_;                       ///< pictures of stereo::kShownViews
+  std::vector<std::vector<std::size_t>> matched_;  ///< of the newest drive: features of each frame that were matched
   StereoRecord record_;
   std::vector<double> relocalise_ms_;
 };
 
 Status StereoRun::localise(const std::string& name, const Database& database, const Frames& frames,
                            localize::DatabaseUpdate* update) {
-  Localisation localisation(bench_, name, database);
+  Localisation localisation(bench_, name, database, stereo::frame_period_s(spec_));
   if (Status ok = localisation.run(frames, spec_.seed, update); !ok) {
     return ok;
   }
+  matched_ = localisation.matched();
   record_.result.scores.push_back(localisation.score());
+  record_.result.scores.back().inside = stereo::share_inside(*database, world_);
   record_.curves.push_back(localisation.curve());
   DatabasePlan plan{name, {}};
   for (const localize::Landmark& landmark : database->landmarks()) {
@@ -87,57 +93,73 @@ Status StereoRun::localise(const std::string& name, const Database& database, co
   return {};
 }
 
-void StereoRun::note_frames(const Frames& frames) {
-  Table table(
-      {"frame", "left_keypoints", "right_keypoints", "matches_before_constraints", "matches_after_constraints"});
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const vision::StereoFeatures& seen = frames[i].seen;
-    table.add({std::to_string(i + 1), std::to_string(seen.left_keypoints), std::to_string(seen.right_keypoints),
-               std::to_string(seen.matches_before_constraints), std::to_string(seen.features.size())});
-    record_.path.push_back(frames[i].world_T_base.translation());
-  }
-  record_.table1_csv = table.csv();
+Result<Frames> StereoRun::drive(const sim::World& world, std::uint64_t seed) const {
+  return drive_around(world, bench_.model, bench_.features, seed, stereo::frame_period_s(spec_));
 }
 
-Status StereoRun::survey_and_drive() {
+Status StereoRun::survey() {
   Rng rng = rng_.fork("survey");
-  const auto views = stereo::survey_views(bench_, world_, rng);
+  const stereo::SurveyPictures pictures = stereo::photograph_survey(world_, bench_.model, rng);
+  const auto seen = features_of(pictures.pairs, bench_.model, bench_.features);
+  if (!seen) {
+    return tl::unexpected<Error>(seen.error());
+  }
+  stereo::note_survey(pictures, *seen, record_);
+  for (const std::size_t view : stereo::kShownViews) {
+    shown_.push_back(pictures.pairs[view].left);
+  }
+  Result<std::vector<localize::Sighting>> views = stereo::survey_views(bench_, pictures.world_T_eyes, *seen, rng);
   if (!views) {
     return tl::unexpected<Error>(views.error());
   }
-  const auto frames = drive_around(world_, bench_.model, bench_.features, spec_.seed, kFramePeriod_s);
+  views_ = std::move(*views);
+  return {};
+}
+
+Status StereoRun::survey_and_drive() {
+  if (Status ok = survey(); !ok) {
+    return ok;
+  }
+  const auto frames = drive(world_, spec_.seed);
   if (!frames) {
     return tl::unexpected<Error>(frames.error());
   }
-  note_frames(*frames);
-  Table table2({"view", "features", "in_range", "matched", "sparsified", "inserted", "landmarks"});
   struct Kind {
     const char* name;
     bool sparse;
     bool salient;
   };
+  std::vector<stereo::Built> built;
   for (const Kind& kind : {Kind{"all", false, false}, Kind{"sparse", true, false}, Kind{"salient", true, true}}) {
-    const auto database = stereo::build(bench_, *views, kind.sparse, kind.salient, kind.salient ? &table2 : nullptr);
-    if (!database) {
-      return tl::unexpected<Error>(database.error());
+    Result<stereo::Built> one = stereo::build(bench_, views_, kind.sparse, kind.salient);
+    if (!one) {
+      return tl::unexpected<Error>(one.error());
     }
-    salient_ = *database;
-    if (Status ok = localise(kind.name, *database, *frames, nullptr); !ok) {
+    built.push_back(std::move(*one));
+    salient_ = built.back().database;
+    if (salient_->empty()) {
+      return fail(Errc::kRefused, "the survey of seed " + std::to_string(spec_.seed) + " left no landmark");
+    }
+    if (Status ok = localise(kind.name, salient_, *frames, nullptr); !ok) {
       return ok;
     }
   }
-  record_.table2_csv = table2.csv();
+  stereo::note_building(views_, built[1], built[2], shown_, record_);
+  stereo::note_frames(*frames, matched_, record_);
   return {};
 }
 
 Status StereoRun::change_and_update() {
+  if (spec_.paper && spec_.smallest) {
+    return {};  // ours shows that it runs
+  }
   Rng rng = rng_.fork("furniture");
   const Result<sim::World> moved = move_furniture(world_, bench_.model, kMovedShare, rng);
   if (!moved) {
     return tl::unexpected<Error>(moved.error());
   }
-  const auto learning = drive_around(*moved, bench_.model, bench_.features, spec_.seed + 1000, kFramePeriod_s);
-  const auto scoring = drive_around(*moved, bench_.model, bench_.features, spec_.seed + 2000, kFramePeriod_s);
+  const auto learning = drive(*moved, spec_.seed + 1000);
+  const auto scoring = drive(*moved, spec_.seed + 2000);
   for (const auto* frames : {&learning, &scoring}) {
     if (!*frames) {
       return tl::unexpected<Error>(frames->error());
@@ -243,7 +265,8 @@ Result<std::string> settings_of(const StereoSpec& spec) {
     hash->add("smallest");
   }
   // What a run is has changed with these.
-  hash->add("poses adjusted, foreign rooms stretched, woken robots turn about, best landmarks kept, as configured");
+  hash->add(
+      "poses adjusted, foreign rooms stretched, woken robots turn about, best landmarks kept, as configured, shown");
   return hash->hex();
 }
 
@@ -256,7 +279,7 @@ Result<StereoRecord> run_stereo(const StereoSpec& spec) {
   if (!world) {
     return tl::unexpected<Error>(world.error());
   }
-  const Bench bench = stereo::bench_of(spec, *options);
+  const Bench bench = stereo::bench_of(*options);
   StereoRun run(spec, bench, std::move(*world));
   for (const auto step : {&StereoRun::survey_and_drive, &StereoRun::change_and_update, &StereoRun::relocalise}) {
     if (Status ok = (run.*step)(); !ok) {

@@ -14,9 +14,9 @@ namespace seeker::lab {
 struct StereoSpec {
   std::filesystem::path config;  ///< folder
   std::uint64_t seed = 1;        ///< selects the textures of the room, the noise, and which furniture is moved
-  bool paper = false;            ///< true: gates, descriptors and filter of the paper; false: the defaults
+  bool paper = false;            ///< true: robots/paper/stereo-2017.yaml; false: robots/stereo.yaml
   std::vector<std::string> overrides;
-  bool smallest = false;  ///< fewer places and fewer foreign views, to check only that all parts run
+  bool smallest = false;  ///< fewer frames, places and foreign views, and no update of the paper's database: runs only
 };
 
 [[nodiscard]] Result<std::string> settings_of(const StereoSpec& spec);

@@ -39,25 +39,20 @@ bool path_is_free(const sim::World& world, const sim::RobotModel& model) {
   return true;
 }
 
-/// Takes pictures at poses of the base and finds their features.
+/// Takes pictures at poses of the base.
 class Eyes {
  public:
-  Eyes(const sim::World& world, const sim::RobotModel& model, const vision::StereoFeatureParams& features)
-      : world_(world),
-        scene_(world),
-        renderer_(model.stereo),
-        extractor_(vision::make_stereo_extractor(model.stereo.geometry, features)) {}
+  Eyes(const sim::World& world, const sim::RobotModel& model) : world_(world), scene_(world), renderer_(model.stereo) {}
 
-  Result<vision::StereoFeatures> look(const Pose2& world_T_base, Rng& rng) {
+  StereoFrame photograph(const Pose2& world_T_base, Rng& rng) {
     const double exposure = std::max(0.0, 1.0 + rng.normal(world_.lighting.exposure_jitter));
-    return or_empty(extractor_->extract(renderer_.render(scene_, world_.lighting, world_T_base, exposure, rng)));
+    return renderer_.render(scene_, world_.lighting, world_T_base, exposure, rng);
   }
 
  private:
   const sim::World& world_;
   sim::Scene scene_;
   sim::StereoRenderer renderer_;
-  std::unique_ptr<vision::StereoExtractor> extractor_;
 };
 
 /// Rotates on the spot, then drives straight, from place to place.
@@ -186,14 +181,25 @@ std::vector<Pose2> random_poses(const sim::World& world, const sim::RobotModel& 
   return poses;
 }
 
-Result<std::vector<vision::StereoFeatures>> look_from(const sim::World& world, const sim::RobotModel& model,
-                                                      const vision::StereoFeatureParams& features,
-                                                      const std::vector<Pose2>& world_T_bases, Rng& rng) {
-  Eyes eyes(world, model, features);
-  std::vector<vision::StereoFeatures> seen;
-  seen.reserve(world_T_bases.size());
+std::vector<StereoFrame> photograph_from(const sim::World& world, const sim::RobotModel& model,
+                                         const std::vector<Pose2>& world_T_bases, Rng& rng) {
+  Eyes eyes(world, model);
+  std::vector<StereoFrame> pairs;
+  pairs.reserve(world_T_bases.size());
   for (const Pose2& pose : world_T_bases) {
-    Result<vision::StereoFeatures> one = eyes.look(pose, rng);
+    pairs.push_back(eyes.photograph(pose, rng));
+  }
+  return pairs;
+}
+
+Result<std::vector<vision::StereoFeatures>> features_of(const std::vector<StereoFrame>& pairs,
+                                                        const sim::RobotModel& model,
+                                                        const vision::StereoFeatureParams& params) {
+  const auto extractor = vision::make_stereo_extractor(model.stereo.geometry, params);
+  std::vector<vision::StereoFeatures> seen;
+  seen.reserve(pairs.size());
+  for (const StereoFrame& pair : pairs) {
+    Result<vision::StereoFeatures> one = or_empty(extractor->extract(pair));
     if (!one) {
       return tl::unexpected<Error>(one.error());
     }
@@ -202,11 +208,27 @@ Result<std::vector<vision::StereoFeatures>> look_from(const sim::World& world, c
   return seen;
 }
 
-Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim::RobotModel& model,
-                                             const vision::StereoFeatureParams& features, std::uint64_t seed,
-                                             double period_s) {
+Result<std::vector<vision::StereoFeatures>> look_from(const sim::World& world, const sim::RobotModel& model,
+                                                      const vision::StereoFeatureParams& features,
+                                                      const std::vector<Pose2>& world_T_bases, Rng& rng) {
+  Eyes eyes(world, model);
+  const auto extractor = vision::make_stereo_extractor(model.stereo.geometry, features);
+  std::vector<vision::StereoFeatures> seen;
+  seen.reserve(world_T_bases.size());
+  for (const Pose2& pose : world_T_bases) {
+    Result<vision::StereoFeatures> one = or_empty(extractor->extract(eyes.photograph(pose, rng)));
+    if (!one) {
+      return tl::unexpected<Error>(one.error());
+    }
+    seen.push_back(std::move(*one));
+  }
+  return seen;
+}
+
+Result<std::vector<DriveFrame>> photograph_drive(const sim::World& world, const sim::RobotModel& model,
+                                                 std::uint64_t seed, double period_s) {
   constexpr double kLongest_s = 600.0;
-  Result<SeeingRobot> robot = SeeingRobot::create(world, model, features, world.starts.front(), seed);
+  Result<SeeingRobot> robot = SeeingRobot::create(world, model, {}, world.starts.front(), seed);
   if (!robot) {
     return tl::unexpected<Error>(robot.error());
   }
@@ -218,12 +240,7 @@ Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim:
     const Pose2 truth = robot->world_T_base();
     const auto wanted = driver.steer(truth);
     if (robot->time_s() >= next_frame_s || !wanted) {
-      Result<vision::StereoFeatures> seen = or_empty(robot->look());
-      if (!seen) {
-        return tl::unexpected<Error>(seen.error());
-      }
-      frames.push_back({truth, std::move(velocities), std::move(*seen)});
-      velocities.clear();
+      frames.push_back({truth, std::exchange(velocities, {}), robot->photograph(), {}});
       next_frame_s += period_s;
     }
     if (!wanted) {
@@ -232,6 +249,33 @@ Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim:
     velocities.push_back(robot->move(*wanted));
   }
   return fail(Errc::kTimeout, "the drive does not end: an object blocks its path");
+}
+
+std::vector<std::size_t> kept_frames(std::size_t frames) {
+  return {frames / 8, 3 * frames / 8, 5 * frames / 8, 7 * frames / 8};
+}
+
+Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim::RobotModel& model,
+                                             const vision::StereoFeatureParams& features, std::uint64_t seed,
+                                             double period_s) {
+  Result<std::vector<DriveFrame>> frames = photograph_drive(world, model, seed, period_s);
+  if (!frames) {
+    return frames;
+  }
+  const auto extractor = vision::make_stereo_extractor(model.stereo.geometry, features);
+  const std::vector<std::size_t> kept = kept_frames(frames->size());
+  for (std::size_t i = 0; i < frames->size(); ++i) {
+    DriveFrame& frame = (*frames)[i];
+    Result<vision::StereoFeatures> seen = or_empty(extractor->extract(frame.pair));
+    if (!seen) {
+      return tl::unexpected<Error>(seen.error());
+    }
+    frame.seen = std::move(*seen);
+    if (std::find(kept.begin(), kept.end(), i) == kept.end()) {
+      frame.pair = {};
+    }
+  }
+  return frames;
 }
 
 }  // namespace seeker::lab

@@ -32,6 +32,8 @@ class SeeingRobot {
   [[nodiscard]] std::vector<Twist2> rotate(double by_rad);
   /// The features of both eyes now. kInvalidArgument: the pictures are rejected.
   [[nodiscard]] Result<vision::StereoFeatures> look();
+  /// The pictures of both eyes now.
+  [[nodiscard]] StereoFrame photograph() { return simulation_.stereo_pair(); }
   [[nodiscard]] Pose2 world_T_base() const { return simulation_.truth().world_T_base; }
   [[nodiscard]] double time_s() const { return to_seconds(simulation_.now()); }
 
@@ -46,10 +48,12 @@ class SeeingRobot {
   Pose2 odom_T_base_;
 };
 
-/// One frame of a drive: the true pose, the encoder velocities since the frame before, and the observed features.
+/// One frame of a drive: the true pose, the encoder velocities since the frame before, the pictures, and the features
+/// observed in them.
 struct DriveFrame {
   Pose2 world_T_base;
   std::vector<Twist2> velocities;  ///< each over kEncoderPeriod_s
+  StereoFrame pair;                ///< empty where only the features are kept
   vision::StereoFeatures seen;
 };
 
@@ -69,16 +73,28 @@ struct DriveFrame {
 /// Replaces a rejected frame, in which nothing can be seen, by a frame without features.
 [[nodiscard]] Result<vision::StereoFeatures> or_empty(Result<vision::StereoFeatures> seen);
 
-/// Features observed from poses of the base, without a robot that drives there; rejected frames are empty.
+/// Pictures taken at poses of the base, without a robot that drives there.
+[[nodiscard]] std::vector<StereoFrame> photograph_from(const sim::World& world, const sim::RobotModel& model,
+                                                       const std::vector<Pose2>& world_T_bases, Rng& rng);
+/// The features of each pair; those of rejected pairs are empty.
+[[nodiscard]] Result<std::vector<vision::StereoFeatures>> features_of(const std::vector<StereoFrame>& pairs,
+                                                                      const sim::RobotModel& model,
+                                                                      const vision::StereoFeatureParams& params);
+/// Features observed from poses of the base: features_of() photograph_from(), one pair after the other.
 [[nodiscard]] Result<std::vector<vision::StereoFeatures>> look_from(const sim::World& world,
                                                                     const sim::RobotModel& model,
                                                                     const vision::StereoFeatureParams& features,
                                                                     const std::vector<Pose2>& world_T_bases, Rng& rng);
 
-/// A drive around the laboratory at the paper's speeds (0.07 m/s, 0.23 rad/s), from its start, with a frame every
-/// `period_s`.
+/// A drive around the laboratory at the paper's speeds (0.07 m/s, 0.23 rad/s), from its start, with the pictures of a
+/// frame every `period_s`, but no features yet.
+[[nodiscard]] Result<std::vector<DriveFrame>> photograph_drive(const sim::World& world, const sim::RobotModel& model,
+                                                               std::uint64_t seed, double period_s);
+/// The same drive with the features of its frames. Of the pictures only those of kept_frames() are kept.
 [[nodiscard]] Result<std::vector<DriveFrame>> drive_around(const sim::World& world, const sim::RobotModel& model,
                                                            const vision::StereoFeatureParams& features,
                                                            std::uint64_t seed, double period_s);
+/// Indices of the four frames of a drive that Fig 12 shows.
+[[nodiscard]] std::vector<std::size_t> kept_frames(std::size_t frames);
 
 }  // namespace seeker::lab
