@@ -51,6 +51,31 @@ TEST(LandmarkProcesses, ARobotThatWasSwitchedOffFindsItsPlaceInTheSurveyedLabora
   EXPECT_LT(status.pose.map_T_base.translation().norm(), 0.15);
 }
 
+TEST(LandmarkProcesses, ThePrintedRobotSurveysAndLocalisesByWhatItSurveyed) {
+  const fs::path folder = fresh_folder("printed");
+  const fs::path printed = source_file("config/robots/paper/stereo-2017.yaml");
+  // A survey of one place sees each landmark in two headings only.
+  const std::vector<std::string> one_place{"--set", "stereo.database.salient_seen=2"};
+  std::string output;
+  {
+    const Daemon daemon(one_place, folder, printed);
+    ASSERT_EQ(seeker(daemon, {"survey", "lab", "--at", "0,0"}, &output), 0) << output;
+    EXPECT_NE(output.find("12 looks are kept as 'lab'"), std::string::npos) << output;
+    ASSERT_EQ(seeker(daemon, {"landmarks", "export", "lab", folder / "lab.csv"}, &output), 0) << output;
+  }
+  std::vector<std::string> by_landmarks = one_place;
+  by_landmarks.insert(by_landmarks.end(), {"--set", "estimator=landmarks", "--set", "stereo.estimator.database=lab"});
+  const Daemon daemon(by_landmarks, folder, printed);
+  ASSERT_EQ(seeker(daemon, {"status"}, &output), 0);
+  EXPECT_NE(output.find("UNKNOWN"), std::string::npos) << output;
+  ASSERT_EQ(seeker(daemon, {"localise", "lab"}, &output), 0) << output;
+  const auto client = connect(daemon, "asker");
+  const api::RobotStatus status =
+      rpc::wait<api::RobotStatus>([&](auto reply) { client->get_status(std::move(reply)); }, kCall).value();
+  EXPECT_EQ(status.pose.quality, LocalisationQuality::kLocalised) << status.pose.cause;
+  EXPECT_LT(status.pose.map_T_base.translation().norm(), 0.3);
+}
+
 /// What the simulated camera sees at the start in 12 directions, as files.
 void write_pictures(const fs::path& folder) {
   sim::World world = options::load_world(source_file("config/worlds/laboratory.yaml")).value();
