@@ -63,7 +63,6 @@ struct Score {
   double mean_nees = 0.0;
   double rms_m = 0.0;
   double rms_rad = 0.0;
-  double mean_inliers = 0.0;
   int not_localised = 0;
 };
 
@@ -78,7 +77,6 @@ Score run(StereoLocaliser& localiser, const LandmarkRoom& room, std::uint64_t se
   for (int step = 0; step < steps; ++step) {
     drive.move(localiser, drive.wander(step));
     const LocaliserStep& done = drive.look(localiser, room, view);
-    score.mean_inliers += static_cast<double>(done.inliers.size()) / steps;
     score.not_localised += done.quality == LocalisationQuality::kLocalised ? 0 : 1;
     const PoseEstimate estimate = localiser.estimate({});
     const Eigen::Vector3d error(estimate.map_T_base.x_m - drive.map_T_base.x_m,
@@ -121,19 +119,14 @@ TEST(Localiser, AllowsForAnErrorOfTheCalibration) {
   EXPECT_NEAR(localiser.belief().disparity_offset_px, 0.25, 0.15);
 }
 
-// Two sights of one point differ by 2.1 on average, as the paper's limit of 2.5 supposes; with the default noise by 3.5,
-// so that no landmark would be recognised twice.
 TEST(Localiser, OfThePaperTracksToo) {
   const LandmarkRoom room(2, 500);
-  ViewNoise view;
-  view.descriptor = 0.2;
-  const auto database = surveyed(room, 2, paper_database_params(), view);
-  EXPECT_GT(database->size(), 200U);
-  StereoLocaliser localiser = localiser_of(database, paper_localiser_params());
+  const ViewNoise view{.descriptor = 0.2};  // two sights differ by 2.1, within the paper's 2.5; by the default by 3.5
+  StereoLocaliser localiser = localiser_of(surveyed(room, 2, paper_database_params(), view), paper_localiser_params());
   const Score score = run(localiser, room, 2, 60, view);
   EXPECT_LT(score.rms_m, 0.10);
   EXPECT_LT(score.rms_rad, deg_to_rad(2.0));
-  EXPECT_GT(score.mean_inliers, 10.0) << "by landmarks, not by the wheels alone";
+  EXPECT_GT(localiser.last().inliers.size(), 10U) << "by landmarks, not by the wheels alone";
 }
 
 TEST(Localiser, SameInputsGiveTheSamePose) {
