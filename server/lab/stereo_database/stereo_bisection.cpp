@@ -39,21 +39,24 @@ const std::vector<PrintedChoice>& printed_choices() {
        {"stereo.features.detector.descriptor=root_sift", "stereo.features.match.metric=l2",
         "stereo.features.match.max_distance=0.43", "stereo.database.association.metric=l2",
         "stereo.database.association.max_distance=0.5", "stereo.database.sparsity.min_distance=0.7",
-        "stereo.localiser.metric=l2", "stereo.localiser.tracking.max_distance=0.5"}},
+        "stereo.localiser.metric=l2", "stereo.localiser.tracking.max_distance=0.5",
+        "stereo.localiser.relocalise.max_distance=0.45"}},
       {"subpixel", {"stereo.features.match.refine_disparity=true"}},
       {"search",
        {"stereo.features.match.bbf_leaves=0", "stereo.database.association.bbf_leaves=0",
         "stereo.localiser.bbf_leaves=0"}},
       {"bundle_adjustment", {"stereo.database.adjustment.on=true"}},
       {"database",
-       {"stereo.database.association.anywhere=false", "stereo.database.fusion.running_mean=false",
-        "stereo.database.sparsity.best_first=true", "stereo.database.sparsity.inner_radius_m=0.05",
-        "stereo.database.sparsity.outer_radius_m=0.2"}},
+       {"stereo.database.noise.separate_eyes=false", "stereo.database.association.anywhere=false",
+        "stereo.database.fusion.running_mean=false", "stereo.database.sparsity.best_first=true",
+        "stereo.database.sparsity.inner_radius_m=0.05", "stereo.database.sparsity.outer_radius_m=0.2"}},
       {"filter",
        {"stereo.localiser.mode=joint", "stereo.localiser.noise.separate_eyes=false",
-        "stereo.localiser.measurement.range_floor_m=0.01", "stereo.localiser.measurement.bearing_floor_deg=0.0573",
+        "stereo.localiser.measurement.range_floor_m=0.01",
+        "stereo.localiser.measurement.bearing_floor_deg=0.0572957795",
         "stereo.localiser.measurement.landmark_covariance=true", "stereo.localiser.disparity_offset_sigma_px=0.2",
-        "stereo.localiser.disparity_offset_walk_px=0.005", "stereo.localiser.tracking.gate_chi2=18.421"}}};
+        "stereo.localiser.disparity_offset_walk_px=0.005", "stereo.localiser.map_sigma_m=0.003",
+        "stereo.localiser.map_sigma_deg=0.06", "stereo.localiser.tracking.gate_chi2=18.421"}}};
   return kChoices;
 }
 

@@ -16,7 +16,7 @@ namespace seeker::lab {
 void compare_stereo(const std::vector<StereoResult>& printed, const std::vector<StereoResult>& ours, Report& report);
 
 /// One row of all bisections: the error of the robot as printed, with each choice in turn as ours, and with all of them
-/// as ours. It names the choice that lowers the error most, and passes where one does.
+/// as ours. It names the choice that lowers the error most, and passes where ours errs less than the printed robot.
 void report_bisection(const std::vector<BisectionResult>& bisections, Report& report);
 
 }  // namespace seeker::lab

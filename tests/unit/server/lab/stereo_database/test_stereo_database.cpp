@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "common/core/angle.hpp"
+#include "server/lab/experiments/sim_run.hpp"
 #include "server/lab/stereo_database/reproduce_stereo_database.hpp"
+#include "server/lab/stereo_database/stereo_bisection.hpp"
+#include "server/lab/stereo_database/stereo_comparison.hpp"
 #include "server/lab/stereo_database/stereo_run.hpp"
 #include "server/lab/stereo_database/stereo_scene.hpp"
 #include "server/sim/scene.hpp"
@@ -13,6 +16,7 @@
 namespace seeker::lab {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 DatabaseScore score_of(const char* name, int landmarks, double rms_m, double compared) {
@@ -104,6 +108,98 @@ TEST(S2Checks, Table3HasARowForEveryDatabase) {
   for (const char* name : {"all", "sparse", "salient", "updated"}) {
     EXPECT_THAT(table, HasSubstr(std::string("default,1,") + name));
   }
+}
+
+/// A run of which every row of the comparison is met.
+StereoResult shown_run() {
+  StereoResult run = good_run();
+  run.survey_pictures = 60;
+  run.survey_before = 6000;
+  run.survey_after = 3000;
+  run.added_features = run.known_features = run.thinned_features = 10;
+  run.frames_shown = 4;
+  double step_ms = 3.0;
+  for (DatabaseScore& score : run.scores) {
+    score.inside = 1.0;
+    score.median_step_ms = step_ms--;
+  }
+  return run;
+}
+
+/// Verdicts of the rows of one printed and one of our runs.
+std::string verdicts_of(const StereoResult& printed, const StereoResult& ours) {
+  Report report(nullptr);
+  compare_stereo({printed}, {ours}, report);
+  std::string verdicts;
+  for (const Check& check : report.checks()) {
+    verdicts += check.passed ? 'P' : check.finding ? 'f' : 'F';
+  }
+  return verdicts;
+}
+
+TEST(S2Comparison, WhatOnlyThePrintedRobotMissesIsAFindingAndWhatOursMissesAFailure) {
+  const StereoResult good = shown_run();
+  EXPECT_EQ(verdicts_of(good, good), "PPPPPPPPPP");
+  StereoResult bad = good;
+  bad.survey_after = 0;            // Table 1
+  bad.scores[2].landmarks = 9000;  // Table 2
+  bad.frames_shown = 3;            // Fig 12
+  bad.removed = 0;                 // R4, landmarks
+  EXPECT_EQ(verdicts_of(bad, good), "ffPPPPfPfP");
+  EXPECT_EQ(verdicts_of(good, bad), "FFPPPPFPFP");
+  bad = good;
+  bad.scores[2].rms_m = 0.2;  // Table 3 and Fig 13
+  bad.scores[2].inside = 0.5;
+  bad.scores[1].median_step_ms = 4.0;
+  bad.thinned_features = 0;
+  bad.scores[3].rms_m = 0.3;
+  EXPECT_EQ(verdicts_of(bad, good), "PPffffPfPf");
+  EXPECT_EQ(verdicts_of(bad, bad), "PPFFFFPFPF");
+}
+
+TEST(S2Comparison, UpdateIsLeftOutWhereThePrintedRobotMadeNone) {
+  StereoResult none = shown_run();
+  none.scores.pop_back();
+  none.before = 0;
+  EXPECT_EQ(verdicts_of(none, shown_run()), "PPPPPPPP");
+}
+
+TEST(S2Bisection, NamesTheChoiceThatCostsMostAndFailsWhereOursIsNoBetter) {
+  BisectionResult result;
+  result.rows = {{"printed", 300, 0.06, 0.04},
+                 {"search", 300, 0.06, 0.039},
+                 {"filter", 300, 0.05, 0.02},
+                 {"ours", 600, 0.005, 0.005}};
+  Report report(nullptr);
+  report_bisection({result}, report);
+  ASSERT_EQ(report.checks().size(), 1U);
+  EXPECT_TRUE(report.checks().front().passed);
+  EXPECT_THAT(report.checks().front().figures, Contains(std::pair<std::string, std::string>("most", "filter")));
+  result.rows.back().salient_rms_m = 0.05;
+  report_bisection({result}, report);
+  EXPECT_FALSE(report.checks().back().passed);
+}
+
+TEST(S2Bisection, AllPrintedChoicesTogetherAreTheDifferenceFromOurRobot) {
+  SimSpec printed;
+  printed.robot_file = testing::source_file("config/robots/paper/stereo-2017.yaml");
+  printed.world_file = testing::source_file("config/worlds/laboratory.yaml");
+  SimSpec ours = printed;
+  ours.robot_file = testing::source_file("config/robots/stereo.yaml");
+  for (const PrintedChoice& choice : printed_choices()) {
+    printed.overrides.insert(printed.overrides.end(), choice.as_ours.begin(), choice.as_ours.end());
+  }
+  auto one = sim_options(printed);
+  const auto other = sim_options(ours);
+  ASSERT_TRUE(one) << one.error().message;
+  ASSERT_TRUE(other) << other.error().message;
+  EXPECT_EQ(one->stereo.features, other->stereo.features);
+  EXPECT_EQ(one->stereo.database, other->stereo.database);
+  // An angle that is no round number of degrees.
+  double& bearing_floor_rad = one->stereo.localiser.measurement.bearing_floor_rad;
+  EXPECT_NEAR(bearing_floor_rad, other->stereo.localiser.measurement.bearing_floor_rad, 1e-9);
+  bearing_floor_rad = other->stereo.localiser.measurement.bearing_floor_rad;
+  EXPECT_EQ(one->stereo.localiser, other->stereo.localiser);
 }
 
 TEST(Report, FindingOfThePrintedMethodIsNoFailure) {
