@@ -20,21 +20,32 @@ std::map<std::uint32_t, std::size_t> indices_of(const PreparedMap& map) {
   return indices;
 }
 
-/// One question: both maps and the relations found between them.
+/// The part of a local map that was seen from around a picture, with its middle where that was taken.
+PreparedNode surroundings_of(const PreparedNode& node, const NodePicture& picture, double radius_m) {
+  PreparedNode part;
+  part.id = node.id;
+  part.map_T_node = node.map_T_node;
+  part.region = node.region;
+  part.middle = picture.node_T_base.translation();
+  std::copy_if(node.seen.begin(), node.seen.end(), std::back_inserter(part.seen),
+               [&](const slam::SeenPoints& scan) { return (scan.origin - part.middle).norm() <= radius_m; });
+  part.keyframes = part.seen.size();
+  return part;
+}
+
+/// One question: both maps, their similar pictures, and the relations found between them.
 class Question {
  public:
-  Question(PreparedMap& a, PreparedMap& b, const MergeParams& params)
-      : a_(a), b_(b), params_(params), index_a_(indices_of(a)), index_b_(indices_of(b)) {}
+  Question(PreparedMap& a, PreparedMap& b, const PicturePairs& pictures, const MergeParams& params)
+      : a_(a), b_(b), pictures_(pictures), params_(params), index_a_(indices_of(a)), index_b_(indices_of(b)) {}
 
   void compare(const PairCheck& check, MergeAnswer& answer);
   [[nodiscard]] std::vector<MergeHypothesis> hypotheses();
 
  private:
-  struct Proposal {
-    std::size_t region = 0;                ///< of a
-    std::optional<std::size_t> seen_from;  ///< node of a whose pictures look like those of the node of b
-  };
-  [[nodiscard]] std::vector<Proposal> proposals_for(const PreparedNode& node, const vision::PlaceIndex& pictures) const;
+  void compare_scans(const PairCheck& check, MergeAnswer& answer);
+  void compare_pictures(const PairCheck& check, MergeAnswer& answer);
+  [[nodiscard]] bool is_known(const PicturePair& pair) const;
   [[nodiscard]] Pose2 map_a_T_map_b(const NodeRelation& pair) const;
   [[nodiscard]] std::vector<NodeRelation> largest_set(const std::vector<NodeRelation>& among);
   [[nodiscard]] MergeHypothesis hypothesis_of(std::vector<NodeRelation> pairs);
@@ -50,47 +61,55 @@ class Question {
 
   PreparedMap& a_;
   PreparedMap& b_;
+  const PicturePairs& pictures_;
   const MergeParams& params_;
   std::map<std::uint32_t, std::size_t> index_a_;
   std::map<std::uint32_t, std::size_t> index_b_;
   std::vector<NodeRelation> relations_;
 };
 
-std::vector<Question::Proposal> Question::proposals_for(const PreparedNode& node,
-                                                        const vision::PlaceIndex& pictures) const {
-  std::vector<Proposal> proposals;
-  const auto own = b_.features().find(node.id);
-  if (own != b_.features().end() && pictures.size() > 0) {
-    for (const vision::PlaceMatch& match : pictures.best_matches(own->second, params_.regions_per_node)) {
-      const auto like = static_cast<std::size_t>(match.id);
-      proposals.push_back({a_.nodes()[like].region, like});
-    }
-  }
-  for (const std::size_t region : a_.regions_like(node, params_.regions_per_node)) {
-    if (std::none_of(proposals.begin(), proposals.end(), [&](const Proposal& p) { return p.region == region; })) {
-      proposals.push_back({region, std::nullopt});
-    }
-  }
-  return proposals;
-}
-
-void Question::compare(const PairCheck& check, MergeAnswer& answer) {
-  vision::PlaceIndex pictures(params_.pictures);
-  for (const auto& [id, features] : a_.features()) {
-    if (index_a_.contains(id)) {
-      pictures.add(index_a_.at(id), features);
-    }
-  }
+void Question::compare_scans(const PairCheck& check, MergeAnswer& answer) {
   for (const PreparedNode& node : b_.nodes()) {
-    for (const Proposal& proposal : proposals_for(node, pictures)) {
-      PairFindings found = check.find(a_, proposal.region, node, proposal.seen_from);
+    for (const std::size_t region : a_.regions_like(node, params_.regions_per_node)) {
+      PairFindings found = check.find(a_, region, node);
       ++answer.compared;
       if (found.relations.empty()) {
-        answer.rejected.push_back({a_.nodes()[a_.regions()[proposal.region].node].id, node.id, found.refusal});
+        answer.rejected.push_back({a_.nodes()[a_.regions()[region].node].id, node.id, found.refusal});
       }
       relations_.insert(relations_.end(), found.relations.begin(), found.relations.end());
     }
   }
+}
+
+/// Whether a relation that was found says the same: the pair counts as evidence then and need not be checked.
+bool Question::is_known(const PicturePair& pair) const {
+  return std::any_of(relations_.begin(), relations_.end(), [&](const NodeRelation& relation) {
+    const Pose2 map_a_T_map_b = this->map_a_T_map_b(relation);
+    return pictures_.agrees(pair, [&](std::size_t node) { return map_a_T_map_b * b_.nodes()[node].map_T_node; });
+  });
+}
+
+void Question::compare_pictures(const PairCheck& check, MergeAnswer& answer) {
+  std::size_t checks = 0;
+  for (const PicturePair& pair : pictures_.proposals()) {
+    if (checks >= params_.pictures.max_checks || is_known(pair)) {
+      continue;
+    }
+    const PreparedNode part = surroundings_of(b_.nodes()[pair.b.node], *pair.b.picture, params_.pictures.scans_m);
+    const std::size_t region = a_.region_at(pair.a.map_T_base.translation()).value_or(a_.nodes()[pair.a.node].region);
+    PairFindings found = check.find_at(a_, region, part, pair.map_a_T_base_b() * inverse(pair.b.picture->node_T_base));
+    ++answer.compared;
+    ++checks;
+    if (found.relations.empty()) {
+      answer.rejected.push_back({a_.nodes()[pair.a.node].id, part.id, found.refusal, true});
+    }
+    relations_.insert(relations_.end(), found.relations.begin(), found.relations.end());
+  }
+}
+
+void Question::compare(const PairCheck& check, MergeAnswer& answer) {
+  compare_scans(check, answer);
+  compare_pictures(check, answer);
   // The best ones suffice; comparing all with all would cost the square of their number.
   const auto better = [](const NodeRelation& p, const NodeRelation& q) {
     return p.similarity * p.overlap > q.similarity * q.overlap;
@@ -151,7 +170,7 @@ MergeHypothesis Question::hypothesis_of(std::vector<NodeRelation> pairs) {
   for (const NodeRelation& pair : pairs) {
     back.push_back(reversed(pair));
   }
-  Question other(b_, a_, params_);
+  Question other(b_, a_, pictures_, params_);  // for the walls alone
   const MapOverlap here = other.overlap_by(other.places_of(back), inverse(made.a_T_b.a_T_b));
   for (const NodeRelation& pair : pairs) {
     made.shared_middle_b += node_b(pair).map_T_node * node_b(pair).middle / static_cast<double>(pairs.size());
@@ -162,6 +181,9 @@ MergeHypothesis Question::hypothesis_of(std::vector<NodeRelation> pairs) {
   made.denied_piece_m = std::max(there.denied_piece_m, here.denied_piece_m);
   made.residual_m = std::max(there.residual_m, here.residual_m);
   made.witnesses = std::min(there.witnesses, here.witnesses);
+  made.pictures = pictures_.evidence([&](std::size_t node) {
+    return carried(places, made.a_T_b.a_T_b, b_.nodes()[node].map_T_node, params_.distortion);
+  });
   made.confidence = confidence_of(made, params_);
   made.pairs = std::move(pairs);
   return made;
@@ -189,29 +211,52 @@ std::vector<MergeHypothesis> Question::hypotheses() {
       });
     });
   }
-  std::stable_sort(made.begin(), made.end(),
-                   [](const MergeHypothesis& p, const MergeHypothesis& q) { return p.support() > q.support(); });
+  // Where pictures show the same place they outweigh walls that are merely alike.
+  std::stable_sort(made.begin(), made.end(), [&](const MergeHypothesis& p, const MergeHypothesis& q) {
+    const auto rank = [&](const MergeHypothesis& one) {
+      return std::pair(one.pictures.confirms(params_.pictures), one.support());
+    };
+    return rank(p) > rank(q);
+  });
   return made;
 }
 
 /// Whether a second hypothesis is good enough to doubt the best one. One that may be slid along a corridor says only
-/// that both have seen corridors.
+/// that both have seen corridors. Neither does one count that lays places upon each other whose pictures differ, while
+/// pictures confirm the best one.
 bool rivals(const MergeHypothesis& best, const MergeHypothesis& other, const MergeParams& params) {
-  return other.weak_wall_m >= params.min_weak_wall_m && other.contradiction <= params.max_rival_contradiction &&
+  const bool denied = best.pictures.confirms(params.pictures) && other.pictures.denies(params.pictures);
+  return !denied && other.weak_wall_m >= params.min_weak_wall_m &&
+         other.contradiction <= params.max_rival_contradiction &&
          other.denied_piece_m <= params.max_rival_denied_piece_m &&
          other.support() > params.rival_ratio * best.support();
 }
 
 /// A local map that has gone on to where the other robot has not been makes no pair, and shows shared walls all the
-/// same.
+/// same. Where pictures show the same, less wall does.
 bool speaks_enough(const MergeHypothesis& best, const MergeParams& params) {
-  return std::max(best.pairs.size(), best.witnesses) >= params.min_pairs &&
-         best.shared_wall_m >= params.sure_shared_wall_m && best.weak_wall_m >= params.sure_weak_wall_m &&
-         best.weak_wall_m >= params.sure_weak_share * best.shared_wall_m &&
+  const bool enough_walls =
+      best.pictures.confirms(params.pictures) ||
+      (std::max(best.pairs.size(), best.witnesses) >= params.min_pairs &&
+       best.shared_wall_m >= params.sure_shared_wall_m && best.weak_wall_m >= params.sure_weak_wall_m);
+  return enough_walls && best.weak_wall_m >= params.sure_weak_share * best.shared_wall_m &&
          best.contradiction <= params.sure_contradiction;
 }
 
+/// What both robots have seen does not fix the relative pose.
+bool too_little(const MergeHypothesis& best, const MergeParams& params) {
+  return best.shared_wall_m < params.min_shared_wall_m || best.weak_wall_m < params.min_weak_wall_m;
+}
+
 }  // namespace
+
+std::string_view to_string(MergeMethod method) {
+  switch (method) {
+    case MergeMethod::kPicturesAndLaser: return "pictures_and_laser";
+    case MergeMethod::kPrinted: return "printed";
+  }
+  return "unknown";
+}
 
 std::string_view to_string(MergeVerdict verdict) {
   switch (verdict) {
@@ -232,8 +277,12 @@ double confidence_of(const MergeHypothesis& hypothesis, const MergeParams& param
 MapMerger::MapMerger(const MergeParams& params) : params_(params), check_(params.pair) {}
 
 MergeAnswer MapMerger::merge(PreparedMap& a, PreparedMap& b) const {
+  if (params_.method == MergeMethod::kPrinted) {
+    return merge_as_printed(a, b);
+  }
   MergeAnswer answer;
-  Question question(a, b, params_);
+  const PicturePairs pictures(a, b, params_.pictures);
+  Question question(a, b, pictures, params_);
   question.compare(check_, answer);
   answer.hypotheses = question.hypotheses();
   judge(answer, params_);
@@ -252,7 +301,11 @@ void judge(MergeAnswer& answer, const MergeParams& params) {
   if (best.contradiction > params.max_contradiction) {
     answer.verdict = MergeVerdict::kContradicted;
     answer.reason = "places look alike, but laid upon each other the maps deny what the other has seen";
-  } else if (best.shared_wall_m < params.min_shared_wall_m || best.weak_wall_m < params.min_weak_wall_m) {
+  } else if (too_little(best, params) && best.pictures.confirms(params.pictures) &&
+             best.shared_wall_m >= params.pictured_shared_wall_m) {
+    answer.verdict = MergeVerdict::kAmbiguous;
+    answer.reason = "pictures show the same places, but both robots have seen few walls there; confirm or drive on";
+  } else if (too_little(best, params)) {
     answer.reason = "what both robots have seen is too little to be sure of the place; drive on and ask again";
   } else if (rival) {
     answer.verdict = MergeVerdict::kAmbiguous;

@@ -1,6 +1,6 @@
 /// \file
 /// Map merging: decides whether two robots' maps show the same building, and estimates their relative pose, from their
-/// scans alone; pictures of nodes propose pairs as well where robots have them (spec S4.5 to S4.7).
+/// scans, and from the pictures of their topologies' nodes where they have taken any (spec S4.5 to S4.7).
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include "server/fleet/map_overlap.hpp"
 #include "server/fleet/pair_check.hpp"
 #include "server/fleet/pair_fusion.hpp"
+#include "server/fleet/picture_pairs.hpp"
 #include "server/fleet/prepared_map.hpp"
 #include "server/slam/pairwise_consistency.hpp"
 
@@ -24,11 +25,19 @@ enum class MergeVerdict : std::uint8_t {
 };
 [[nodiscard]] std::string_view to_string(MergeVerdict verdict);
 
+/// How two maps are compared.
+enum class MergeMethod : std::uint8_t {
+  kPicturesAndLaser,  ///< scans and pictures propose, the whole maps judge; without pictures scans alone
+  kPrinted,           ///< spec S4.7: pictures propose, ICP refines, eq (7) of one pair judges
+};
+[[nodiscard]] std::string_view to_string(MergeMethod method);
+
 /// A pair of local maps that was compared and rejected (spec S4.7: feedback).
 struct RejectedPair {
   std::uint32_t node_a = 0;
   std::uint32_t node_b = 0;
   std::string_view reason;
+  bool by_pictures = false;  ///< similar pictures had proposed it
 };
 
 /// A hypothesis of the relative pose of two maps with its evidence.
@@ -45,7 +54,8 @@ struct MergeHypothesis {
   double residual_m = 0.0;      ///< root mean square distance of the shared walls
   /// Number of local maps that show the walls of the other's map, of the robot that has fewer.
   std::size_t witnesses = 0;
-  double confidence = 0.0;  ///< 0 to 1: grows with the shared wall, falls with the contradiction
+  PictureEvidence pictures;  ///< what the pictures of both robots say of it
+  double confidence = 0.0;   ///< 0 to 1: grows with the shared wall, falls with the contradiction
 
   /// The criterion by which hypotheses are ranked.
   [[nodiscard]] double support() const { return shared_wall_m * (1.0 - 2.0 * contradiction); }
@@ -65,8 +75,9 @@ struct MergeAnswer {
 
 /// Parameters for all buildings and lasers.
 struct MergeParams {
+  MergeMethod method = MergeMethod::kPicturesAndLaser;
   PairCheckParams pair;
-  vision::PlaceParams pictures;
+  PictureParams pictures;
   /// Number of regions of the other map, most similar first, with which a node is compared.
   std::size_t regions_per_node = 4;
   std::size_t max_relations = 64;  ///< number of best relations between nodes that are checked against each other
@@ -74,8 +85,10 @@ struct MergeParams {
   OverlapParams overlap;
   DistortionParams distortion;
   std::size_t max_hypotheses = 4;
-  std::size_t min_pairs = 2;         ///< number of node pairs required for a merge, or of witnesses
-  double min_shared_wall_m = 12.0;   ///< shared wall below which the overlap is insufficient
+  std::size_t min_pairs = 2;        ///< number of node pairs required for a merge, or of witnesses
+  double min_shared_wall_m = 12.0;  ///< shared wall below which the overlap is insufficient
+  /// The same where pictures confirm the place: the operator may then decide.
+  double pictured_shared_wall_m = 3.0;
   double sure_shared_wall_m = 30.0;  ///< shared wall below which the merge is not certain
   double min_weak_wall_m = 4.0;      ///< part of it that must constrain the least constrained direction
   /// The same for a certain merge: two corridors of one building differ only by their doors.
@@ -110,6 +123,8 @@ class MapMerger {
   [[nodiscard]] const MergeParams& params() const { return params_; }
 
  private:
+  [[nodiscard]] MergeAnswer merge_as_printed(PreparedMap& a, PreparedMap& b) const;
+
   MergeParams params_;
   PairCheck check_;
 };

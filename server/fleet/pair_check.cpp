@@ -10,6 +10,10 @@
 namespace seeker::fleet {
 namespace {
 
+constexpr std::string_view kNothingSeen = "nothing was seen there";
+constexpr std::string_view kNoPartners = "too few points find a partner";
+constexpr std::string_view kOffTheWalls = "the points do not lie on the walls of the region";
+
 /// Spec S4.7, eq (7), over the points that lie where the region has been observed.
 double similarity_of(const slam::PlaceMap& place, const std::vector<slam::OrientedPoint>& points_base,
                      const Pose2& region_T_base, double sigma_m, double gate_m) {
@@ -74,25 +78,16 @@ struct PairCheck::Query {
 
 PairCheck::PairCheck(const PairCheckParams& params) : params_(params), search_(params.search), matcher_(params.match) {}
 
-PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
-                             const std::optional<std::size_t>& seen_from) const {
+PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedNode& node_b) const {
   PairFindings findings;
   const std::shared_ptr<const slam::PlaceMap> place = a.place(region);
   if (!place) {
-    findings.refusal = "nothing was seen there";
+    findings.refusal = kNothingSeen;
     return findings;
   }
   const Query query(node_b, params_);
   findings.refusal = "no place of the region explains the points";
-  std::vector<slam::GlobalCandidate> starts = search_.search(place->pyramid(), query.points).candidates;
-  if (seen_from) {
-    const Pose2& map_T_region = a.nodes()[a.regions()[region].node].map_T_node;
-    const Pose2 guess = inverse(map_T_region) * a.nodes()[*seen_from].map_T_node * query.node_T_base;
-    if (const auto found = icp(place->cloud(), query.sparse, guess, params_.icp)) {
-      starts.push_back({found->a_T_b, found->pair_share});
-    }
-  }
-  for (const slam::GlobalCandidate& start : starts) {
+  for (const slam::GlobalCandidate& start : search_.search(place->pyramid(), query.points).candidates) {
     NodeRelation relation;
     const std::string_view refusal = examine(a, region, query, start, relation);
     if (refusal.empty()) {
@@ -107,12 +102,82 @@ PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedN
   return findings;
 }
 
+std::optional<IcpResult> PairCheck::icp_from(PreparedMap& a, std::size_t region, const Query& query,
+                                             const Pose2& map_a_T_node, const IcpParams& params) const {
+  const Pose2& map_T_region = a.nodes()[a.regions()[region].node].map_T_node;
+  return icp(a.place(region)->cloud(), query.sparse, inverse(map_T_region) * map_a_T_node * query.node_T_base, params);
+}
+
+PairFindings PairCheck::find_at(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
+                                const Pose2& map_a_T_node) const {
+  PairFindings findings;
+  if (!a.place(region)) {
+    findings.refusal = kNothingSeen;
+    return findings;
+  }
+  const Query query(node_b, params_);
+  IcpParams from_here = params_.icp;
+  from_here.restarts_rad = params_.known_heading_restarts_rad;
+  const auto found = icp_from(a, region, query, map_a_T_node, from_here);
+  findings.refusal = found ? std::string_view() : kNoPartners;
+  if (found) {
+    NodeRelation relation;
+    findings.refusal = examine(a, region, query, {found->a_T_b, found->pair_share}, relation);
+    if (findings.refusal.empty()) {
+      findings.relations.push_back(relation);
+    }
+  }
+  return findings;
+}
+
+PairFindings PairCheck::find_as_printed(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
+                                        const Pose2& map_a_T_node) const {
+  PairFindings findings;
+  if (!a.place(region)) {
+    findings.refusal = kNothingSeen;
+    return findings;
+  }
+  const Query query(node_b, params_);
+  const auto found = icp_from(a, region, query, map_a_T_node, params_.icp);
+  if (!found) {
+    findings.refusal = kNoPartners;
+    return findings;
+  }
+  NodeRelation relation;
+  relation.overlap = found->pair_share;
+  relation.consistency = found->pair_share;
+  relation.similarity = similarity_of(*a.place(region), query.sparse, found->a_T_b, params_.similarity_sigma_m,
+                                      params_.match.first_gate_m);
+  relation.residual_m = std::sqrt(found->mean_square_m2);
+  if (relation.similarity < params_.min_similarity || relation.residual_m > params_.max_residual_m) {
+    findings.refusal = kOffTheWalls;
+    return findings;
+  }
+  locate(a, region, query, {found->a_T_b, Matrix3::Zero()}, relation);
+  findings.relations.push_back(relation);
+  return findings;
+}
+
+void PairCheck::locate(PreparedMap& a, std::size_t region, const Query& query, const UncertainPose& region_T_base,
+                       NodeRelation& relation) const {
+  const Pose2& pose = region_T_base.a_T_b;
+  const std::size_t node_a = nearest_member(a, a.regions()[region], pose.translation());
+  const Pose2 a_T_region = inverse(a.nodes()[node_a].map_T_node) * a.nodes()[a.regions()[region].node].map_T_node;
+  const Matrix3 turn = compose_jacobian_b(a_T_region, {});
+  const Matrix3 covariance = turn * region_T_base.covariance * turn.transpose();
+  relation.node_a = a.nodes()[node_a].id;
+  relation.node_b = query.node.id;
+  relation.a_T_b =
+      compose({a_T_region * pose, slam::with_floor(covariance, params_.sigma_floor_m, params_.sigma_floor_rad)},
+              {inverse(query.node_T_base), Matrix3::Zero()});
+}
+
 std::string_view PairCheck::examine(PreparedMap& a, std::size_t region, const Query& query,
                                     const slam::GlobalCandidate& start, NodeRelation& relation) const {
   const slam::PlaceMap& place = *a.place(region);
   const slam::MatchResult match = matcher_.match(place.cloud(), query.sparse, start.map_T_base);
   if (match.pairs < params_.match.min_pairs || match.inliers < static_cast<int>(params_.min_inliers)) {
-    return "too few points find a partner";
+    return kNoPartners;
   }
   const Pose2& pose = match.map_T_base;
   const slam::Agreement agreement =
@@ -125,21 +190,13 @@ std::string_view PairCheck::examine(PreparedMap& a, std::size_t region, const Qu
   relation.similarity =
       similarity_of(place, query.sparse, pose, params_.similarity_sigma_m, params_.match.first_gate_m);
   relation.residual_m = match.rms_m;
-  const std::size_t node_a = nearest_member(a, a.regions()[region], pose.translation());
-  const Pose2 a_T_region = inverse(a.nodes()[node_a].map_T_node) * a.nodes()[a.regions()[region].node].map_T_node;
-  const Matrix3 turn = compose_jacobian_b(a_T_region, {});
-  const Matrix3 covariance = turn * match.covariance * turn.transpose();
-  relation.node_a = a.nodes()[node_a].id;
-  relation.node_b = query.node.id;
-  relation.a_T_b =
-      compose({a_T_region * pose, slam::with_floor(covariance, params_.sigma_floor_m, params_.sigma_floor_rad)},
-              {inverse(query.node_T_base), Matrix3::Zero()});
+  locate(a, region, query, {pose, match.covariance}, relation);
   if (relation.overlap < params_.min_overlap) {
     return "too little of the node was seen in the region";
   }
   if (relation.consistency < params_.min_consistency || relation.similarity < params_.min_similarity ||
       relation.residual_m > params_.max_residual_m) {
-    return "the points do not lie on the walls of the region";
+    return kOffTheWalls;
   }
   if (agreement.through > params_.max_through) {
     return "beams pass through walls of the region";

@@ -40,7 +40,9 @@ struct PairCheckParams {
   double min_similarity = 0.6;    ///< spec S4.7 [J]
   double max_residual_m = 0.08;   ///< spec S4.7 [J]
   double similarity_sigma_m = 0.10;
-  IcpParams icp;  ///< ICP from proposals of similar pictures
+  IcpParams icp;  ///< ICP from proposals of similar pictures, as printed (spec S4.6)
+  /// Headings from which that ICP starts where the pictures say the rotation between the robots.
+  std::vector<double> known_heading_restarts_rad{0.0, 0.2618, -0.2618};
   /// Lower limit of the standard deviation of a match: local maps are distorted.
   double sigma_floor_m = 0.03;
   double sigma_floor_rad = 0.006;
@@ -57,13 +59,23 @@ class PairCheck {
  public:
   explicit PairCheck(const PairCheckParams& params = {});
 
-  /// Searches for a node of b in a region of a, at all positions and headings. `seen_from` is the node of a, by index,
-  /// whose pictures are similar to those of node b: ICP starts from there, too (spec S4.6).
-  [[nodiscard]] PairFindings find(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
-                                  const std::optional<std::size_t>& seen_from = std::nullopt) const;
+  /// Searches for a node of b in a region of a, at all positions and headings.
+  [[nodiscard]] PairFindings find(PreparedMap& a, std::size_t region, const PreparedNode& node_b) const;
+  /// The same from one place that similar pictures propose (spec S4.6): ICP with restarts, then the same checks.
+  /// `map_a_T_node` is the proposed pose of the frame of node b in the frame `map` of a; the middle of node b is where
+  /// its picture was taken.
+  [[nodiscard]] PairFindings find_at(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
+                                     const Pose2& map_a_T_node) const;
+  /// As printed: ICP with restarts refines, eq (7) and the residual of ICP judge (spec S4.6, S4.7), and nothing else.
+  [[nodiscard]] PairFindings find_as_printed(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
+                                             const Pose2& map_a_T_node) const;
 
  private:
   struct Query;
+  [[nodiscard]] std::optional<IcpResult> icp_from(PreparedMap& a, std::size_t region, const Query& query,
+                                                  const Pose2& map_a_T_node, const IcpParams& params) const;
+  void locate(PreparedMap& a, std::size_t region, const Query& query, const UncertainPose& region_T_base,
+              NodeRelation& relation) const;
   [[nodiscard]] std::string_view examine(PreparedMap& a, std::size_t region, const Query& query,
                                          const slam::GlobalCandidate& start, NodeRelation& relation) const;
 

@@ -81,8 +81,9 @@ Status PreparedMap::update(LineMap map) {
   return {};
 }
 
-void PreparedMap::set_features(std::uint32_t node, vision::FeatureList features) {
-  features_[node] = std::move(features);
+void PreparedMap::set_pictures(NodePictures pictures) {
+  pictures_ = std::move(pictures);
+  comparisons_.keep_only(pictures_);
 }
 
 void PreparedMap::prepare_nodes() {

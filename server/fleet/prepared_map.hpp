@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "common/core/line_map.hpp"
+#include "server/fleet/node_picture.hpp"
 #include "server/fleet/scan_signature.hpp"
 #include "server/slam/pairwise_consistency.hpp"
 #include "server/slam/place_recogniser.hpp"
 #include "server/slam/pose_graph.hpp"
-#include "server/vision/place_index.hpp"
 
 namespace seeker::fleet {
 
@@ -57,13 +57,16 @@ class PreparedMap {
 
   /// Takes the present map. Nodes without scans are left out. Errors are those of validate(LineMap).
   [[nodiscard]] Status update(LineMap map);
-  /// Sets the camera's features at a node, which then proposes pairs. Ids that are not in the map are ignored.
-  void set_features(std::uint32_t node, vision::FeatureList features);
+  /// Sets the pictures that the robot has taken at its topology's nodes. Those of local maps that are not in the map,
+  /// or have no scans, are kept, but show nothing until they are there.
+  void set_pictures(NodePictures pictures);
 
   [[nodiscard]] const LineMap& map() const { return map_; }
   [[nodiscard]] const std::vector<PreparedNode>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<PreparedRegion>& regions() const { return regions_; }
-  [[nodiscard]] const std::map<std::uint32_t, vision::FeatureList>& features() const { return features_; }
+  [[nodiscard]] const NodePictures& pictures() const { return pictures_; }
+  /// Comparisons of the pictures with those of other maps, each of which is made once.
+  [[nodiscard]] PictureComparisons& picture_comparisons() { return comparisons_; }
   /// The place of a region; null where nothing was observed.
   [[nodiscard]] std::shared_ptr<const slam::PlaceMap> place(std::size_t region);
   /// The region that shows the surroundings of a point of the frame `map`; no value where no node is near.
@@ -96,7 +99,8 @@ class PreparedMap {
   SignatureIndex index_;    ///< of all nodes' signatures; values are indices of nodes
   slam::PoseGraph graph_;
   std::map<std::uint32_t, std::size_t> graph_node_;  ///< by id
-  std::map<std::uint32_t, vision::FeatureList> features_;
+  NodePictures pictures_;
+  PictureComparisons comparisons_;
 };
 
 }  // namespace seeker::fleet

@@ -1,5 +1,7 @@
 #include "server/options/fleet_options.hpp"
 
+#include <array>
+
 #include "server/options/slam_options.hpp"
 
 namespace seeker::vision {
@@ -9,12 +11,13 @@ void describe(config::Fields& f, MatchParams& params) {
   f.field("max_ratio", params.max_ratio);
 }
 
-void describe(config::Fields& f, PlaceParams& params) {
+void describe(config::Fields& f, ViewMatchParams& params) {
   f.section("match", params.match);
-  f.field("max_epipolar_px", params.max_epipolar_px);
-  f.field("min_inliers", params.min_inliers);
-  f.field("min_inlier_share", params.min_inlier_share);
-  f.field("min_spread_px", params.min_spread_px);
+  f.field("min_matches", params.min_matches);
+  f.field("min_share", params.min_share);
+  f.field("min_agreement", params.min_agreement);
+  f.field("min_agreeing", params.min_agreeing);
+  f.angle_deg("max_parallax_deg", params.max_parallax_rad);
 }
 
 }  // namespace seeker::vision
@@ -72,6 +75,7 @@ void describe(config::Fields& f, PairCheckParams& params) {
   f.field("similarity_sigma_m", params.similarity_sigma_m);
   f.check("similarity_sigma_m", params.similarity_sigma_m > 0.0, "must be above 0");
   f.section("icp", params.icp);
+  f.angles_deg("known_heading_restarts_deg", params.known_heading_restarts_rad);
   f.field("sigma_floor_m", params.sigma_floor_m);
   f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
 }
@@ -98,7 +102,23 @@ void describe(config::Fields& f, DistortionParams& params) {
   f.angle_deg("whole_sigma_deg", params.whole_sigma_rad);
 }
 
+void describe(config::Fields& f, PictureParams& params) {
+  f.section("views", params.views);
+  f.field("tries", params.tries);
+  f.field("max_checks", params.max_checks);
+  f.field("scans_m", params.scans_m);
+  f.field("alike_m", params.alike_m);
+  f.angle_deg("alike_deg", params.alike_rad);
+  f.field("near_m", params.near_m);
+  f.field("sure_alike", params.sure_alike);
+  f.check("sure_alike", params.sure_alike >= 1, "must be 1 or more");
+  f.field("sure_unlike", params.sure_unlike);
+  f.check("sure_unlike", params.sure_unlike >= 1, "must be 1 or more");
+}
+
 void describe(config::Fields& f, MergeParams& params) {
+  f.choice("method", params.method,
+           config::choices_of(std::array{MergeMethod::kPicturesAndLaser, MergeMethod::kPrinted}));
   f.section("pair", params.pair);
   f.section("pictures", params.pictures);
   f.field("regions_per_node", params.regions_per_node);
@@ -110,6 +130,7 @@ void describe(config::Fields& f, MergeParams& params) {
   f.check("max_hypotheses", params.max_hypotheses >= 1 && params.max_hypotheses <= 16, "must be from 1 to 16");
   f.field("min_pairs", params.min_pairs);
   f.field("min_shared_wall_m", params.min_shared_wall_m);
+  f.field("pictured_shared_wall_m", params.pictured_shared_wall_m);
   f.field("sure_shared_wall_m", params.sure_shared_wall_m);
   f.field("min_weak_wall_m", params.min_weak_wall_m);
   f.field("sure_weak_wall_m", params.sure_weak_wall_m);

@@ -9,7 +9,7 @@
 namespace seeker::vision {
 
 void describe(config::Fields& f, MatchParams& params);
-void describe(config::Fields& f, PlaceParams& params);
+void describe(config::Fields& f, ViewMatchParams& params);
 
 }  // namespace seeker::vision
 
@@ -21,6 +21,7 @@ void describe(config::Fields& f, TopologicalParams& params);
 void describe(config::Fields& f, IcpParams& params);
 void describe(config::Fields& f, PairCheckParams& params);
 void describe(config::Fields& f, OverlapParams& params);
+void describe(config::Fields& f, PictureParams& params);
 void describe(config::Fields& f, MergeParams& params);
 
 }  // namespace seeker::fleet

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <opencv2/imgproc.hpp>
@@ -73,6 +74,15 @@ void SceneView::build_maps() {
 
 double SceneView::bearing_of_column(double column) const {
   return wrap_angle(kPi - (column + 0.5) / scale_px_per_rad_);
+}
+
+double SceneView::bearing_base_rad(const cv::Point2d& p_working, const cv::Size& working) const {
+  return camera_ ? bearing_of_column(p_working.x)
+                 : PhotoView(params_, working.width, working.height).bearing_rad(p_working.x, p_working.y);
+}
+
+int SceneView::circle_columns() const {
+  return camera_ ? static_cast<int>(scale_px_per_rad_ * kTwoPi) : std::numeric_limits<int>::max();
 }
 
 double SceneView::elevation_of_row(double row) const {

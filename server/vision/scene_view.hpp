@@ -27,6 +27,10 @@ class SceneView {
   /// top left, top right, bottom right, bottom left of the target) and the target's real height.
   void locate(const std::array<cv::Point2d, 4>& corners, const cv::Size& working, double height_m,
               Sighting& sighting) const;
+  /// The bearing of a point of a working picture of this size, frame `base`, left positive, in (-pi, pi].
+  [[nodiscard]] double bearing_base_rad(const cv::Point2d& p_working, const cv::Size& working) const;
+  /// Number of columns of a panorama that show one full circle; of a photograph more than it has.
+  [[nodiscard]] int circle_columns() const;
   /// Whether the picture is unwrapped.
   [[nodiscard]] bool panoramic() const { return camera_.has_value(); }
 

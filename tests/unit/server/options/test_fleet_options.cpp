@@ -59,11 +59,11 @@ TEST(MergeOptions, ReadWhatAFileSaysAndKeepTheRest) {
 TEST(MergeOptions, PrintWhatTheyRead) {
   MergeParams params;
   params.rival_ratio = 0.25;
-  params.pictures.match.max_ratio = 0.7;
+  params.pictures.views.match.max_ratio = 0.7;
   MergeParams again;
   ASSERT_TRUE(read(config::print(params), again));
   EXPECT_DOUBLE_EQ(again.rival_ratio, 0.25);
-  EXPECT_DOUBLE_EQ(again.pictures.match.max_ratio, 0.7);
+  EXPECT_DOUBLE_EQ(again.pictures.views.match.max_ratio, 0.7);
   EXPECT_EQ(config::print(again), config::print(params));
 }
 

@@ -1,0 +1,50 @@
+/// \file
+/// The picture that a robot has taken at a node of its topology, as features (spec S4.2: S of T_i), and the comparison
+/// of such pictures (spec S4.5).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/core/pose2.hpp"
+#include "server/vision/view_features.hpp"
+
+namespace seeker::fleet {
+
+/// Features of a picture and where it was taken. The pose is in the frame of a local map, so that the value stays the
+/// same when the map around it moves.
+struct NodePicture {
+  std::uint32_t node = 0;  ///< id of the local map in which it was taken
+  Pose2 node_T_base;       ///< pose of the robot in the frame of that local map
+  vision::ViewFeatures features;
+
+  friend bool operator==(const NodePicture&, const NodePicture&) = default;
+};
+
+/// Pictures of one robot in the order in which they were taken; none is null.
+using NodePictures = std::vector<std::shared_ptr<const NodePicture>>;
+
+/// Results of comparisons by the values of both pictures, so that maps which grow compare only what is new.
+/// Not thread-safe.
+class PictureComparisons {
+ public:
+  /// As vision::match_views(own.features, other.features, params). The parameters must be the same in all calls.
+  [[nodiscard]] std::optional<vision::ViewMatch> match(const NodePicture& own, const NodePicture& other,
+                                                       const vision::ViewMatchParams& params);
+  /// Forgets the comparisons of pictures that are not among `own`.
+  void keep_only(const NodePictures& own);
+  /// Number of comparisons that are known.
+  [[nodiscard]] std::size_t size() const { return known_.size(); }
+
+ private:
+  using Key = std::uint64_t;  ///< hash of a picture's features
+  [[nodiscard]] static Key key_of(const NodePicture& picture);
+
+  std::map<std::pair<Key, Key>, std::optional<vision::ViewMatch>> known_;  ///< the own picture first
+};
+
+}  // namespace seeker::fleet

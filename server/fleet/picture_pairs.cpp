@@ -1,0 +1,91 @@
+#include "server/fleet/picture_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "common/core/angle.hpp"
+
+namespace seeker::fleet {
+
+std::vector<PlacedPicture> placed_pictures(const PreparedMap& map) {
+  std::map<std::uint32_t, std::size_t> nodes;
+  for (std::size_t k = 0; k < map.nodes().size(); ++k) {
+    nodes[map.nodes()[k].id] = k;
+  }
+  std::vector<PlacedPicture> placed;
+  placed.reserve(map.pictures().size());
+  for (const auto& picture : map.pictures()) {
+    const auto node = nodes.find(picture->node);
+    if (node != nodes.end()) {
+      placed.push_back({picture.get(), node->second, map.nodes()[node->second].map_T_node * picture->node_T_base});
+    }
+  }
+  return placed;
+}
+
+Pose2 PicturePair::map_a_T_base_b() const {
+  return {a.map_T_base.x_m, a.map_T_base.y_m, wrap_angle(a.map_T_base.theta_rad + match.rotation_rad)};
+}
+
+PicturePairs::PicturePairs(PreparedMap& a, PreparedMap& b, const PictureParams& params)
+    : params_(params), pictures_a_(placed_pictures(a)), pictures_b_(placed_pictures(b)) {
+  for (const PlacedPicture& of_b : pictures_b_) {
+    const auto first = static_cast<std::ptrdiff_t>(pairs_.size());
+    for (const PlacedPicture& of_a : pictures_a_) {
+      if (const auto match = a.picture_comparisons().match(*of_a.picture, *of_b.picture, params.views)) {
+        pairs_.push_back({of_a, of_b, *match});
+      }
+    }
+    std::stable_sort(pairs_.begin() + first, pairs_.end(),
+                     [](const PicturePair& p, const PicturePair& q) { return p.match.agreeing > q.match.agreeing; });
+  }
+}
+
+std::vector<PicturePair> PicturePairs::proposals() const {
+  std::vector<PicturePair> proposals;
+  const NodePicture* of_b = nullptr;
+  std::size_t tries = 0;
+  for (const PicturePair& pair : pairs_) {
+    tries = pair.b.picture == of_b ? tries + 1 : 1;
+    of_b = pair.b.picture;
+    if (tries <= params_.tries) {
+      proposals.push_back(pair);
+    }
+  }
+  return proposals;
+}
+
+bool PicturePairs::agrees(const PicturePair& pair, const std::function<Pose2(std::size_t)>& map_a_T_node) const {
+  const Pose2 expected = map_a_T_node(pair.b.node) * pair.b.picture->node_T_base;
+  const Pose2 said = pair.map_a_T_base_b();
+  return distance_m(expected, said) <= params_.alike_m &&
+         std::abs(wrap_angle(expected.theta_rad - said.theta_rad)) <= params_.alike_rad;
+}
+
+PictureEvidence PicturePairs::evidence(const std::function<Pose2(std::size_t)>& map_a_T_node) const {
+  std::set<const NodePicture*> alike_a;
+  std::set<const NodePicture*> alike_b;
+  for (const PicturePair& pair : pairs_) {
+    if (agrees(pair, map_a_T_node)) {
+      alike_a.insert(pair.a.picture);
+      alike_b.insert(pair.b.picture);
+    }
+  }
+  std::set<const NodePicture*> unlike_a;
+  std::set<const NodePicture*> unlike_b;
+  for (const PlacedPicture& of_b : pictures_b_) {
+    const Pose2 expected = map_a_T_node(of_b.node) * of_b.picture->node_T_base;
+    for (const PlacedPicture& of_a : pictures_a_) {
+      if (!alike_a.contains(of_a.picture) && !alike_b.contains(of_b.picture) &&
+          distance_m(expected, of_a.map_T_base) <= params_.near_m) {
+        unlike_a.insert(of_a.picture);
+        unlike_b.insert(of_b.picture);
+      }
+    }
+  }
+  return {std::min(alike_a.size(), alike_b.size()), std::min(unlike_a.size(), unlike_b.size())};
+}
+
+}  // namespace seeker::fleet
