@@ -28,14 +28,16 @@ Json json_of(const api::FleetHypothesis& hypothesis) {
   json.update({{"confidence", hypothesis.confidence},
                {"shared_wall_m", hypothesis.shared_wall_m},
                {"contradiction", hypothesis.contradiction},
-               {"pairs", hypothesis.pairs}});
+               {"pairs", hypothesis.pairs},
+               {"pictures", hypothesis.pictures}});
   return json;
 }
 
 Json json_of(const api::FleetMember& member) {
-  Json json = {{"robot_id", member.robot_id},     {"state", api::to_string(member.state)},  {"reason", member.reason},
-               {"confidence", member.confidence}, {"by_operator", member.by_operator},      {"linked", member.linked},
-               {"nodes", member.nodes},           {"pieces_missing", member.pieces_missing}};
+  Json json = {
+      {"robot_id", member.robot_id},     {"state", api::to_string(member.state)},   {"reason", member.reason},
+      {"confidence", member.confidence}, {"by_operator", member.by_operator},       {"linked", member.linked},
+      {"nodes", member.nodes},           {"pieces_missing", member.pieces_missing}, {"pictures", member.pictures}};
   if (member.main_T_map) {
     json.update(*member.main_T_map);
   }
@@ -64,8 +66,8 @@ void print(const Context& context, const api::FleetMember& member) {
   for (std::size_t k = 0; k < member.hypotheses.size(); ++k) {
     const api::FleetHypothesis& hypothesis = member.hypotheses[k];
     char text[128];
-    std::snprintf(text, sizeof text, ", confidence %.2f, %.1f m of wall shared, %u pairs", hypothesis.confidence,
-                  hypothesis.shared_wall_m, hypothesis.pairs);
+    std::snprintf(text, sizeof text, ", confidence %.2f, %.1f m of wall shared, %u pairs, %u places by pictures",
+                  hypothesis.confidence, hypothesis.shared_wall_m, hypothesis.pairs, hypothesis.pictures);
     out << "    hypothesis " << k << ": map at " << place_of(hypothesis.main_T_map) << text << '\n';
   }
   for (const api::Detection& detection : member.detections) {

@@ -26,6 +26,9 @@ inline constexpr std::size_t kMaxFleetNodes = 10'000;  ///< of one robot
 inline constexpr std::size_t kMaxFleetEdges = 40'000;
 inline constexpr std::size_t kMaxFleetRobots = 16;  ///< the main one included
 inline constexpr std::size_t kMaxFleetPieceBytes = 8UL << 20U;
+inline constexpr std::size_t kMaxFleetPictures = 2'000;             ///< of one robot
+inline constexpr std::size_t kMaxFleetPictureFeatures = 1'000;      ///< of one picture
+inline constexpr std::size_t kMaxFleetPictureBytes = 256UL << 10U;  ///< of the piece of one picture
 inline constexpr std::size_t kMaxFleetChunkBytes = 1UL << 20U;
 inline constexpr std::size_t kMaxFleetHypotheses = 16;
 // Of one robot's topology: fifteen of them fit into one reply.
@@ -52,7 +55,14 @@ struct FleetNode {
   friend bool operator==(const FleetNode&, const FleetNode&) = default;
 };
 
-/// The list of all local maps of a robot, with the edges between them.
+/// The piece that holds the features of a picture, which was taken at a node of the robot's topology.
+struct FleetPicture {
+  PieceHash hash{};
+  std::uint64_t piece_bytes = 0;
+  friend bool operator==(const FleetPicture&, const FleetPicture&) = default;
+};
+
+/// The list of all local maps of a robot, with the edges between them, and of its pictures.
 struct FleetManifest {
   std::string robot_id;
   std::uint64_t instance =
@@ -61,6 +71,7 @@ struct FleetManifest {
   std::uint64_t next_id = 1;  ///< as in LineMap
   std::vector<FleetNode> nodes;
   std::vector<MapEdge> edges;
+  std::vector<FleetPicture> pictures;
   std::optional<Pose2> map_T_base;  ///< absent when the robot does not know where it is
   friend bool operator==(const FleetManifest&, const FleetManifest&) = default;
 };
@@ -96,6 +107,7 @@ struct FleetHypothesis {
   double shared_wall_m = 0.0;
   double contradiction = 0.0;  ///< share of the walls that the other map denies, 0 to 1
   std::uint32_t pairs = 0;     ///< number of pairs of local maps that support it
+  std::uint32_t pictures = 0;  ///< number of places whose pictures show the same as the other robot's
   friend bool operator==(const FleetHypothesis&, const FleetHypothesis&) = default;
 };
 
@@ -108,6 +120,7 @@ struct FleetMember {
   bool linked = false;  ///< true: it has announced itself lately
   std::uint32_t nodes = 0;
   std::uint32_t pieces_missing = 0;
+  std::uint32_t pictures = 0;               ///< of nodes of its topology, announced
   std::vector<FleetHypothesis> hypotheses;  ///< best first
   std::optional<Pose2> main_T_map;          ///< pose of its map; empty where it is not merged
   std::optional<Pose2> main_T_base;         ///< pose of the robot; empty where it is not merged or not localised

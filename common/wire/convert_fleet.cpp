@@ -31,6 +31,14 @@ void read_node(const pb::FleetNode& from, api::FleetNode& to, Check& check) {
   }
 }
 
+void read_picture(const pb::FleetPicture& from, api::FleetPicture& to, Check& check) {
+  read_hash(from.sha256(), to.hash, check);
+  to.piece_bytes = from.piece_bytes();
+  if (to.piece_bytes == 0 || to.piece_bytes > api::kMaxFleetPictureBytes) {
+    check.refuse("piece_bytes", Errc::kTooLarge, "must be from 1 to 256 KiB");
+  }
+}
+
 void write_edge(const MapEdge& from, pb::FleetEdge* to) {
   to->set_from(from.from);
   to->set_to(from.to);
@@ -55,6 +63,7 @@ void write_hypothesis(const api::FleetHypothesis& from, pb::FleetHypothesis* to)
   to->set_shared_wall_m(from.shared_wall_m);
   to->set_contradiction(from.contradiction);
   to->set_pairs(from.pairs);
+  to->set_pictures(from.pictures);
 }
 
 void read_hypothesis(const pb::FleetHypothesis& from, api::FleetHypothesis& to, Check& check) {
@@ -63,6 +72,7 @@ void read_hypothesis(const pb::FleetHypothesis& from, api::FleetHypothesis& to, 
   to.shared_wall_m = check.finite("shared_wall_m", from.shared_wall_m());
   to.contradiction = check.finite("contradiction", from.contradiction());
   to.pairs = from.pairs();
+  to.pictures = from.pictures();
 }
 
 void write_pose(const std::optional<Pose2>& from, pb::Pose2* (*field)(pb::FleetMember&), pb::FleetMember& to) {
@@ -87,6 +97,7 @@ void write_member(const api::FleetMember& from, pb::FleetMember* to) {
   to->set_linked(from.linked);
   to->set_nodes(from.nodes);
   to->set_pieces_missing(from.pieces_missing);
+  to->set_pictures(from.pictures);
   for (const api::FleetHypothesis& hypothesis : from.hypotheses) {
     write_hypothesis(hypothesis, to->add_hypotheses());
   }
@@ -113,6 +124,7 @@ void read_member(const pb::FleetMember& from, api::FleetMember& to, Check& check
   to.linked = from.linked();
   to.nodes = from.nodes();
   to.pieces_missing = from.pieces_missing();
+  to.pictures = from.pictures();
   for (const pb::FleetHypothesis& one : from.hypotheses()) {
     read_hypothesis(one, to.hypotheses.emplace_back(), check);
   }
@@ -196,11 +208,17 @@ void write(const api::FleetManifest& from, pb::FleetManifest* to) {
   if (from.map_T_base) {
     write(*from.map_T_base, to->mutable_map_t_base());
   }
+  for (const api::FleetPicture& picture : from.pictures) {
+    pb::FleetPicture* one = to->add_pictures();
+    one->set_sha256(bytes_of(picture.hash));
+    one->set_piece_bytes(picture.piece_bytes);
+  }
 }
 
 void read(const pb::FleetManifest& from, api::FleetManifest& to, Check& check) {
   if (!check.count("nodes", static_cast<std::size_t>(from.nodes_size()), api::kMaxFleetNodes) ||
-      !check.count("edges", static_cast<std::size_t>(from.edges_size()), api::kMaxFleetEdges)) {
+      !check.count("edges", static_cast<std::size_t>(from.edges_size()), api::kMaxFleetEdges) ||
+      !check.count("pictures", static_cast<std::size_t>(from.pictures_size()), api::kMaxFleetPictures)) {
     return;
   }
   to.robot_id = read_robot_id(from.robot_id(), check);
@@ -214,6 +232,10 @@ void read(const pb::FleetManifest& from, api::FleetManifest& to, Check& check) {
   for (int k = 0; k < from.edges_size(); ++k) {
     const auto scope = check.in("edges", static_cast<std::size_t>(k));
     read_edge(from.edges(k), to.edges.emplace_back(), check);
+  }
+  for (int k = 0; k < from.pictures_size(); ++k) {
+    const auto scope = check.in("pictures", static_cast<std::size_t>(k));
+    read_picture(from.pictures(k), to.pictures.emplace_back(), check);
   }
   read_pose(from.has_map_t_base(), from.map_t_base(), to.map_T_base, check);
 }

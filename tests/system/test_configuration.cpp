@@ -14,7 +14,7 @@ TEST(RobotFiles, EveryShippedOneIsReadAndPrintsBackTheSame) {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source_file("config/robots"))) {
     if (entry.is_directory()) {
-      continue;
+      continue;  // config/robots/paper
     }
     const Result<app::RobotOptions> options = app::load_robot_options(entry.path());
     ASSERT_TRUE(options) << options.error().message;

@@ -1,7 +1,9 @@
 #include "server/app/composition/loop_options.hpp"
 
+#include <array>
 #include <string_view>
 
+#include "common/api/fleet.hpp"
 #include "server/options/nav_options.hpp"
 
 namespace seeker::app {
@@ -83,6 +85,16 @@ void describe(config::Fields& f, FleetMotionParams& params) {
   f.seconds("max_age_s", params.max_age);
 }
 
+void describe(config::Fields& f, NodePictureParams& params) {
+  f.choice("at", params.at,
+           config::choices_of(std::array{PicturesAt::kNever, PicturesAt::kNodes, PicturesAt::kFrames}));
+  f.seconds("frame_period_s", params.frame_period);
+  f.check("frame_period_s", params.frame_period > Duration::zero(), "must be above 0");
+  f.field("features", params.features);
+  f.check("features", params.features >= 1 && params.features <= static_cast<int>(api::kMaxFleetPictureFeatures),
+          "must be from 1 to 1000");
+}
+
 void describe(config::Fields& f, LoopParams& params) {
   f.seconds("period_s", params.period);
   f.check("period_s", params.period > Duration::zero(), "must be above 0");
@@ -97,6 +109,7 @@ void describe(config::Fields& f, LoopParams& params) {
   f.section("mission", params.mission);
   f.section("map", params.map);
   f.section("fleet", params.fleet);
+  f.section("pictures", params.pictures);
 }
 
 }  // namespace seeker::app

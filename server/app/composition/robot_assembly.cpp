@@ -1,5 +1,6 @@
 #include "server/app/composition/robot_assembly.hpp"
 
+#include <memory>
 #include <utility>
 
 #include "server/app/composition/device_factory.hpp"
@@ -17,6 +18,21 @@ Status check_safety(const Devices& devices, const RangeInputs& inputs) {
                             : fail(Errc::kInvalidArgument,
                                    "connections.safety: neither the lidar nor the sonar of this robot feeds the safety "
                                    "supervisor; connect one of them");
+}
+
+/// Null where the robot has no camera or no fleet, or is told to take no pictures.
+Result<std::shared_ptr<const vision::ViewFeatureExtractor>> picture_extractor(const RobotOptions& options,
+                                                                              const Devices& devices) {
+  const bool in_fleet = options.fleet.lead || !options.fleet.join.empty();
+  if (!in_fleet || devices.camera == nullptr || options.loop.pictures.at == PicturesAt::kNever) {
+    return std::shared_ptr<const vision::ViewFeatureExtractor>();
+  }
+  if (const Status ok = vision::validate(options.search.recogniser); !ok) {
+    return fail_with_context("search.recogniser", ok.error());
+  }
+  vision::DetectorParams detector = vision::view_detector_params();
+  detector.wanted = options.loop.pictures.features;
+  return std::make_shared<const vision::ViewFeatureExtractor>(options.search.recogniser.view, detector);
 }
 
 /// Everything but the devices.
@@ -51,6 +67,11 @@ Result<Assembly> complete(const RobotOptions& robot, LandmarkStorage landmarks, 
   }
   assembly.landmarks->set_in_use(database_in_use(*options));
   parts.estimator = std::move(*estimator);
+  auto pictures = picture_extractor(*options, parts.devices);
+  if (!pictures) {
+    return tl::unexpected<Error>(pictures.error());
+  }
+  parts.pictures = std::move(*pictures);
   parts.estimator_type = to_string(options->estimator);
   parts.recogniser_type = name_of(recogniser_names(), options->recogniser);
   parts.planner_type = name_of(planner_names(), options->search.strategy);

@@ -9,10 +9,15 @@
 namespace seeker::app {
 namespace {
 
-const api::FleetNode* node_of(const api::FleetManifest& manifest, const api::PieceHash& hash) {
-  const auto node = std::find_if(manifest.nodes.begin(), manifest.nodes.end(),
-                                 [&](const api::FleetNode& one) { return one.hash == hash; });
-  return node == manifest.nodes.end() ? nullptr : &*node;
+/// Size of the piece with this hash, of a local map or a picture; no value where the manifest does not name it.
+std::optional<std::uint64_t> bytes_of(const api::FleetManifest& manifest, const api::PieceHash& hash) {
+  const auto has_hash = [&](const auto& one) { return one.hash == hash; };
+  const auto node = std::find_if(manifest.nodes.begin(), manifest.nodes.end(), has_hash);
+  if (node != manifest.nodes.end()) {
+    return node->piece_bytes;
+  }
+  const auto picture = std::find_if(manifest.pictures.begin(), manifest.pictures.end(), has_hash);
+  return picture == manifest.pictures.end() ? std::nullopt : std::optional(picture->piece_bytes);
 }
 
 }  // namespace
@@ -23,7 +28,7 @@ AnnouncedMap::AnnouncedMap(api::FleetManifest manifest, Pieces pieces)
 void AnnouncedMap::announce(const api::FleetManifest& manifest) {
   manifest_ = manifest;
   const auto drop_unnamed = [&](auto& pieces) {
-    std::erase_if(pieces, [&](const auto& piece) { return node_of(manifest_, piece.first) == nullptr; });
+    std::erase_if(pieces, [&](const auto& piece) { return !bytes_of(manifest_, piece.first); });
   };
   drop_unnamed(pieces_);
   drop_unnamed(partial_);
@@ -31,33 +36,37 @@ void AnnouncedMap::announce(const api::FleetManifest& manifest) {
 
 std::vector<api::FleetMissing> AnnouncedMap::missing() const {
   std::vector<api::FleetMissing> missing;
-  for (const api::FleetNode& node : manifest_.nodes) {
-    if (!pieces_.contains(node.hash)) {
-      const auto begun = partial_.find(node.hash);
-      missing.push_back({node.hash, begun == partial_.end() ? 0 : begun->second.size()});
+  const auto add_missing = [&](const auto& named) {
+    for (const auto& one : named) {
+      if (!pieces_.contains(one.hash)) {
+        const auto begun = partial_.find(one.hash);
+        missing.push_back({one.hash, begun == partial_.end() ? 0 : begun->second.size()});
+      }
     }
-  }
+  };
+  add_missing(manifest_.nodes);
+  add_missing(manifest_.pictures);
   return missing;
 }
 
 Result<AnnouncedMap::Receipt> AnnouncedMap::receive(const api::FleetChunk& chunk) {
-  const api::FleetNode* node = node_of(manifest_, chunk.hash);
-  if (node == nullptr) {
+  const std::optional<std::uint64_t> piece_bytes = bytes_of(manifest_, chunk.hash);
+  if (!piece_bytes) {
     return fail(Errc::kNotFound, kNotAnnounced);
   }
   if (pieces_.contains(chunk.hash)) {
-    return Receipt{node->piece_bytes, nullptr};
+    return Receipt{*piece_bytes, nullptr};
   }
   std::vector<std::uint8_t>& begun = partial_[chunk.hash];
   if (chunk.offset != begun.size()) {
     return Receipt{begun.size(), nullptr};  // sent twice, or a gap: the sender goes on from here
   }
-  if (chunk.data.empty() || begun.size() + chunk.data.size() > node->piece_bytes) {
+  if (chunk.data.empty() || begun.size() + chunk.data.size() > *piece_bytes) {
     partial_.erase(chunk.hash);
     return fail(Errc::kTooLarge, "the piece is longer than it was announced, or nothing was sent");
   }
   begun.insert(begun.end(), chunk.data.begin(), chunk.data.end());
-  if (begun.size() < node->piece_bytes) {
+  if (begun.size() < *piece_bytes) {
     return Receipt{begun.size(), nullptr};
   }
   const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(begun));

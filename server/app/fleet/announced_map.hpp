@@ -35,7 +35,7 @@ class AnnouncedMap {
   /// empty; kCorrupt: its hash differs. The piece is dropped in the last two cases.
   [[nodiscard]] Result<Receipt> receive(const api::FleetChunk& chunk);
 
-  /// Pieces that are not complete yet, in the order of the manifest.
+  /// Pieces that are not complete yet, in the order of the manifest: local maps, then pictures.
   [[nodiscard]] std::vector<api::FleetMissing> missing() const;
   [[nodiscard]] const api::FleetManifest& manifest() const { return manifest_; }
   /// The complete ones.

@@ -122,7 +122,7 @@ Status FleetFollower::announce() {
   if (!own) {
     return tl::unexpected<Error>(own.error());
   }
-  Result<PackedMap> packed = pack_map(own->map, params_.robot_id);
+  Result<PackedMap> packed = pack_map(own->map, params_.robot_id, own->pictures);
   if (!packed) {
     return tl::unexpected<Error>(packed.error());
   }

@@ -39,13 +39,13 @@ FleetJudge::FleetJudge(const fleet::MergeParams& params, Duration retry_period, 
 
 void FleetJudge::recall(RememberedFleet remembered) {
   joint_epoch_ = remembered.joint_epoch;
-  if (!remembered.own_map || !pairs_.update(kMainSlot, std::move(*remembered.own_map))) {
+  if (!remembered.own_map ||
+      !pairs_.update(kMainSlot, std::move(*remembered.own_map), std::move(remembered.own_pictures))) {
     return;
   }
   main_.recall(pairs_.map(kMainSlot), remembered.own_topology, std::move(remembered.own_finds));
   for (MemberMap& member : book_.maps()) {
-    Result<LineMap> theirs = unpack_map(member.manifest, member.pieces);
-    if (theirs && pairs_.update(member.slot, std::move(*theirs))) {
+    if (take(member)) {
       judged_nodes_[member.slot] = std::move(member.manifest.nodes);
     }
   }
@@ -63,8 +63,7 @@ void FleetJudge::judge(const std::string& robot_id) {
       pairs_.forget_map(member->slot);
     }
     before = member->manifest.nodes;
-    Result<LineMap> map = unpack_map(member->manifest, member->pieces);
-    const Status compared = map ? compare(member->slot, std::move(*map)) : tl::unexpected<Error>(map.error());
+    const Status compared = compare(*member);
     book_.set_trouble(robot_id, compared ? "" : compared.error().message);
   }
   join_all();
@@ -96,19 +95,31 @@ Status FleetJudge::take_own_map(Result<OwnMap> own) {
   if (new_map) {
     pairs_.forget_map(kMainSlot);
   }
-  return pairs_.update(kMainSlot, std::move(own->map));
+  return pairs_.update(kMainSlot, std::move(own->map), std::move(own->pictures));
 }
 
-Status FleetJudge::compare(std::uint8_t slot, LineMap map) {
+Status FleetJudge::take(const MemberMap& member) {
+  Result<LineMap> map = unpack_map(member.manifest, member.pieces);
+  if (!map) {
+    return tl::unexpected<Error>(map.error());
+  }
+  Result<fleet::NodePictures> pictures = unpack_pictures(member.manifest, member.pieces);
+  if (!pictures) {
+    return tl::unexpected<Error>(pictures.error());
+  }
+  return pairs_.update(member.slot, std::move(*map), std::move(*pictures));
+}
+
+Status FleetJudge::compare(const MemberMap& member) {
   if (Status ready = take_own_map(ask_own_map()); !ready) {
     return ready;
   }
-  if (Status ready = pairs_.update(slot, std::move(map)); !ready) {
+  if (Status ready = take(member); !ready) {
     return ready;
   }
   pairs_.mark_stale();
-  pairs_.compare(kMainSlot, slot);
-  compare_with_others(slot);
+  pairs_.compare(kMainSlot, member.slot);
+  compare_with_others(member.slot);
   return {};
 }
 
@@ -160,7 +171,8 @@ Result<fleet::JointMap> FleetJudge::join(const JoinOutcome& outcome) {
 }
 
 JudgedFleet FleetJudge::judged() const {
-  return {&pairs_.map(kMainSlot), pairs_.version(kMainSlot), joint_epoch_, pairs_.all_answers()};
+  return {&pairs_.map(kMainSlot), &pairs_.pictures(kMainSlot), pairs_.version(kMainSlot), joint_epoch_,
+          pairs_.all_answers()};
 }
 
 }  // namespace seeker::app

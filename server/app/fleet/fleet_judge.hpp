@@ -43,7 +43,8 @@ class FleetJudge {
  private:
   [[nodiscard]] Result<OwnMap> ask_own_map() const;
   [[nodiscard]] Status take_own_map(Result<OwnMap> own);
-  [[nodiscard]] Status compare(std::uint8_t slot, LineMap map);
+  [[nodiscard]] Status take(const MemberMap& member);
+  [[nodiscard]] Status compare(const MemberMap& member);
   void compare_with_others(std::uint8_t slot);
   void join_all();
   [[nodiscard]] Result<fleet::JointMap> join(const JoinOutcome& outcome);

@@ -61,6 +61,9 @@ RememberedFleet FleetMemory::recall(const v1::KeptFleet& kept) {
   }
   packed_ = {*own, pieces};
   fleet.own_map = std::move(*map);
+  if (Result<fleet::NodePictures> pictures = unpack_pictures(*own, pieces)) {
+    fleet.own_pictures = std::move(*pictures);
+  }
   if (Result<RobotTopology> topology = wire::from_message<RobotTopology>(kept.own_topology())) {
     fleet.own_topology = std::move(*topology);
   }
@@ -94,11 +97,11 @@ std::vector<fleet::PairAnswer> FleetMemory::recall_pairs(const v1::KeptFleet& ke
   return pairs;
 }
 
-void FleetMemory::keep_own_map(const LineMap& map, std::uint64_t version) {
+void FleetMemory::keep_own_map(const LineMap& map, const fleet::NodePictures& pictures, std::uint64_t version) {
   if (packed_version_ == version) {
     return;
   }
-  Result<PackedMap> packed = pack_map(map, robot_id_);
+  Result<PackedMap> packed = pack_map(map, robot_id_, pictures);
   if (!packed) {
     log::warning(kFleetPart, "the main robot's own map is not kept for a restart: " + packed.error().message);
     return;
@@ -114,7 +117,7 @@ void FleetMemory::keep_own_map(const LineMap& map, std::uint64_t version) {
 
 void FleetMemory::keep(const JudgedFleet& judged, const RobotReport& own,
                        const std::map<std::string, std::uint8_t>& slots) {
-  keep_own_map(*judged.own_map, judged.own_version);
+  keep_own_map(*judged.own_map, *judged.own_pictures, judged.own_version);
   if (packed_.manifest.nodes.empty()) {
     return;  // nothing yet, or what is on disk holds
   }

@@ -24,6 +24,7 @@ struct RememberedFleet {
   std::uint32_t joint_epoch = 0;  ///< of the joint map; the next one has a higher epoch
   /// The main robot's own map; absent where it cannot be read: the rest is empty then.
   std::optional<LineMap> own_map;
+  fleet::NodePictures own_pictures;
   std::optional<RobotTopology> own_topology;
   std::vector<api::Detection> own_finds;
   std::vector<fleet::PairAnswer> pairs;
@@ -31,14 +32,16 @@ struct RememberedFleet {
 
 /// What the judge knows of all maps together.
 struct JudgedFleet {
-  const LineMap* own_map = nullptr;  ///< not null
-  std::uint64_t own_version = 0;     ///< rises when the own map changes
+  const LineMap* own_map = nullptr;                   ///< not null
+  const fleet::NodePictures* own_pictures = nullptr;  ///< not null
+  std::uint64_t own_version = 0;                      ///< rises when the own map or pictures change
   std::uint32_t joint_epoch = 0;
   std::vector<fleet::PairAnswer> pairs;  ///< of all robots
 };
 
-/// The file `memory`, and the main robot's own map as pieces beside it: of a map that grows most pieces stay the same.
-/// read() is for the thread that makes this, before the worker starts; all else is for the worker, without a lock.
+/// The file `memory`, and the main robot's own map and pictures as pieces beside it: of a map that grows most pieces
+/// stay the same. read() is for the thread that makes this, before the worker starts; all else is for the worker,
+/// without a lock.
 class FleetMemory {
  public:
   /// `pieces` must outlive this and have the same folder.
@@ -58,7 +61,7 @@ class FleetMemory {
   void keep(const JudgedFleet& judged, const RobotReport& own, const std::map<std::string, std::uint8_t>& slots);
 
  private:
-  void keep_own_map(const LineMap& map, std::uint64_t version);
+  void keep_own_map(const LineMap& map, const fleet::NodePictures& pictures, std::uint64_t version);
   [[nodiscard]] std::vector<fleet::PairAnswer> recall_pairs(const v1::KeptFleet& kept) const;
 
   const std::filesystem::path folder_;

@@ -6,6 +6,7 @@
 
 #include "common/core/angle.hpp"
 #include "common/wire/sha256.hpp"
+#include "server/app/fleet/picture_piece.hpp"
 #include "server/fleet/merge_memory.hpp"
 #include "server/store/map_file.hpp"
 
@@ -36,9 +37,23 @@ LineMap local_map(const LineMap& map, const MapNode& node) {
   return local;
 }
 
+/// Those of local maps that are not there would show nothing.
+void add_pictures(const LineMap& map, const fleet::NodePictures& pictures, PackedMap& packed) {
+  for (const auto& picture : pictures) {
+    const bool placed =
+        std::any_of(map.nodes.begin(), map.nodes.end(), [&](const MapNode& node) { return node.id == picture->node; });
+    if (placed && packed.manifest.pictures.size() < api::kMaxFleetPictures) {
+      std::vector<std::uint8_t> bytes = encode_picture(*picture);
+      const api::PieceHash hash = wire::sha256_of(bytes);
+      packed.manifest.pictures.push_back({hash, bytes.size()});
+      packed.pieces[hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
+    }
+  }
+}
+
 }  // namespace
 
-Result<PackedMap> pack_map(const LineMap& map, const std::string& robot_id) {
+Result<PackedMap> pack_map(const LineMap& map, const std::string& robot_id, const fleet::NodePictures& pictures) {
   if (map.nodes.size() > api::kMaxFleetNodes || map.edges.size() > api::kMaxFleetEdges) {
     return fail(Errc::kTooLarge, "the map has more local maps or relations than a fleet takes");
   }
@@ -65,6 +80,7 @@ Result<PackedMap> pack_map(const LineMap& map, const std::string& robot_id) {
     manifest.nodes.push_back({node, hash, bytes->size()});
     packed.pieces[hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*bytes));
   }
+  add_pictures(map, pictures, packed);
   return packed;
 }
 
@@ -98,6 +114,23 @@ Result<LineMap> unpack_map(const api::FleetManifest& manifest, const Pieces& pie
     return tl::unexpected<Error>(valid.error());
   }
   return map;
+}
+
+Result<fleet::NodePictures> unpack_pictures(const api::FleetManifest& manifest, const Pieces& pieces) {
+  fleet::NodePictures pictures;
+  pictures.reserve(manifest.pictures.size());
+  for (const api::FleetPicture& named : manifest.pictures) {
+    const auto piece = pieces.find(named.hash);
+    if (piece == pieces.end()) {
+      return fail(Errc::kNotReady, "a piece is missing");
+    }
+    Result<fleet::NodePicture> picture = decode_picture(*piece->second);
+    if (!picture) {
+      return tl::unexpected<Error>(picture.error());
+    }
+    pictures.push_back(std::make_shared<const fleet::NodePicture>(std::move(*picture)));
+  }
+  return pictures;
 }
 
 bool same_frame(const std::vector<api::FleetNode>& a, const std::vector<api::FleetNode>& b) {

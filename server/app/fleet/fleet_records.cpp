@@ -53,6 +53,8 @@ void write_hypothesis(const fleet::MergeHypothesis& from, v1::KeptHypothesis* to
   to->set_residual_m(from.residual_m);
   to->set_confidence(from.confidence);
   to->set_denied_piece_m(from.denied_piece_m);
+  to->set_places_alike(static_cast<std::uint32_t>(from.pictures.alike));
+  to->set_places_unlike(static_cast<std::uint32_t>(from.pictures.unlike));
 }
 
 void read_hypothesis(const v1::KeptHypothesis& from, fleet::MergeHypothesis& to, wire::Check& check) {
@@ -71,6 +73,7 @@ void read_hypothesis(const v1::KeptHypothesis& from, fleet::MergeHypothesis& to,
   to.residual_m = check.finite("residual_m", from.residual_m());
   to.confidence = check.finite("confidence", from.confidence());
   to.denied_piece_m = check.finite("denied_piece_m", from.denied_piece_m());
+  to.pictures = {from.places_alike(), from.places_unlike()};
 }
 
 }  // namespace

@@ -1,16 +1,30 @@
 #include "server/app/fleet/map_pairs.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "server/fleet/merge_memory.hpp"
 
 namespace seeker::app {
 
-Status MapPairs::update(std::uint8_t slot, LineMap map) {
+namespace {
+
+bool same_pictures(const fleet::NodePictures& a, const fleet::NodePictures& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& one, const auto& other) { return one == other || *one == *other; });
+}
+
+}  // namespace
+
+Status MapPairs::update(std::uint8_t slot, LineMap map, fleet::NodePictures pictures) {
   fleet::PreparedMap& prepared = prepared_[slot];
-  if (prepared.map() == map) {
+  const bool same_map = prepared.map() == map;
+  if (same_map && same_pictures(prepared.pictures(), pictures)) {
     return {};
   }
   ++versions_[slot];
-  return prepared.update(std::move(map));
+  prepared.set_pictures(std::move(pictures));
+  return same_map ? Status() : prepared.update(std::move(map));
 }
 
 void MapPairs::forget_map(std::uint8_t slot) {
@@ -59,6 +73,12 @@ const LineMap& MapPairs::map(std::uint8_t slot) const {
   static const LineMap none;
   const auto prepared = prepared_.find(slot);
   return prepared == prepared_.end() ? none : prepared->second.map();
+}
+
+const fleet::NodePictures& MapPairs::pictures(std::uint8_t slot) const {
+  static const fleet::NodePictures none;
+  const auto prepared = prepared_.find(slot);
+  return prepared == prepared_.end() ? none : prepared->second.pictures();
 }
 
 std::uint64_t MapPairs::version(std::uint8_t slot) const {

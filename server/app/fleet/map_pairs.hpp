@@ -21,8 +21,8 @@ class MapPairs {
   /// `retry_period`: see compare_aged().
   MapPairs(const fleet::MergeParams& params, Duration retry_period) : merger_(params), retry_period_(retry_period) {}
 
-  /// Takes the map of a robot as it is now. Errors as validate(LineMap).
-  [[nodiscard]] Status update(std::uint8_t slot, LineMap map);
+  /// Takes the map of a robot as it is now, and its pictures. Errors as validate(LineMap).
+  [[nodiscard]] Status update(std::uint8_t slot, LineMap map, fleet::NodePictures pictures = {});
   /// A robot has begun a new map: its map before and the answers for its pairs are dropped. Nothing that was prepared
   /// of the one may serve the other, however alike their numbers of local maps and keyframes are.
   void forget_map(std::uint8_t slot);
@@ -39,7 +39,9 @@ class MapPairs {
   [[nodiscard]] bool contains(std::uint8_t slot) const { return prepared_.contains(slot); }
   /// Empty where the robot has none.
   [[nodiscard]] const LineMap& map(std::uint8_t slot) const;
-  /// Rises when the map of the robot changes; 0: it has none.
+  /// Empty where the robot has none.
+  [[nodiscard]] const fleet::NodePictures& pictures(std::uint8_t slot) const;
+  /// Rises when the map or the pictures of the robot change; 0: it has none.
   [[nodiscard]] std::uint64_t version(std::uint8_t slot) const;
   /// By rising slots. Without the stale ones:
   [[nodiscard]] std::vector<fleet::PairAnswer> fresh_answers() const;

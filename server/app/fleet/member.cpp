@@ -41,6 +41,7 @@ api::FleetMember Member::describe(WallTime now, Duration silence_limit) const {
   out.linked = !silent(seen, now, 2 * silence_limit);
   out.nodes = static_cast<std::uint32_t>(manifest.nodes.size());
   out.pieces_missing = static_cast<std::uint32_t>(map.missing().size());
+  out.pictures = static_cast<std::uint32_t>(manifest.pictures.size());
   if (out.main_T_map) {
     out.detections = report.finds_in(*out.main_T_map);
     if (manifest.map_T_base) {

@@ -83,6 +83,9 @@ Result<api::FleetAnswer> MemberBook::announce(const api::FleetManifest& manifest
   for (const api::FleetNode& node : manifest.nodes) {
     bytes += node.piece_bytes;
   }
+  for (const api::FleetPicture& picture : manifest.pictures) {
+    bytes += picture.piece_bytes;
+  }
   if (bytes > kMaxRobotBytes) {
     return fail(Errc::kTooLarge, "the map has more than 256 MiB");
   }
@@ -98,7 +101,8 @@ Result<api::FleetAnswer> MemberBook::announce(const api::FleetManifest& manifest
   }
   member.seen = now;
   const api::FleetManifest& before = member.map.manifest();
-  const bool changed = is_new || before.nodes != manifest.nodes || before.edges != manifest.edges;
+  const bool changed = is_new || before.nodes != manifest.nodes || before.edges != manifest.edges ||
+                       before.pictures != manifest.pictures;
   if (!same_frame(before.nodes, manifest.nodes) && member.begin_new_map(manifest)) {
     ++revision_;
   }

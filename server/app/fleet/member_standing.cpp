@@ -20,8 +20,12 @@ api::FleetState state_of(fleet::MergeVerdict verdict) {
 }
 
 api::FleetHypothesis as_api(const fleet::MergeHypothesis& from) {
-  return {from.a_T_b.a_T_b, from.confidence, from.shared_wall_m, from.contradiction,
-          static_cast<std::uint32_t>(from.pairs.size())};
+  return {from.a_T_b.a_T_b,
+          from.confidence,
+          from.shared_wall_m,
+          from.contradiction,
+          static_cast<std::uint32_t>(from.pairs.size()),
+          static_cast<std::uint32_t>(from.pictures.alike)};
 }
 
 }  // namespace

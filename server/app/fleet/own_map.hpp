@@ -11,14 +11,16 @@
 #include "common/core/line_map.hpp"
 #include "common/core/searched_floor.hpp"
 #include "common/core/topology.hpp"
+#include "server/fleet/node_picture.hpp"
 #include "server/nav/shared_floor.hpp"
 
 namespace seeker::app {
 
-/// A robot's map, and where it is in it; no place where it does not know.
+/// A robot's map, and where it is in it; no place where it does not know. Pictures of its topology's nodes.
 struct OwnMap {
   LineMap map;
   std::optional<Pose2> map_T_base;
+  fleet::NodePictures pictures{};
 };
 /// What it reports of where it has been and means to go, frame `map`; nothing where it does not know its place.
 using OwnTopology = std::optional<RobotTopology>;

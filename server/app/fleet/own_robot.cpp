@@ -38,6 +38,7 @@ void OwnRobot::take_map(const OwnMap& own, bool is_new_map) {
   const std::lock_guard lock(mutex_);
   map_T_base_ = own.map_T_base;
   places_ = places_of(own.map);
+  pictures_ = own.pictures.size();
   if (is_new_map) {
     forget_report();
   }
@@ -88,6 +89,7 @@ api::FleetMember OwnRobot::describe() const {
   own.confidence = 1.0;
   own.linked = true;
   own.nodes = static_cast<std::uint32_t>(places_.size());
+  own.pictures = static_cast<std::uint32_t>(pictures_);
   own.main_T_map = Pose2{};
   own.main_T_base = map_T_base_;
   own.places = places_;

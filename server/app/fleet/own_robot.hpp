@@ -2,6 +2,7 @@
 /// What the main robot knows of itself for its fleet.
 #pragma once
 
+#include <cstddef>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -47,6 +48,7 @@ class OwnRobot {
   const std::string robot_id_;
   mutable std::mutex mutex_;    ///< guards what follows
   std::vector<Point2> places_;  ///< of its local maps
+  std::size_t pictures_ = 0;    ///< of its topology's nodes
   std::optional<Pose2> map_T_base_;
   RobotReport report_;
   bool remembered_ = false;

@@ -22,13 +22,17 @@ std::string piece_name(const api::PieceHash& hash) { return wire::to_hex(hash) +
 Pieces PieceFiles::load(const api::FleetManifest& manifest) const {
   const fs::path folder = folder_ / manifest.robot_id;
   Pieces pieces;
-  for (const api::FleetNode& node : manifest.nodes) {
-    Result<std::vector<std::uint8_t>> piece =
-        files::read_file(folder / piece_name(node.hash), api::kMaxFleetPieceBytes);
-    if (piece && wire::sha256_of(*piece) == node.hash) {
-      pieces[node.hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*piece));
+  const auto load_all = [&](const auto& named) {
+    for (const auto& one : named) {
+      Result<std::vector<std::uint8_t>> piece =
+          files::read_file(folder / piece_name(one.hash), api::kMaxFleetPieceBytes);
+      if (piece && wire::sha256_of(*piece) == one.hash) {
+        pieces[one.hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*piece));
+      }
     }
-  }
+  };
+  load_all(manifest.nodes);
+  load_all(manifest.pictures);
   return pieces;
 }
 

@@ -23,6 +23,16 @@ Result<StereoLook> features_in(const vision::StereoExtractor& extractor, const S
   return look;
 }
 
+Result<TakenPicture> features_in(const vision::ViewFeatureExtractor& extractor, const Image& picture,
+                                 TakenPicture context) {
+  Result<vision::ViewFeatures> features = extractor.extract(picture);
+  if (!features) {
+    return tl::unexpected<Error>(features.error());
+  }
+  context.picture.features = std::move(*features);
+  return context;
+}
+
 }  // namespace
 
 Cameras::Cameras(const Parts& parts)
@@ -30,24 +40,35 @@ Cameras::Cameras(const Parts& parts)
       camera_name_(parts.devices.camera_name),
       stereo_(parts.devices.stereo),
       extractor_(parts.stereo),
+      describer_(parts.pictures),
       world_(parts.world),
       diagnostics_(parts.diagnostics),
       hub_(parts.hub),
       recognition_(parts.devices.clock->lockstep(), "the recogniser failed on a picture"),
-      looks_(parts.devices.clock->lockstep(), "a stereo picture could not be looked at") {}
+      looks_(parts.devices.clock->lockstep(), "a stereo picture could not be looked at"),
+      described_(parts.devices.clock->lockstep(), "the features of a picture could not be extracted") {}
 
-void Cameras::recognise(const std::shared_ptr<const vision::Recogniser>& recogniser, Recognition context) {
+/// A failure is a fault of the camera, or of the world that it shows.
+std::optional<CameraFrame> Cameras::expose() {
   Result<CameraFrame> frame = camera_->grab();
   if (!frame && !world_.check()) {
-    return;
+    return std::nullopt;
   }
   if (!frame) {
     diagnostics_.raise("camera-failed", "camera", "camera: " + frame.error().message,
                        "check the camera, then 'seeker components --restart camera'");
-    return;
+    return std::nullopt;
   }
   diagnostics_.clear("camera-failed");
   diagnostics_.components().count_output("camera", "picture", world_.now());
+  return std::move(*frame);
+}
+
+void Cameras::recognise(const std::shared_ptr<const vision::Recogniser>& recogniser, Recognition context) {
+  std::optional<CameraFrame> frame = expose();
+  if (!frame) {
+    return;
+  }
   if (hub_.wanted(api::Topic::kImage)) {
     hub_.publish(api::Topic::kImage, world_.now(),
                  api::ImageFrame{.camera = camera_name_, .frame = *frame, .map_T_base = context.map_T_base});
@@ -69,6 +90,31 @@ std::optional<Recognition> Cameras::take_recognition() {
     return std::nullopt;
   }
   diagnostics_.components().count_output("recogniser", "sightings", world_.now());
+  return std::move(**answer);
+}
+
+bool Cameras::describe(TakenPicture context) {
+  std::optional<CameraFrame> frame = expose();
+  if (!frame) {
+    return false;
+  }
+  described_.start([extractor = describer_, context = std::move(context), picture = std::move(frame->image)] {
+    return features_in(*extractor, picture, context);
+  });
+  return true;
+}
+
+std::optional<TakenPicture> Cameras::take_described() {
+  std::optional<Result<TakenPicture>> answer = described_.take();
+  if (!answer) {
+    return std::nullopt;
+  }
+  if (!*answer) {
+    diagnostics_.raise("pictures-failed", "camera", answer->error().message,
+                       "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
+    return std::nullopt;
+  }
+  diagnostics_.clear("pictures-failed");
   return std::move(**answer);
 }
 

@@ -15,9 +15,16 @@
 #include "server/app/runtime/background.hpp"
 #include "server/app/runtime/devices.hpp"
 #include "server/app/runtime/update_hub.hpp"
+#include "server/fleet/node_picture.hpp"
 #include "server/vision/stereo_features.hpp"
 
 namespace seeker::app {
+
+/// A picture that was taken for the fleet.
+struct TakenPicture {
+  fleet::NodePicture picture;
+  bool at_node = false;  ///< false: of a frame between two nodes, whose features nobody needs
+};
 
 /// Owns the recognition and the stereo observation that are in progress. Lives on the loop's thread.
 class Cameras {
@@ -26,6 +33,7 @@ class Cameras {
   struct Parts {
     const Devices& devices;
     std::shared_ptr<const vision::StereoExtractor> stereo;
+    std::shared_ptr<const vision::ViewFeatureExtractor> pictures;  ///< null: no features for the fleet
     WorldLink& world;
     Diagnostics& diagnostics;
     UpdateHub& hub;
@@ -53,10 +61,19 @@ class Cameras {
   /// Returns the result of the last look() once it is there.
   [[nodiscard]] std::optional<Result<StereoLook>> take_look();
 
+  /// True when the robot takes pictures for its fleet and none is being worked on or waits for take_described().
+  [[nodiscard]] bool can_describe() const { return camera_ != nullptr && describer_ != nullptr && !described_.busy(); }
+  /// Takes a picture and begins to extract its features for the fleet. Call it only when can_describe() is true.
+  /// `context` is where the robot is. False: the camera failed, which is a fault, and nothing follows.
+  bool describe(TakenPicture context);
+  /// Returns the features of the last describe() once they are there; nothing when the picture is of no use.
+  [[nodiscard]] std::optional<TakenPicture> take_described();
+
   /// Takes one picture for a client. An unknown camera is kNotFound, and the message lists those that there are.
   [[nodiscard]] Result<api::ImageFrame> grab(const std::string& camera, const Pose2& map_T_base);
 
  private:
+  [[nodiscard]] std::optional<CameraFrame> expose();
   void note_look(const Status& look);
   [[nodiscard]] Error refused(Error error);
 
@@ -64,11 +81,13 @@ class Cameras {
   std::string camera_name_;
   std::shared_ptr<drivers::StereoDriver> stereo_;
   std::shared_ptr<const vision::StereoExtractor> extractor_;
+  std::shared_ptr<const vision::ViewFeatureExtractor> describer_;
   WorldLink& world_;
   Diagnostics& diagnostics_;
   UpdateHub& hub_;
   Background<Recognition> recognition_;
   Background<StereoLook> looks_;
+  Background<TakenPicture> described_;
 };
 
 }  // namespace seeker::app

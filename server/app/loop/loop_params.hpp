@@ -4,9 +4,11 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "server/app/estimators/estimator.hpp"
 #include "server/app/loop/configuration.hpp"
@@ -17,6 +19,7 @@
 #include "server/lines/make_extractor.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/vision/stereo_features.hpp"
+#include "server/vision/view_features.hpp"
 
 namespace seeker::app {
 
@@ -56,6 +59,20 @@ struct Connections {
   RangeInputs safety;
 };
 
+/// When features of the camera's pictures are extracted for the fleet.
+enum class PicturesAt : std::uint8_t {
+  kNever,
+  kNodes,   ///< spec S4.5, KEYFRAME: at each node of the topology
+  kFrames,  ///< spec S4.5, FRAME: all the time; those at nodes are kept
+};
+[[nodiscard]] std::string_view to_string(PicturesAt at);
+
+struct NodePictureParams {
+  PicturesAt at = PicturesAt::kNodes;
+  Duration frame_period = std::chrono::seconds(1);  ///< robot time between two pictures of PicturesAt::kFrames
+  int features = 300;                               ///< number of features of a picture
+};
+
 struct LoopParams {
   std::string robot_id = "seeker-1";  ///< under which its topology is reported
   Duration period = std::chrono::milliseconds(100);
@@ -73,6 +90,7 @@ struct LoopParams {
   RobotMapParams map;
   FleetMotionParams fleet;
   Connections connections;
+  NodePictureParams pictures;
 };
 
 /// What the loop is put together from.
@@ -80,6 +98,8 @@ struct LoopParts {
   Devices devices;
   std::unique_ptr<Estimator> estimator;
   std::shared_ptr<const vision::StereoExtractor> stereo;  ///< null when no stereo features are needed
+  /// Extracts the features of the pictures that are taken for the fleet; null: none are.
+  std::shared_ptr<const vision::ViewFeatureExtractor> pictures;
   std::string estimator_type;
   std::string recogniser_type = "by_target";
   std::string planner_type = "by_mission";

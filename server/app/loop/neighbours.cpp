@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "common/api/fleet.hpp"
 #include "server/fleet/topology_map.hpp"
 
 namespace seeker::app {
@@ -54,6 +55,14 @@ void Neighbours::note_own(const Behaviour* behaviour, const Pose2& map_T_base, c
   own_.target_map = topology != nullptr ? behaviour->target_map() : std::nullopt;
   if (topology != nullptr) {
     own_.topology = *topology;
+    newest_node_ = topology->nodes.empty() ? 0 : topology->nodes.back().id;
+  }
+}
+
+void Neighbours::keep_picture(fleet::NodePicture picture) {
+  own_pictures_.push_back(std::make_shared<const fleet::NodePicture>(std::move(picture)));
+  if (own_pictures_.size() > api::kMaxFleetPictures) {
+    own_pictures_.erase(own_pictures_.begin());
   }
 }
 
@@ -80,6 +89,7 @@ void Neighbours::forget_places() {
   std::string robot_id = std::move(own_.robot_id);
   own_ = {};
   own_.robot_id = std::move(robot_id);
+  own_pictures_.clear();
   fleet_.reset();
 }
 

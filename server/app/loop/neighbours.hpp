@@ -2,6 +2,7 @@
 /// Neighbours knows the robots around this one: as the fleet reports them, and as the laser observes them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "common/core/topology.hpp"
 #include "server/app/loop/loop_params.hpp"
 #include "server/app/missions/behaviour.hpp"
+#include "server/fleet/node_picture.hpp"
 #include "server/nav/movers.hpp"
 #include "server/nav/seen_movers.hpp"
 
@@ -44,6 +46,15 @@ class Neighbours {
   /// Returns that report; it is inactive while no exploration by topology runs.
   [[nodiscard]] const RobotTopology& own() const { return own_; }
 
+  /// Whether the robot has made a node of its topology of which no picture was begun.
+  [[nodiscard]] bool wants_picture() const { return newest_node_ != pictured_node_; }
+  /// A picture of the newest node is being taken; keep_picture() follows, unless it fails.
+  void picture_begun() { pictured_node_ = newest_node_; }
+  /// Keeps the picture of a node for the fleet. Beyond api::kMaxFleetPictures the oldest one is dropped.
+  void keep_picture(fleet::NodePicture picture);
+  /// Returns the pictures of all nodes, in the order in which they were taken.
+  [[nodiscard]] const fleet::NodePictures& own_pictures() const { return own_pictures_; }
+
   /// The map was corrected around the robot by `new_T_old`: everything that is known here moves with it.
   void map_moved(const Pose2& new_T_old);
   /// Call it when another map takes the place of the present one.
@@ -57,6 +68,9 @@ class Neighbours {
   RobotTime fleet_at_;  ///< when it was reported
   nav::SeenMovers seen_movers_;
   RobotTopology own_;
+  fleet::NodePictures own_pictures_;
+  std::uint64_t newest_node_ = 0;    ///< id of the newest node of the topology; 0: none yet
+  std::uint64_t pictured_node_ = 0;  ///< of the node at which the last picture was begun
 };
 
 }  // namespace seeker::app

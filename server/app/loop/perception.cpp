@@ -4,9 +4,18 @@
 
 namespace seeker::app {
 
-Perception::Perception(const Cameras::Parts& parts, const Sensing& sensing, Localiser& localiser,
-                       MissionExecutor& missions)
-    : cameras_(parts), sensing_(sensing), localiser_(localiser), missions_(missions) {}
+std::string_view to_string(PicturesAt at) {
+  switch (at) {
+    case PicturesAt::kNever: return "never";
+    case PicturesAt::kNodes: return "nodes";
+    case PicturesAt::kFrames: return "frames";
+  }
+  return "unknown";
+}
+
+Perception::Perception(const Cameras::Parts& parts, const NodePictureParams& pictures, const Sensing& sensing,
+                       Localiser& localiser, MissionExecutor& missions)
+    : cameras_(parts), pictures_(pictures), sensing_(sensing), localiser_(localiser), missions_(missions) {}
 
 void Perception::take_answers() {
   take_recognition();
@@ -65,6 +74,43 @@ void Perception::give_look(const Result<StereoLook>& look) {
   localiser_.on_look(look);
   if (std::exchange(mission_waits_, false)) {
     missions_.on_look(look);
+  }
+}
+
+void Perception::look_for_fleet(Neighbours& neighbours, RobotTime now) {
+  take_described(neighbours);
+  const bool frame = pictures_.at == PicturesAt::kFrames && now >= next_frame_;
+  const bool node = neighbours.wants_picture();
+  const PoseEstimate& pose = localiser_.pose();
+  if ((!node && !frame) || !cameras_.can_describe() || !is_placed(pose.quality) || localiser_.tracker() == nullptr) {
+    return;
+  }
+  const std::vector<slam::MapPiece> pieces = localiser_.tracker()->pieces();
+  if (pieces.empty()) {
+    return;
+  }
+  next_frame_ = now + pictures_.frame_period;
+  const slam::MapPiece& newest = pieces.back();  // the robot's pose is known best in that one
+  TakenPicture context;
+  context.picture.node = newest.id;
+  context.picture.node_T_base = inverse(newest.map_T_piece) * pose.map_T_base;
+  context.at_node = node;
+  if (cameras_.describe(std::move(context)) && node) {
+    neighbours.picture_begun();
+  }
+  take_described(neighbours);  // inline: the features are there at once
+}
+
+void Perception::take_described(Neighbours& neighbours) {
+  std::optional<TakenPicture> taken = cameras_.take_described();
+  if (!taken) {
+    return;
+  }
+  ++picture_work_.pictures;
+  picture_work_.features += taken->picture.features.size();
+  if (taken->at_node) {
+    ++picture_work_.kept;
+    neighbours.keep_picture(std::move(taken->picture));
   }
 }
 

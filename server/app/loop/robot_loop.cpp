@@ -17,7 +17,8 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
       situation_(world_, sensing_, localiser_, neighbours_, devices_.stereo != nullptr && parts.stereo != nullptr),
       motion_(params.safety, devices_.base, sensing_, situation_, world_, diagnostics_),
       executor_(params.mission, parts.behaviours, mission_outputs(hub)),
-      perception_({devices_, parts.stereo, world_, diagnostics_, hub}, sensing_, localiser_, executor_),
+      perception_({devices_, parts.stereo, parts.pictures, world_, diagnostics_, hub}, params.pictures, sensing_,
+                  localiser_, executor_),
       maps_({world_, sensing_, motion_, localiser_, neighbours_, executor_, diagnostics_}, parts.forget_places),
       missions_(params.map,
                 {executor_, world_, sensing_, situation_, localiser_, maps_, motion_, diagnostics_, hooks_}),
@@ -111,6 +112,7 @@ Twist2 RobotLoop::decide(WallTime wall_now) {
   perception_.take_answers();
   const Decision decision = executor_.step(situation_.situation(), diagnostics_.faults().blocking(), wall_now);
   neighbours_.note_own(executor_.behaviour(), localiser_.pose().map_T_base, sensing_.velocity());
+  perception_.look_for_fleet(neighbours_, now());
   if (decision.wants_image && executor_.running()) {
     perception_.look_for_targets();
   }

@@ -61,6 +61,7 @@ class RobotLoop {
   [[nodiscard]] MissionControl& mission_control() { return missions_; }
   [[nodiscard]] Neighbours& neighbours() { return neighbours_; }
   [[nodiscard]] const Neighbours& neighbours() const { return neighbours_; }
+  [[nodiscard]] const Perception& perception() const { return perception_; }
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
   [[nodiscard]] Publisher& publisher() { return publisher_; }
   [[nodiscard]] WorldLink& world() { return world_; }

@@ -261,7 +261,7 @@ void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
       reply(tl::unexpected<Error>(map.error()));
       return;
     }
-    reply(OwnMap{std::move(*map), known_place(loop_)});
+    reply(OwnMap{std::move(*map), known_place(loop_), loop_.neighbours().own_pictures()});
   });
   if (!posted) {
     reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));

@@ -8,189 +8,20 @@
 #include <utility>
 
 #include "common/config/yaml.hpp"
-#include "common/core/angle.hpp"
 #include "common/files/files.hpp"
+#include "common/image/png.hpp"
 #include "server/app/composition/robot_assembly.hpp"
-#include "server/app/runtime/update_hub.hpp"
-#include "server/fleet/map_merger.hpp"
-#include "server/fleet/topology_map.hpp"
 #include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/resumable.hpp"
 #include "server/lab/experiments/seeds.hpp"
 #include "server/lab/experiments/table.hpp"
-#include "server/lab/map_merging/fleet_traffic.hpp"
+#include "server/lab/map_merging/fleet_exchange.hpp"
 #include "server/lab/map_merging/fleet_watch.hpp"
-#include "server/nav/shared_floor.hpp"
+#include "server/lab/map_merging/reproduce_map_merging.hpp"
 #include "server/options/world_options.hpp"
 
 namespace seeker::lab {
 namespace {
-
-/// One robot: its loop, the reports of its behaviour, its map ready for being merged.
-struct Member {
-  std::string id;
-  app::UpdateHub hub;
-  std::shared_ptr<sim::Simulation> simulation;
-  std::shared_ptr<drivers::Clock> clock;
-  std::unique_ptr<app::RobotLoop> loop;
-  fleet::PreparedMap map;
-  Status ran;
-};
-using Members = std::vector<std::unique_ptr<Member>>;
-
-/// How two robots' maps lie to each other.
-struct Relation {
-  std::size_t a = 0;
-  std::size_t b = 0;
-  std::optional<Pose2> a_T_b;
-  std::optional<RobotTime> since;
-};
-
-constexpr Duration kFloorPeriod = std::chrono::seconds(5);
-constexpr Duration kSharePeriod = std::chrono::seconds(1);
-
-/// Floor that is neither unknown nor occupied.
-double seen_m2(const std::optional<Grid<std::uint8_t>>& map) {
-  if (!map) {
-    return 0.0;
-  }
-  const auto free = std::count_if(map->cells().begin(), map->cells().end(),
-                                  [](std::uint8_t cell) { return cell != kUnknownCell && cell < kOccupiedCell / 2; });
-  return static_cast<double>(free) * map->frame().resolution_m * map->frame().resolution_m;
-}
-
-/// The data that the robots exchange between two ticks.
-class Exchange {
- public:
-  Exchange(Members& members, const FleetSpec& spec)
-      : members_(members), period_(seconds(spec.merge_period_s)), floors_(members.size()) {
-    for (std::size_t k = 0; spec.count_traffic && k < members_.size(); ++k) {
-      traffic_.emplace_back(members_[k]->id);
-    }
-    for (std::size_t a = 0; a < members_.size(); ++a) {
-      for (std::size_t b = a + 1; b < members_.size(); ++b) {
-        relations_.push_back({a, b, {}, {}});
-      }
-    }
-  }
-
-  void between(RobotTime now) {
-    if (now >= next_merge_) {
-      next_merge_ = now + period_;
-      merge(now);
-    }
-    if (now >= next_floors_) {
-      next_floors_ = now + kFloorPeriod;
-      carry_floors();
-    }
-    for (std::size_t k = 0; k < members_.size(); ++k) {
-      deliver(k);
-    }
-    if (now >= next_share_) {
-      next_share_ = now + kSharePeriod;
-      for (std::size_t k = 0; k < traffic_.size(); ++k) {
-        traffic_[k].share(members_[k]->loop->neighbours().own());
-      }
-    }
-  }
-  void fill(FleetResult& result) const {
-    result.pairs = static_cast<int>(relations_.size());
-    result.wrong = wrong_;
-    for (std::size_t k = 0; k < traffic_.size(); ++k) {
-      const auto robots = static_cast<double>(traffic_.size());
-      result.sent_bytes += static_cast<double>(traffic_[k].bytes()) / robots;
-      result.seen_m2 += seen_m2(members_[k]->loop->robot_map().occupancy().snapshot()) / robots;
-    }
-    for (const Relation& relation : relations_) {
-      if (relation.a_T_b) {
-        const auto [error_m, error_rad] = error_of(relation);
-        ++result.merged;
-        result.merged_at_s = std::max(result.merged_at_s, to_seconds(*relation.since));
-        result.error_m = std::max(result.error_m, error_m);
-        result.error_deg = std::max(result.error_deg, rad_to_deg(error_rad));
-      }
-    }
-  }
-
- private:
-  void merge(RobotTime now) {
-    for (std::size_t k = 0; k < members_.size(); ++k) {
-      const auto& member = members_[k];
-      if (Result<LineMap> map = member->loop->robot_map().map()) {
-        if (!traffic_.empty()) {
-          traffic_[k].announce(*map);
-        }
-        (void)member->map.update(*std::move(map));  // a map without walls yet is not to be merged
-      }
-    }
-    for (Relation& relation : relations_) {
-      const fleet::MergeAnswer answer = merger_.merge(members_[relation.a]->map, members_[relation.b]->map);
-      if (answer.merged()) {
-        relation.a_T_b = answer.hypotheses.front().a_T_b.a_T_b;
-        relation.since = relation.since.value_or(now);
-        const auto [error_m, error_rad] = error_of(relation);
-        wrong_ += error_m > kWrongMerge_m || error_rad > kWrongMerge_rad ? 1 : 0;
-      }
-    }
-  }
-
-  /// Position and angle, against where the robots truly began.
-  [[nodiscard]] std::pair<double, double> error_of(const Relation& relation) const {
-    const Pose2 world_T_a = members_[relation.a]->simulation->truth().world_T_start;
-    const Pose2 world_T_b = members_[relation.b]->simulation->truth().world_T_start;
-    const Pose2 truth = inverse(world_T_a) * world_T_b;
-    return {distance_m(truth, *relation.a_T_b), std::abs(wrap_angle(truth.theta_rad - relation.a_T_b->theta_rad))};
-  }
-
-  void deliver(std::size_t to) {
-    FleetView view{members_[to]->id, {}, floors_[to]};
-    for (const Relation& relation : relations_) {
-      if (relation.a_T_b && (relation.a == to || relation.b == to)) {
-        const Pose2 to_T_from = relation.a == to ? *relation.a_T_b : inverse(*relation.a_T_b);
-        view.others.push_back(seen_from(to_T_from, *members_[relation.a == to ? relation.b : relation.a]));
-      }
-    }
-    members_[to]->loop->neighbours().set_fleet(std::move(view), members_[to]->loop->now());
-  }
-
-  /// To each robot what the others that are merged with it have seen.
-  void carry_floors() {
-    for (std::size_t to = 0; to < members_.size(); ++to) {
-      std::vector<std::pair<Pose2, nav::SharedFloor>> floors;
-      for (const Relation& relation : relations_) {
-        if (relation.a_T_b && (relation.a == to || relation.b == to)) {
-          const Pose2 to_T_from = relation.a == to ? *relation.a_T_b : inverse(*relation.a_T_b);
-          const Member& from = *members_[relation.a == to ? relation.b : relation.a];
-          if (auto seen = from.loop->robot_map().occupancy().snapshot()) {
-            floors.emplace_back(to_T_from, std::make_shared<const Grid<std::uint8_t>>(*std::move(seen)));
-          }
-        }
-      }
-      floors_[to] = nav::carried(floors);
-      if (!traffic_.empty()) {
-        const api::TileUpdate all = members_[to]->loop->robot_map().tiles_since(0);
-        traffic_[to].floor(api::within_limits(all.tiles, members_[to]->loop->status().pose.map_T_base.translation()));
-      }
-    }
-  }
-
-  static RobotTopology seen_from(const Pose2& to_T_from, const Member& from) {
-    RobotTopology robot = fleet::moved(from.loop->neighbours().own(), to_T_from);
-    robot.robot_id = from.id;
-    return robot;
-  }
-
-  Members& members_;
-  Duration period_;
-  RobotTime next_merge_;
-  RobotTime next_floors_;
-  RobotTime next_share_;
-  std::vector<std::shared_ptr<const Grid<std::uint8_t>>> floors_;  ///< by member, in its frame `map`
-  std::vector<FleetTraffic> traffic_;                              ///< by member; empty where it is not counted
-  fleet::MapMerger merger_;
-  std::vector<Relation> relations_;
-  int wrong_ = 0;
-};
 
 api::MissionRequest request_of(const FleetSpec& spec) {
   api::ExploreMission explore;
@@ -203,12 +34,13 @@ api::MissionRequest request_of(const FleetSpec& spec) {
 }
 
 /// A robot whose devices are those of the shared world.
-Result<std::unique_ptr<Member>> seat(const FleetSpec& spec, app::RobotOptions options, std::size_t index,
-                                     drivers::SimDevices devices) {
-  auto member = std::make_unique<Member>();
+Result<std::unique_ptr<FleetMember>> seat(const FleetSpec& spec, app::RobotOptions options, std::size_t index,
+                                          drivers::SimDevices devices) {
+  auto member = std::make_unique<FleetMember>();
   member->id = "robot-" + std::to_string(index + 1);
   options.robot_id = member->id;
   options.sim.seed = spec.seed + index;
+  options.fleet.lead = true;  // it takes pictures for its fleet
   Result<app::Assembly> assembly = app::assemble(options);
   if (!assembly) {
     return tl::unexpected<Error>(assembly.error());
@@ -244,7 +76,7 @@ Result<drivers::SharedDevices> devices_of(const FleetSpec& spec, const app::Robo
 }
 
 /// Every loop in a thread of its own, until all have ended.
-void run_all(const FleetSpec& spec, Members& members) {
+void run_all(const FleetSpec& spec, FleetMembers& members) {
   std::vector<std::thread> threads;
   for (const auto& member : members) {
     threads.emplace_back([&spec, m = member.get()] {
@@ -280,6 +112,11 @@ void describe(config::Fields& f, FleetResult& result) {
   f.field("merged_at_s", result.merged_at_s);
   f.field("error_m", result.error_m);
   f.field("error_deg", result.error_deg);
+  f.field("pictures", result.pictures);
+  f.field("alike", result.alike);
+  f.field("injected", result.injected);
+  f.field("false_rejected", result.false_rejected);
+  f.field("false_accepted", result.false_accepted);
 }
 
 Result<std::string> settings_of(const FleetSpec& spec) {
@@ -287,7 +124,8 @@ Result<std::string> settings_of(const FleetSpec& spec) {
   if (!hash) {
     return tl::unexpected<Error>(hash.error());
   }
-  hash->add(std::to_string(spec.robots) + " " + std::to_string(spec.merge_period_s));
+  hash->add(std::to_string(spec.robots) + " " + std::to_string(spec.merge_period_s) +
+            (spec.inject_false_pair ? " false pair" : ""));
   return hash->hex();
 }
 
@@ -300,15 +138,15 @@ Result<FleetResult> run_fleet(const FleetSpec& spec) {
   if (!devices) {
     return tl::unexpected<Error>(devices.error());
   }
-  Members members;
+  FleetMembers members;
   for (std::size_t k = 0; k < devices->robots.size(); ++k) {
-    Result<std::unique_ptr<Member>> member = seat(spec, *options, k, std::move(devices->robots[k]));
+    Result<std::unique_ptr<FleetMember>> member = seat(spec, *options, k, std::move(devices->robots[k]));
     if (!member) {
       return tl::unexpected<Error>(member.error());
     }
     members.push_back(*std::move(member));
   }
-  Exchange exchange(members, spec);
+  FleetExchange exchange(members, spec, options->fleet.merge);
   FleetWatch watch;
   for (const auto& member : members) {
     watch.add(member->id, *member->loop, *member->simulation);
@@ -347,7 +185,8 @@ Result<std::vector<FleetResult>> fleet_missing(const std::vector<FleetSpec>& spe
                                                bool show_progress) {
   RunKind<FleetSpec, FleetResult> kind;
   kind.file = [&](const FleetSpec& spec) {
-    return out / "runs" / spec.world_file.stem() / ("fleet-" + std::to_string(spec.robots)) /
+    const std::string label = spec.label.empty() ? "" : "-" + spec.label;
+    return out / "runs" / spec.world_file.stem() / ("fleet-" + std::to_string(spec.robots) + label) /
            ("seed-" + std::to_string(spec.seed) + ".json");
   };
   kind.settings = [](const FleetSpec& spec) { return settings_of(spec); };
@@ -362,6 +201,10 @@ Result<std::vector<FleetResult>> fleet_missing(const std::vector<FleetSpec>& spe
     std::filesystem::create_directories(kind.file(spec).parent_path(), error);
     if (const Status kept = files::write_file(kind.file(spec), to_json(*result)); !kept) {
       return tl::unexpected<Error>(kept.error());
+    }
+    const std::filesystem::path figure = std::filesystem::path(kind.file(spec)).replace_extension(".png");
+    if (const Status drawn = image::write_png(figure, merged_figure(*result)); !drawn) {
+      return tl::unexpected<Error>(drawn.error());
     }
     const std::filesystem::path log = std::filesystem::path(kind.file(spec)).replace_extension(".log");
     if (const Status kept = files::write_file(log, result->log); !kept) {

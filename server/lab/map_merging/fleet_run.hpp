@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "common/config/fields.hpp"
+#include "common/core/line_map.hpp"
+#include "common/core/topology.hpp"
 #include "server/lab/experiments/sim_run.hpp"
 
 namespace seeker::lab {
@@ -17,10 +19,23 @@ struct FleetSpec : SimSpec {
   int robots = 2;               ///< number of robots, at the first starts of the world
   double merge_period_s = 5.0;  ///< robot time between two attempts to merge, and between announcements of a map
   bool count_traffic = false;   ///< counts FleetResult::sent_bytes, which takes time
+  std::string label;            ///< of the folder of the results: which kind of robot it is; empty: ours
+  /// The second robot has a picture of the first one's start at its own start, so that a false pair of nodes is
+  /// proposed as soon as both have a map (spec S7, R8).
+  bool inject_false_pair = false;
+};
+
+/// What Fig 10(a) shows of one robot, in its own frame `map`.
+struct FleetDrawing {
+  std::string id;
+  Pose2 main_T_map;
+  std::vector<MapSegment> segments;
+  std::vector<Pose2> path;
+  Topology topology;
 };
 
 struct FleetResult {
-  int schema = 2;
+  int schema = 3;
   std::string world;
   std::uint64_t seed = 0;
   std::string settings;
@@ -40,6 +55,12 @@ struct FleetResult {
   double merged_at_s = 0.0;  ///< when the last pair was first merged; 0: none
   double error_m = 0.0;      ///< largest error of the merges at the end
   double error_deg = 0.0;
+  int pictures = 0;        ///< pictures taken at nodes, by all robots
+  int alike = 0;           ///< places of either robot whose pictures confirm the merges at the end, least pair
+  int injected = 0;        ///< comparisons of two maps to which a false pair of nodes was added
+  int false_rejected = 0;  ///< comparisons in which the false pair was refused
+  int false_accepted = 0;  ///< comparisons in which a relation came of it
+  std::vector<FleetDrawing> drawings;  ///< of the first robot and those that are merged with it; not kept on disk
   // Where traffic is counted; not kept on disk.
   double sent_bytes = 0.0;  ///< bytes that a robot would have sent to the main one, mean
   double seen_m2 = 0.0;     ///< area of floor that a robot has observed, mean
@@ -53,7 +74,8 @@ inline constexpr double kWrongMerge_rad = 0.17;
 [[nodiscard]] Result<std::string> settings_of(const FleetSpec& spec);
 /// Runs until every robot has ended. Errors: those of the files, too few starts, a refused mission.
 [[nodiscard]] Result<FleetResult> run_fleet(const FleetSpec& spec);
-/// Loads or makes runs, see resume_runs(); files out/runs/WORLD/fleet-N/seed-S.json and seed-S.log.
+/// Loads or makes runs, see resume_runs(); files out/runs/WORLD/fleet-N/seed-S.json, seed-S.log and
+/// seed-S.png (Fig 10(a)); fleet-N-LABEL where the spec has a label.
 [[nodiscard]] Result<std::vector<FleetResult>> fleet_missing(const std::vector<FleetSpec>& specs,
                                                              const std::filesystem::path& out, bool show_progress);
 

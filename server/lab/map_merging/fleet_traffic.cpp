@@ -15,8 +15,8 @@ std::uint64_t size_of(const T& value) {
 
 }  // namespace
 
-void FleetTraffic::announce(const LineMap& map) {
-  const Result<app::PackedMap> packed = app::pack_map(map, robot_id_);
+void FleetTraffic::announce(const LineMap& map, const fleet::NodePictures& pictures) {
+  const Result<app::PackedMap> packed = app::pack_map(map, robot_id_, pictures);
   if (!packed) {
     return;
   }

@@ -11,6 +11,7 @@
 #include "common/core/line_map.hpp"
 #include "common/core/occupancy_tile.hpp"
 #include "common/core/topology.hpp"
+#include "server/fleet/node_picture.hpp"
 
 namespace seeker::lab {
 
@@ -20,7 +21,7 @@ class FleetTraffic {
   explicit FleetTraffic(std::string robot_id) : robot_id_(std::move(robot_id)) {}
 
   /// Counts the manifest and the pieces that were not sent yet. A map that cannot be packed sends nothing.
-  void announce(const LineMap& map);
+  void announce(const LineMap& map, const fleet::NodePictures& pictures = {});
   void share(const RobotTopology& topology);
   void floor(const std::vector<OccupancyTile>& tiles);
 

@@ -157,37 +157,114 @@ Check check_sharing(const std::vector<FleetResult>& runs, const std::vector<Expl
                       {"runs", std::to_string(ratios.size())}}};
 }
 
-Check check_keyframes(const std::vector<LoadSample>& samples) {
+Check check_printed_merges(const std::vector<FleetResult>& runs) {
+  Check check = check_merges(runs);
+  check.id = "R8-PRINTED";
+  check.finding = true;
+  return check;
+}
+
+Check check_false_pairs(const std::vector<FleetResult>& runs) {
+  int injected = 0;
+  int rejected = 0;
+  int accepted = 0;
+  int wrong = 0;
+  bool in_each = !runs.empty();
+  for (const FleetResult& run : runs) {
+    injected += run.injected;
+    rejected += run.false_rejected;
+    accepted += run.false_accepted;
+    wrong += run.wrong;
+    in_each = in_each && run.false_rejected > 0;
+  }
+  return {.id = "R8-FALSE",
+          .passed = in_each && accepted == 0 && wrong == 0,
+          .figures = {{"injected", std::to_string(injected)},
+                      {"rejected", std::to_string(rejected)},
+                      {"accepted", std::to_string(accepted)},
+                      {"wrong", std::to_string(wrong)},
+                      {"runs", std::to_string(runs.size())}}};
+}
+
+namespace {
+
+std::string share_in_time(const std::vector<FleetResult>& runs, int& in_time) {
+  in_time = static_cast<int>(std::count_if(runs.begin(), runs.end(), [](const FleetResult& run) {
+    return run.merged == run.pairs && run.merged_at_s <= kPosterTime_s;
+  }));
+  return std::to_string(in_time) + "/" + std::to_string(runs.size());
+}
+
+}  // namespace
+
+Check check_posters(const std::vector<FleetResult>& pictures, const std::vector<FleetResult>& laser) {
+  int wrong = 0;
+  double error_m = 0.0;
+  std::vector<double> at_s;
+  for (const FleetResult& run : pictures) {
+    wrong += run.wrong;
+    error_m = std::max(error_m, run.error_m);
+    if (run.merged > 0) {
+      at_s.push_back(run.merged_at_s);
+    }
+  }
+  std::vector<double> laser_at_s;
+  for (const FleetResult& run : laser) {
+    if (run.merged > 0) {
+      laser_at_s.push_back(run.merged_at_s);
+    }
+  }
+  int with_pictures = 0;
+  int with_laser = 0;
+  const std::string share = share_in_time(pictures, with_pictures);
+  const std::string laser_share = share_in_time(laser, with_laser);
+  return {.id = "S4-POSTERS",
+          .passed = !pictures.empty() && wrong == 0 && with_pictures > with_laser,
+          .figures = {{"merged_in_300_s", share},
+                      {"laser_alone", laser_share},
+                      {"wrong", std::to_string(wrong)},
+                      {"error_max_m", fixed(error_m, 3)},
+                      {"merged_at_s", fixed(mean_spread(at_s).mean, 0)},
+                      {"laser_merged_at_s", fixed(mean_spread(laser_at_s).mean, 0)}}};
+}
+
+Check check_keyframes(std::vector<LoadSample> keyframe, std::vector<LoadSample> frame) {
+  const std::size_t seconds = std::min(keyframe.size(), frame.size());
+  keyframe.resize(seconds);
+  frame.resize(seconds);
   double frame_s = 0.0;
   double keyframe_s = 0.0;
   int frame_features = 0;
   int keyframe_features = 0;
   int nodes = 0;
-  int nodes_with_features = 0;
-  std::vector<const LoadSample*> by_load;
-  for (const LoadSample& sample : samples) {
-    frame_s += sample.frame_s();
-    keyframe_s += sample.keyframe_s();
+  int pictured = 0;
+  int elsewhere = 0;
+  for (const LoadSample& sample : frame) {
+    frame_s += sample.cpu_s;
     frame_features += sample.features;
-    keyframe_features += sample.keyframe_features();
-    nodes += sample.node ? 1 : 0;
-    nodes_with_features += sample.keyframe_features() > 0 ? 1 : 0;
-    by_load.push_back(&sample);
   }
-  std::stable_sort(by_load.begin(), by_load.end(),
-                   [](const LoadSample* a, const LoadSample* b) { return a->keyframe_s() > b->keyframe_s(); });
+  for (const LoadSample& sample : keyframe) {
+    keyframe_s += sample.cpu_s;
+    keyframe_features += sample.features;
+    nodes += sample.node ? 1 : 0;
+    pictured += sample.node && sample.features > 0 ? 1 : 0;
+    elsewhere += !sample.node && sample.pictures > 0 ? 1 : 0;
+  }
+  std::stable_sort(keyframe.begin(), keyframe.end(),
+                   [](const LoadSample& a, const LoadSample& b) { return a.cpu_s > b.cpu_s; });
   const auto peaks_at_nodes =
-      std::count_if(by_load.begin(), by_load.begin() + nodes, [](const LoadSample* sample) { return sample->node; });
-  const double count = std::max(1.0, static_cast<double>(samples.size()));
+      std::count_if(keyframe.begin(), keyframe.begin() + nodes, [](const LoadSample& sample) { return sample.node; });
+  const double count = std::max(1.0, static_cast<double>(seconds));
   return {.id = "R9",
-          .passed = nodes > 0 && nodes_with_features == nodes && keyframe_features < frame_features,
+          .passed = nodes > 0 && pictured == nodes && elsewhere == 0 && keyframe_features < frame_features,
           .figures = {{"features_keyframe", std::to_string(keyframe_features)},
                       {"features_frame", std::to_string(frame_features)},
-                      {"nodes_with_features", std::to_string(nodes_with_features) + "/" + std::to_string(nodes)},
+                      {"nodes_with_features", std::to_string(pictured) + "/" + std::to_string(nodes)},
+                      {"pictures_elsewhere", std::to_string(elsewhere)},
                       {"frame_mean_s", fixed(frame_s / count, 4)},
                       {"keyframe_mean_s", fixed(keyframe_s / count, 4)},
                       {"time_peaks_at_nodes", std::to_string(peaks_at_nodes) + "/" + std::to_string(nodes)},
-                      {"seconds", std::to_string(samples.size())}}};
+                      {"seconds", std::to_string(seconds)}}};
 }
 
 }  // namespace seeker::lab

@@ -78,13 +78,15 @@ Image tree_figure(const LaserScan& scan, const fleet::SpaceTree& tree, const fle
   return image::draw_chart(chart, kSide_px, kSide_px);
 }
 
-Image load_figure(const std::vector<LoadSample>& samples) {
-  image::Series frame{.name = "FRAME", .x = {}, .y = {}};
-  image::Series keyframe{.name = "KEYFRAME", .x = {}, .y = {}};
+Image load_figure(const std::vector<LoadSample>& keyframe, const std::vector<LoadSample>& frame) {
+  image::Series frames{.name = "FRAME", .x = {}, .y = {}};
+  image::Series keyframes{.name = "KEYFRAME", .x = {}, .y = {}};
   image::Series nodes{.name = "node", .x = {}, .y = {}, .style = image::SeriesStyle::kPoints};
-  for (const LoadSample& sample : samples) {
-    add_point(frame, {sample.time_s, sample.frame_s()});
-    add_point(keyframe, {sample.time_s, sample.keyframe_s()});
+  for (const LoadSample& sample : frame) {
+    add_point(frames, {sample.time_s, sample.cpu_s});
+  }
+  for (const LoadSample& sample : keyframe) {
+    add_point(keyframes, {sample.time_s, sample.cpu_s});
     if (sample.node) {
       add_point(nodes, {sample.time_s, 0.0});
     }
@@ -93,8 +95,37 @@ Image load_figure(const std::vector<LoadSample>& samples) {
   chart.title = "Processor time of a second of robot time";
   chart.x_label = "time, s";
   chart.y_label = "processor time, s";
-  chart.series = {std::move(frame), std::move(keyframe), std::move(nodes)};
+  chart.series = {std::move(frames), std::move(keyframes), std::move(nodes)};
   return image::draw_chart(chart);
+}
+
+Image merged_figure(const FleetResult& run) {
+  using image::SeriesStyle;
+  image::Chart chart;
+  chart.title = "Maps of " + std::to_string(run.robots) + " robots with their nodes, seed " + std::to_string(run.seed);
+  chart.x_label = "x, m";
+  chart.y_label = "y, m";
+  chart.equal_scale = true;
+  for (const FleetDrawing& robot : run.drawings) {
+    image::Series walls{.name = robot.id + ": walls", .x = {}, .y = {}};
+    for (const MapSegment& segment : robot.segments) {
+      add_point(walls, robot.main_T_map * segment.left());
+      add_point(walls, robot.main_T_map * segment.right());
+      lift_pen(walls);
+    }
+    image::Series path{.name = "path", .x = {}, .y = {}, .line = image::LineStyle::kDotted};
+    for (const Pose2& pose : robot.path) {
+      add_point(path, robot.main_T_map * pose.translation());
+    }
+    image::Series nodes{.name = "nodes", .x = {}, .y = {}, .style = SeriesStyle::kPoints};
+    for (const TopologyNode& node : robot.topology.nodes) {
+      add_point(nodes, robot.main_T_map * node.map_T_base.translation());
+    }
+    chart.series.push_back(std::move(walls));
+    chart.series.push_back(std::move(path));
+    chart.series.push_back(std::move(nodes));
+  }
+  return image::draw_chart(chart, kSide_px, kSide_px);
 }
 
 }  // namespace seeker::lab

@@ -8,18 +8,19 @@
 #include "server/lab/active_slam/explore_experiment.hpp"
 #include "server/lab/active_slam/explore_picture.hpp"
 #include "server/lab/experiments/log_stopwatch.hpp"
-#include "server/vision/picture.hpp"
-#include "server/vision/place_index.hpp"
-#include "server/vision/sift_features.hpp"
 
 namespace seeker::lab {
 namespace {
 
 constexpr const char* kWorld = "arena-20";
 constexpr const char* kTrapWorld = "twin-corridors";
+constexpr const char* kPosterWorld = "twin-posters";
+constexpr const char* kPrinted = "printed";
+constexpr const char* kOurs = "ours";
 constexpr const char* kRobot = "arena";
 constexpr double kTimeLimit_s = 3600.0;
 constexpr double kLoadPeriod_s = 1.0;
+constexpr double kSmallestTime_s = 90.0;  ///< of runs of the smallest form that need not come to their end
 
 ExploreSpec spec_of(const ReproduceParams& params, std::uint64_t seed, const std::string& world = kWorld) {
   ExploreSpec spec;
@@ -43,15 +44,21 @@ std::vector<FleetSpec> fleet_specs(const ReproduceParams& params, const std::str
   return specs;
 }
 
-Table fleet_table(const std::vector<FleetResult>& runs) {
-  Table table({"seed", "robots", "merged", "pairs", "wrong", "merged_at_s", "error_m", "error_deg", "complete",
-               "world_time_s", "path_m", "contacts", "robot_contacts", "waited_s", "first_end_s"});
-  for (const FleetResult& run : runs) {
-    table.add({std::to_string(run.seed), std::to_string(run.robots), std::to_string(run.merged),
-               std::to_string(run.pairs), std::to_string(run.wrong), fixed(run.merged_at_s, 1), fixed(run.error_m, 3),
-               fixed(run.error_deg, 2), std::to_string(run.complete), fixed(run.world_time_s, 1),
-               fixed(run.path_length_m, 1), std::to_string(run.contacts), std::to_string(run.robot_contacts),
-               fixed(run.waited_s, 1), fixed(run.first_end_s, 1)});
+using Fleets = std::vector<std::pair<std::string, const std::vector<FleetResult>*>>;
+
+/// The runs of each kind of robot, one after the other.
+Table fleet_table(const Fleets& fleets) {
+  Table table({"robot", "seed", "robots", "merged", "pairs", "wrong", "merged_at_s", "error_m", "error_deg", "complete",
+               "world_time_s", "path_m", "contacts", "robot_contacts", "waited_s", "first_end_s", "pictures", "alike"});
+  for (const auto& [robot, runs] : fleets) {
+    for (const FleetResult& run : *runs) {
+      table.add({robot, std::to_string(run.seed), std::to_string(run.robots), std::to_string(run.merged),
+                 std::to_string(run.pairs), std::to_string(run.wrong), fixed(run.merged_at_s, 1), fixed(run.error_m, 3),
+                 fixed(run.error_deg, 2), std::to_string(run.complete), fixed(run.world_time_s, 1),
+                 fixed(run.path_length_m, 1), std::to_string(run.contacts), std::to_string(run.robot_contacts),
+                 fixed(run.waited_s, 1), fixed(run.first_end_s, 1), std::to_string(run.pictures),
+                 std::to_string(run.alike)});
+    }
   }
   return table;
 }
@@ -73,40 +80,58 @@ Status draw_tree(const ReproduceParams& params, Report& report) {
   return image::write_png(params.out / "fig3-tree.png", tree_figure(scan, tree, tree_params));
 }
 
-/// What a second of the run costs, with the camera looking once a second. Taking the picture stands for the camera, so
-/// that it is not counted.
+/// What a second of a run costs. The rendering of its pictures stands for the camera and is not counted: its cost is
+/// measured on a picture of the meter's own.
 class LoadMeter {
  public:
   void look(const app::RobotLoop& loop, sim::Simulation& simulation) {
     const double time_s = to_seconds(loop.now());
-    if (samples_.empty() || time_s >= samples_.back().time_s + kLoadPeriod_s) {
-      const double loop_s = thread_seconds() - since_s_;
-      const Image picture = simulation.omni_image();
-      const double before_s = thread_seconds();
-      const auto features = vision::detect_sift(vision::to_grey_mat(picture), vision::place_detector_params());
-      samples_.push_back({.time_s = time_s,
-                          .loop_s = samples_.empty() ? 0.0 : loop_s,
-                          .features_s = thread_seconds() - before_s,
-                          .features = static_cast<int>(features.size()),
-                          .node = loop.neighbours().own().topology.nodes.size() > nodes_});
-      nodes_ = loop.neighbours().own().topology.nodes.size();
-      since_s_ = thread_seconds();
+    if (!samples_.empty() && time_s < samples_.back().time_s + kLoadPeriod_s) {
+      return;
     }
+    const double loop_s = thread_seconds() - since_s_;
+    const app::PictureWork& work = loop.perception().picture_work();
+    const std::size_t nodes = loop.neighbours().own().topology.nodes.size();
+    const auto pictures = static_cast<int>(work.pictures - before_.pictures);
+    const double rendering_s = pictures * (pictures > 0 ? rendering_of(simulation) : 0.0);
+    samples_.push_back({.time_s = time_s,
+                        .cpu_s = samples_.empty() ? 0.0 : std::max(0.0, loop_s - rendering_s),
+                        .pictures = pictures,
+                        .features = static_cast<int>(work.features - before_.features),
+                        .node = nodes > nodes_});
+    nodes_ = nodes;
+    before_ = work;
+    since_s_ = thread_seconds();
   }
   [[nodiscard]] const std::vector<LoadSample>& samples() const { return samples_; }
 
  private:
+  static double rendering_of(sim::Simulation& simulation) {
+    const double before_s = thread_seconds();
+    (void)simulation.omni_image();
+    return thread_seconds() - before_s;
+  }
+
   std::vector<LoadSample> samples_;
+  app::PictureWork before_;
   std::size_t nodes_ = 0;
   double since_s_ = 0.0;
 };
 
-/// Figs 6 and 11 by one run of the first seed; its numbers.
-Result<ExploreResult> draw_single(const ReproduceParams& params, Report& report) {
-  LoadMeter meter;
-  const ExploreSpec spec = spec_of(params, params.seeds.front());
-  const Result<ExploreRecord> record = run_explore(
+/// A run with features of the camera's pictures at nodes or at all frames.
+Result<ExploreRecord> run_measured(ExploreSpec spec, const char* pictures_at, LoadMeter& meter) {
+  spec.overrides.emplace_back("fleet.lead=true");  // else nobody wants its pictures
+  spec.overrides.push_back(std::string("loop.pictures.at=") + pictures_at);
+  return run_explore(
       spec, [&meter](const app::RobotLoop& loop, sim::Simulation& simulation) { meter.look(loop, simulation); });
+}
+
+/// Figs 6 and 11 by runs of the first seed; the numbers of the one with keyframes.
+Result<ExploreResult> draw_single(const ReproduceParams& params, Report& report) {
+  LoadMeter keyframe;
+  LoadMeter frame;
+  ExploreSpec spec = spec_of(params, params.seeds.front());
+  const Result<ExploreRecord> record = run_measured(spec, "nodes", keyframe);
   if (!record) {
     return tl::unexpected<Error>(record.error());
   }
@@ -114,8 +139,15 @@ Result<ExploreResult> draw_single(const ReproduceParams& params, Report& report)
   if (Status ok = image::write_png(params.out / "fig6-single.png", map); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
-  report.add(check_keyframes(meter.samples()));
-  if (Status ok = image::write_png(params.out / "fig11-load.png", load_figure(meter.samples())); !ok) {
+  if (params.smallest) {
+    spec.time_limit_s = kSmallestTime_s;
+  }
+  if (const Result<ExploreRecord> frames = run_measured(spec, "frames", frame); !frames) {
+    return tl::unexpected<Error>(frames.error());
+  }
+  report.add(check_keyframes(keyframe.samples(), frame.samples()));
+  const Image load = load_figure(keyframe.samples(), frame.samples());
+  if (Status ok = image::write_png(params.out / "fig11-load.png", load); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   return record->result;
@@ -148,6 +180,63 @@ Result<std::vector<ExploreResult>> run_single(const ReproduceParams& params, Rep
   return runs;
 }
 
+Result<std::vector<FleetResult>> run_fleets(const ReproduceParams& params, std::vector<FleetSpec> specs) {
+  return fleet_missing(specs, params.out, params.show_progress);
+}
+
+/// Two robots as printed beside two of ours, into whose pictures a false pair is injected; fleet.csv has both.
+Status compare_with_printed(const ReproduceParams& params, const std::vector<ExploreResult>& single, Report& report) {
+  std::vector<FleetSpec> ours = fleet_specs(params, kWorld);
+  std::vector<FleetSpec> printed = fleet_specs(params, kWorld);
+  for (FleetSpec& spec : ours) {
+    spec.inject_false_pair = true;
+  }
+  for (FleetSpec& spec : printed) {
+    spec.robot_file = params.config / "robots" / "paper" / "merging-2013.yaml";
+    spec.label = kPrinted;
+    spec.time_limit_s = params.smallest ? kSmallestTime_s : spec.time_limit_s;
+  }
+  const auto our_runs = run_fleets(params, std::move(ours));
+  if (!our_runs) {
+    return tl::unexpected<Error>(our_runs.error());
+  }
+  const auto printed_runs = run_fleets(params, std::move(printed));
+  if (!printed_runs) {
+    return tl::unexpected<Error>(printed_runs.error());
+  }
+  report.add(check_printed_merges(*printed_runs));
+  report.add(check_merges(*our_runs));
+  report.add(check_false_pairs(*our_runs));
+  report.add(check_sharing(*our_runs, single));
+  const std::filesystem::path first =
+      params.out / "runs" / kWorld / "fleet-2" / ("seed-" + std::to_string(params.seeds.front()) + ".png");
+  std::error_code error;
+  std::filesystem::copy_file(first, params.out / "fig10a-merged.png", std::filesystem::copy_options::overwrite_existing,
+                             error);
+  const Table table = fleet_table({{kPrinted, &*printed_runs}, {kOurs, &*our_runs}});
+  return files::write_file(params.out / "fleet.csv", table.csv());
+}
+
+/// The same corridors for the laser, with different posters for the camera: pictures and laser against the laser alone.
+Status compare_posters(const ReproduceParams& params, Report& report) {
+  std::vector<FleetSpec> laser = fleet_specs(params, kPosterWorld);
+  for (FleetSpec& spec : laser) {
+    spec.label = "laser";
+    spec.overrides.emplace_back("loop.pictures.at=never");
+  }
+  const auto with_pictures = run_fleets(params, fleet_specs(params, kPosterWorld));
+  if (!with_pictures) {
+    return tl::unexpected<Error>(with_pictures.error());
+  }
+  const auto laser_alone = run_fleets(params, std::move(laser));
+  if (!laser_alone) {
+    return tl::unexpected<Error>(laser_alone.error());
+  }
+  report.add(check_posters(*with_pictures, *laser_alone));
+  const Table table = fleet_table({{"pictures-and-laser", &*with_pictures}, {"laser", &*laser_alone}});
+  return files::write_file(params.out / "posters.csv", table.csv());
+}
+
 }  // namespace
 
 Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
@@ -160,24 +249,21 @@ Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
   if (!runs) {
     return tl::unexpected<Error>(runs.error());
   }
-  const auto fleets = fleet_missing(fleet_specs(params, kWorld), params.out, params.show_progress);
-  if (!fleets) {
-    return tl::unexpected<Error>(fleets.error());
-  }
-  report.add(check_merges(*fleets));
-  report.add(check_sharing(*fleets, *runs));
-  if (Status ok = files::write_file(params.out / "fleet.csv", fleet_table(*fleets).csv()); !ok) {
+  if (Status ok = compare_with_printed(params, *runs, report); !ok) {
     return ok;
   }
   if (params.smallest) {
     return {};
+  }
+  if (Status ok = compare_posters(params, report); !ok) {
+    return ok;
   }
   const auto trapped = fleet_missing(fleet_specs(params, kTrapWorld), params.out, params.show_progress);
   if (!trapped) {
     return tl::unexpected<Error>(trapped.error());
   }
   report.add(check_trap(*trapped));
-  return files::write_file(params.out / "trap.csv", fleet_table(*trapped).csv());
+  return files::write_file(params.out / "trap.csv", fleet_table({{kOurs, &*trapped}}).csv());
 }
 
 }  // namespace seeker::lab

@@ -155,6 +155,12 @@ FleetOutcome undisturbed() {
   FleetOutcome outcome = expedition.outcome();
   constexpr double kOuterWalls_m = 40.0;
   EXPECT_GT(Cells::of_walls(outcome.map).length_m(), 0.8 * kOuterWalls_m);
+  std::uint32_t seen_alike = 0;
+  for (const api::FleetMember& member : outcome.fleet.members) {
+    EXPECT_GT(member.pictures, 0U) << member.robot_id << " has sent no picture of a node";
+    seen_alike += member.hypotheses.empty() ? 0 : member.hypotheses.front().pictures;
+  }
+  EXPECT_GT(seen_alike, 0U) << "no place of two robots was recognised by its picture";
   return outcome;
 }
 
