@@ -1,6 +1,6 @@
 /// \file
-/// Place recognition by pictures: features are matched one to one, then checked against the geometry of two views. For
-/// photographs of one robot (`seeker-lab revisit`) and for nodes of two robots' maps (spec S4).
+/// Place recognition by photographs of one robot (`seeker-lab revisit`): features are matched one to one, then checked
+/// against the geometry of two views. Pictures of topology nodes: view_features.hpp.
 #pragma once
 
 #include <cstddef>

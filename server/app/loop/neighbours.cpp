@@ -56,6 +56,8 @@ void Neighbours::note_own(const Behaviour* behaviour, const Pose2& map_T_base, c
   if (topology != nullptr) {
     own_.topology = *topology;
     newest_node_ = topology->nodes.empty() ? 0 : topology->nodes.back().id;
+  } else {
+    newest_node_ = pictured_node_ = 0;  // the next exploration numbers its nodes anew
   }
 }
 
@@ -90,6 +92,7 @@ void Neighbours::forget_places() {
   own_ = {};
   own_.robot_id = std::move(robot_id);
   own_pictures_.clear();
+  newest_node_ = pictured_node_ = 0;
   fleet_.reset();
 }
 

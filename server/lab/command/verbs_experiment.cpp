@@ -43,7 +43,7 @@ const std::map<std::string, Reproduction> kReproductions = {
     {"active-slam", {&reproduce_active_slam, "1-20", "1", {"--set", "--world", "--strategy"}}},
     {"consistency", {&reproduce_consistency, "1-50", "1-3"}},
     {"line-detection", {&reproduce_line_detection, "1-100", "1-3"}},
-    {"map-merging", {&reproduce_map_merging, "1-4", "1", {"--set"}}},
+    {"map-merging", {&reproduce_map_merging, "1-4", "1", {"--set", "--world"}}},
     {"search", {&reproduce_search, "1-20", "1", {"--set", "--programs", "--no-sockets"}}},
     {"solids", {&reproduce_solids, "1-5", "3"}},
     {"stereo-database", {&reproduce_stereo_database, "1-10", "1", {"--set"}}}};
@@ -64,7 +64,20 @@ std::vector<std::string> reproduction_names() {
   return names;
 }
 
-std::vector<std::string> explore_world_names() {
+/// With commas between.
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
+}
+
+/// The worlds that a part of a reproduction may be restricted to, by the reproduction's name.
+std::vector<std::string> worlds_of(const std::string& name) {
+  if (name == "map-merging") {
+    return map_merging_worlds();
+  }
   std::vector<std::string> names;
   for (const ExploreWorld& world : explore_worlds()) {
     names.push_back(world.name);
@@ -204,6 +217,12 @@ int run_reproduce(const CLI::App& verb, const ReproduceOptions& options) {
     return report_error("reproduce " + options.name + " takes no " + option +
                         ": its condition fixes what that would change; leave it out");
   }
+  const std::vector<std::string> worlds = worlds_of(name);
+  for (const std::string& world : options.worlds) {
+    if (std::ranges::find(worlds, world) == worlds.end()) {
+      return report_error("--world: '" + world + "' is not of " + name + "; its worlds are " + joined(worlds));
+    }
+  }
   const Reproduction& reproduction = kReproductions.at(name);
   const char* usual_seeds = options.smallest ? reproduction.smallest_seeds : reproduction.seeds;
   const Result<std::vector<std::uint64_t>> seeds = parse_seeds(o.seeds.empty() ? usual_seeds : o.seeds);
@@ -268,8 +287,9 @@ Verb add_reproduce(CLI::App& app) {
   o->common.seeds.clear();
   add_common(*verb, o->common);
   verb->get_option("--seeds")->default_str("those of the paper's conditions");
-  verb->add_option("--world", o->worlds, "active-slam: only this world (repeatable)")
-      ->check(CLI::IsMember(explore_world_names()));
+  verb->add_option("--world", o->worlds,
+                   "Only this world (repeatable). active-slam: " + joined(worlds_of("active-slam")) +
+                       "; map-merging: " + joined(worlds_of("map-merging")));
   verb->add_option("--strategy", o->strategies, "active-slam: only this strategy (repeatable)")
       ->check(CLI::IsMember(explore_strategies()));
   verb->add_option("--programs", o->programs, "Folder of seekerd and seeker (default: beside this program)");

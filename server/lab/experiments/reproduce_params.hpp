@@ -17,7 +17,7 @@ struct ReproduceParams {
   std::vector<std::string> overrides;
   int jobs = 1;
   bool show_progress = false;
-  std::vector<std::string> worlds;      ///< for active-slam: the worlds to run; empty: all
+  std::vector<std::string> worlds;      ///< for active-slam and map-merging: the worlds to run; empty: all
   std::vector<std::string> strategies;  ///< for active-slam: the strategies to run; empty: all
   /// For tests: regenerates the smallest form of everything, with the smallest world and the fewest pictures.
   bool smallest = false;

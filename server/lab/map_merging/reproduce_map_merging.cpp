@@ -1,6 +1,9 @@
 #include "server/lab/map_merging/reproduce_map_merging.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
 
 #include "common/files/files.hpp"
 #include "common/image/png.hpp"
@@ -21,6 +24,10 @@ constexpr const char* kRobot = "arena";
 constexpr double kTimeLimit_s = 3600.0;
 constexpr double kLoadPeriod_s = 1.0;
 constexpr double kSmallestTime_s = 90.0;  ///< of runs of the smallest form that need not come to their end
+
+bool chosen(const ReproduceParams& params, std::string_view world) {
+  return params.worlds.empty() || std::find(params.worlds.begin(), params.worlds.end(), world) != params.worlds.end();
+}
 
 ExploreSpec spec_of(const ReproduceParams& params, std::uint64_t seed, const std::string& world = kWorld) {
   ExploreSpec spec;
@@ -237,11 +244,8 @@ Status compare_posters(const ReproduceParams& params, Report& report) {
   return files::write_file(params.out / "posters.csv", table.csv());
 }
 
-}  // namespace
-
-Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
-  std::error_code error;
-  std::filesystem::create_directories(params.out, error);
+/// One robot and two of them in the arena: the tree, the figures and the merges.
+Status run_arena(const ReproduceParams& params, Report& report) {
   if (Status ok = draw_tree(params, report); !ok) {
     return ok;
   }
@@ -249,21 +253,37 @@ Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
   if (!runs) {
     return tl::unexpected<Error>(runs.error());
   }
-  if (Status ok = compare_with_printed(params, *runs, report); !ok) {
-    return ok;
-  }
-  if (params.smallest) {
-    return {};
-  }
-  if (Status ok = compare_posters(params, report); !ok) {
-    return ok;
-  }
-  const auto trapped = fleet_missing(fleet_specs(params, kTrapWorld), params.out, params.show_progress);
+  return compare_with_printed(params, *runs, report);
+}
+
+Status run_trap(const ReproduceParams& params, Report& report) {
+  const auto trapped = run_fleets(params, fleet_specs(params, kTrapWorld));
   if (!trapped) {
     return tl::unexpected<Error>(trapped.error());
   }
   report.add(check_trap(*trapped));
   return files::write_file(params.out / "trap.csv", fleet_table({{kOurs, &*trapped}}).csv());
+}
+
+}  // namespace
+
+std::vector<std::string> map_merging_worlds() { return {kWorld, kPosterWorld, kTrapWorld}; }
+
+Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
+  std::error_code error;
+  std::filesystem::create_directories(params.out, error);
+  using Part = Status (*)(const ReproduceParams&, Report&);
+  const std::array<std::pair<const char*, Part>, 3> parts{
+      {{kWorld, &run_arena}, {kPosterWorld, &compare_posters}, {kTrapWorld, &run_trap}}};
+  for (const auto& [world, run] : parts) {
+    if (!chosen(params, world) || (params.smallest && run != &run_arena)) {
+      continue;
+    }
+    if (Status ok = run(params, report); !ok) {
+      return ok;
+    }
+  }
+  return {};
 }
 
 }  // namespace seeker::lab

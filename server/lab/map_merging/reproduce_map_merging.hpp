@@ -2,6 +2,7 @@
 /// Regenerates the figures of the map merging paper in the simulator and checks its claims (spec S4.10, S7: R8, R9).
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/core/image.hpp"
@@ -67,6 +68,9 @@ inline constexpr double kMergeError_deg = 2.0;
 inline constexpr double kSharedTime = 0.65;
 inline constexpr double kArenaWallShare = 0.90;
 inline constexpr double kPosterTime_s = 300.0;
+
+/// The worlds of the experiment, each of which may be run alone (ReproduceParams::worlds).
+[[nodiscard]] std::vector<std::string> map_merging_worlds();
 
 /// Makes Fig 3 (tree), Fig 6 (map of one robot with its nodes), Fig 10(a) (merged maps), Fig 11 (load); runs.csv,
 /// table.csv, fleet.csv with the rows of the robots as printed and of ours, trap.csv, posters.csv; PASS, FAIL and

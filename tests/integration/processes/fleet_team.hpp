@@ -143,6 +143,10 @@ class Team {
   [[nodiscard]] std::filesystem::path checkpoint(std::size_t k) const {
     return folders_[k] / "state" / "maps" / "checkpoints" / ("r" + std::to_string(k)) / "look-round.seekermap";
   }
+  /// Where the main robot keeps what it has received of robot k.
+  [[nodiscard]] std::filesystem::path pieces(std::size_t k) const {
+    return folders_[0] / "state" / "r0" / "fleet" / ("r" + std::to_string(k));
+  }
   /// Where a restart looks for the robot first.
   [[nodiscard]] std::optional<Pose2> kept_place(std::size_t k) const {
     constexpr std::uint32_t kAnyEpoch = 0;  // that of the topology

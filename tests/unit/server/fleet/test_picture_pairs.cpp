@@ -39,6 +39,10 @@ std::string figures_of(const MergeAnswer& answer) {
          << " m across, " << h.contradiction << " denied, alike " << h.pictures.alike << ", unlike "
          << h.pictures.unlike << '\n';
   }
+  for (const RejectedPair& pair : answer.rejected) {
+    text << (pair.by_pictures ? "pictures" : "scans") << " of " << pair.node_a << " and " << pair.node_b << ": "
+         << pair.reason << '\n';
+  }
   return text.str();
 }
 
@@ -78,7 +82,8 @@ TEST(PicturePairs, ProposeThePoseOfTheOtherRobotAtEachPlaceThatBothHaveSeen) {
     return [&, a_T_b](std::size_t node) { return a_T_b * b.map.nodes()[node].map_T_node; };
   };
   EXPECT_TRUE(pairs.evidence(at(a.truth(b))).confirms(params));
-  const Pose2 elsewhere = a.truth(b) * Pose2{5.0, 0.0, 0.0};
+  // Pictures that were taken up to 3 m apart are similar here, and count as alike within 2 m of where they should be.
+  const Pose2 elsewhere = a.truth(b) * Pose2{8.0, 0.0, 0.0};
   EXPECT_TRUE(pairs.evidence(at(elsewhere)).denies(params));
 }
 

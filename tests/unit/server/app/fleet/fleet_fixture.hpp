@@ -100,4 +100,24 @@ inline app::JoinOutcome apart_with(fleet::MergeVerdict verdict, std::uint8_t slo
   return outcome;
 }
 
+/// With features that nobody would see.
+inline fleet::NodePicture picture_of(std::uint32_t node, std::size_t features = 3) {
+  fleet::NodePicture picture;
+  picture.node = node;
+  picture.node_T_base = {1.25, -0.5, 0.75};
+  for (std::size_t k = 0; k < features; ++k) {
+    picture.features.bearings_rad.push_back(static_cast<float>(k) * 0.5F);
+    picture.features.descriptors.emplace_back().fill(static_cast<std::uint8_t>(200 + k % 50));
+  }
+  return picture;
+}
+
+inline fleet::NodePictures pictures_of(const std::vector<fleet::NodePicture>& pictures) {
+  fleet::NodePictures all;
+  for (const fleet::NodePicture& picture : pictures) {
+    all.push_back(std::make_shared<const fleet::NodePicture>(picture));
+  }
+  return all;
+}
+
 }  // namespace seeker::testing

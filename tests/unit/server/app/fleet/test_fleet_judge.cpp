@@ -57,7 +57,7 @@ TEST(FleetJudge, TakesUpWhatWasFoundBeforeARestart) {
   parts.own.reset();
   parts.book.load(app::FleetSlots(before.book.slots()), {before.book.record_of("r1")});
   const app::JudgedFleet judged = before.judge.judged();
-  parts.judge.recall({judged.joint_epoch, *judged.own_map, {}, {}, judged.pairs});
+  parts.judge.recall({judged.joint_epoch, *judged.own_map, *judged.own_pictures, {}, {}, judged.pairs});
   EXPECT_EQ(parts.entry().state, api::FleetState::kMerged) << parts.entry().reason;
   EXPECT_TRUE(parts.main.remembered());
   ASSERT_NE(parts.judge.joint_map(), nullptr);
@@ -73,7 +73,7 @@ TEST(FleetJudge, TakesUpWhatWasFoundBeforeARestart) {
 
 TEST(FleetJudge, GoesOnCountingEpochsWhereTheRestOfTheMemoryIsLost) {
   JudgeParts parts;
-  parts.judge.recall({7, std::nullopt, {}, {}, {}});
+  parts.judge.recall({7, std::nullopt, {}, {}, {}, {}});
   EXPECT_EQ(parts.judge.judged().joint_epoch, 7U);
   EXPECT_EQ(parts.judge.judged().own_version, 0U);
   EXPECT_FALSE(parts.main.remembered());

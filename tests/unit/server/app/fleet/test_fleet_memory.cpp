@@ -20,6 +20,8 @@ struct MemoryParts {
   app::FleetMemory memory;
 };
 
+const fleet::NodePictures kNoPictures;
+
 std::size_t pieces_in(const fs::path& folder) {
   std::size_t count = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -36,8 +38,9 @@ app::RobotReport own_report() {
 }
 
 void keep_all(MemoryParts& parts, const LineMap& own) {
+  const fleet::NodePictures pictures = pictures_of({picture_of(own.nodes.front().id)});
   const fleet::MergeAnswer answer = answer_with(fleet::MergeVerdict::kMerged, {1.0, 2.0, 0.0});
-  parts.memory.keep({&own, 1, 5, {{0, 2, answer}, {1, 2, answer}}}, own_report(), {{"r1", 1}, {"r2", 2}});
+  parts.memory.keep({&own, &pictures, 1, 5, {{0, 2, answer}, {1, 2, answer}}}, own_report(), {{"r1", 1}, {"r2", 2}});
 }
 
 TEST(FleetMemory, ComesOutAsItWentIn) {
@@ -54,6 +57,8 @@ TEST(FleetMemory, ComesOutAsItWentIn) {
   ASSERT_TRUE(fleet.own_map);
   EXPECT_EQ(fleet.own_map->nodes, own.nodes);
   EXPECT_EQ(fleet.own_map->keyframes, own.keyframes);
+  ASSERT_EQ(fleet.own_pictures.size(), 1U);
+  EXPECT_EQ(*fleet.own_pictures.front(), picture_of(own.nodes.front().id));
   EXPECT_TRUE(fleet.own_topology);
   EXPECT_EQ(fleet.own_finds.size(), 1U);
   ASSERT_EQ(fleet.pairs.size(), 2U);
@@ -67,7 +72,7 @@ TEST(FleetMemory, IsWrittenOnlyWhereThereIsAnOwnMapThatHasChanged) {
   const TemporaryFolder folder;
   MemoryParts parts(folder.path());
   const LineMap none;
-  parts.memory.keep({&none, 0, 0, {}}, {}, {});
+  parts.memory.keep({&none, &kNoPictures, 0, 0, {}}, {}, {});
   EXPECT_FALSE(parts.memory.read());
   const LineMap own = small_map();
   keep_all(parts, own);
@@ -80,10 +85,10 @@ TEST(FleetMemory, KeepsOnlyThePiecesOfTheNewestOwnMap) {
   const TemporaryFolder folder;
   MemoryParts parts(folder.path());
   const LineMap longer = small_map(3);
-  parts.memory.keep({&longer, 1, 0, {}}, {}, {});
+  parts.memory.keep({&longer, &kNoPictures, 1, 0, {}}, {}, {});
   EXPECT_EQ(pieces_in(folder.path() / "main"), 3U);
   const LineMap other = small_map(2, 9);
-  parts.memory.keep({&other, 2, 0, {}}, {}, {});
+  parts.memory.keep({&other, &kNoPictures, 2, 0, {}}, {}, {});
   EXPECT_EQ(pieces_in(folder.path() / "main"), 2U);
 }
 
@@ -95,7 +100,7 @@ TEST(FleetMemory, WritesNoPieceOfTheMapThatItHasRecalled) {
   const app::RememberedFleet fleet = again.memory.recall(*again.memory.read());
   again.memory.set_own_version(4);
   fs::remove_all(folder.path() / "main");
-  again.memory.keep({&*fleet.own_map, 4, 6, {}}, {}, {});
+  again.memory.keep({&*fleet.own_map, &fleet.own_pictures, 4, 6, {}}, {}, {});
   EXPECT_FALSE(fs::exists(folder.path() / "main"));
   EXPECT_EQ(again.memory.read()->joint_epoch(), 6U);
 }

@@ -67,5 +67,37 @@ TEST(Neighbours, AnotherMapVoidsAllPlaces) {
   EXPECT_EQ(nameless, RobotTopology{});
 }
 
+/// An exploration that has made some nodes.
+struct Explored final : Behaviour {
+  explicit Explored(std::uint64_t nodes) {
+    for (std::uint64_t id = 1; id <= nodes; ++id) {
+      made.nodes.emplace_back().id = id;
+    }
+  }
+  [[nodiscard]] Decision step(const Situation& /*situation*/) override { return {}; }
+  [[nodiscard]] const Topology* topology() const override { return &made; }
+
+  Topology made;
+};
+
+TEST(Neighbours, EachNewNodeOfEachExplorationIsPicturedOnce) {
+  Neighbours neighbours(FleetMotionParams{}, "r1");
+  const auto wants = [&](const Behaviour* behaviour) {
+    neighbours.note_own(behaviour, Pose2{}, {});
+    return neighbours.wants_picture();
+  };
+  const Explored one(1);
+  const Explored two(2);
+  EXPECT_FALSE(wants(nullptr)) << "there is no node";
+  EXPECT_TRUE(wants(&one));
+  neighbours.picture_begun();
+  EXPECT_FALSE(wants(&one));
+  EXPECT_TRUE(wants(&two));
+  neighbours.picture_begun();
+  EXPECT_FALSE(wants(&two));
+  EXPECT_FALSE(wants(nullptr)) << "it is over";
+  EXPECT_TRUE(wants(&two)) << "the nodes of the next one have the same numbers";
+}
+
 }  // namespace
 }  // namespace seeker::app

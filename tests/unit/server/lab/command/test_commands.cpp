@@ -31,5 +31,12 @@ TEST(ReproduceCommand, RefusesAnOptionThatTheReproductionWouldNotHeed) {
   EXPECT_NE(world.error.find("reproduce s5 takes no --world"), std::string::npos) << world.error;
 }
 
+TEST(ReproduceCommand, RefusesAWorldOfAnotherReproduction) {
+  const Answer answer = ask(std::array{"seeker-lab", "reproduce", "s4", "--out", "unused", "--world", "office"});
+  EXPECT_NE(answer.code, 0);
+  EXPECT_NE(answer.error.find("its worlds are arena-20, twin-posters, twin-corridors"), std::string::npos)
+      << answer.error;
+}
+
 }  // namespace
 }  // namespace seeker::lab
