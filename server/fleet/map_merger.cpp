@@ -310,6 +310,9 @@ void judge(MergeAnswer& answer, const MergeParams& params) {
   } else if (rival) {
     answer.verdict = MergeVerdict::kAmbiguous;
     answer.reason = "the maps fit at more than one relative pose; choose one or drive on until they differ";
+  } else if (best.pictures.denies(params.pictures)) {
+    answer.verdict = MergeVerdict::kAmbiguous;
+    answer.reason = "the maps fit, but pictures taken there show different things; confirm or drive on";
   } else if (best.denied_piece_m > params.sure_denied_piece_m) {
     answer.verdict = MergeVerdict::kAmbiguous;
     answer.reason =

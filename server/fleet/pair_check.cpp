@@ -89,7 +89,7 @@ PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedN
   findings.refusal = "no place of the region explains the points";
   for (const slam::GlobalCandidate& start : search_.search(place->pyramid(), query.points).candidates) {
     NodeRelation relation;
-    const std::string_view refusal = examine(a, region, query, start, relation);
+    const std::string_view refusal = examine(a, region, query, start.map_T_base, params_.min_consistency, relation);
     if (refusal.empty()) {
       findings.relations.push_back(relation);
     } else if (findings.relations.empty()) {
@@ -122,7 +122,7 @@ PairFindings PairCheck::find_at(PreparedMap& a, std::size_t region, const Prepar
   findings.refusal = found ? std::string_view() : kNoPartners;
   if (found) {
     NodeRelation relation;
-    findings.refusal = examine(a, region, query, {found->a_T_b, found->pair_share}, relation);
+    findings.refusal = examine(a, region, query, found->a_T_b, params_.pictured_min_consistency, relation);
     if (findings.refusal.empty()) {
       findings.relations.push_back(relation);
     }
@@ -172,10 +172,10 @@ void PairCheck::locate(PreparedMap& a, std::size_t region, const Query& query, c
               {inverse(query.node_T_base), Matrix3::Zero()});
 }
 
-std::string_view PairCheck::examine(PreparedMap& a, std::size_t region, const Query& query,
-                                    const slam::GlobalCandidate& start, NodeRelation& relation) const {
+std::string_view PairCheck::examine(PreparedMap& a, std::size_t region, const Query& query, const Pose2& start,
+                                    double min_consistency, NodeRelation& relation) const {
   const slam::PlaceMap& place = *a.place(region);
-  const slam::MatchResult match = matcher_.match(place.cloud(), query.sparse, start.map_T_base);
+  const slam::MatchResult match = matcher_.match(place.cloud(), query.sparse, start);
   if (match.pairs < params_.match.min_pairs || match.inliers < static_cast<int>(params_.min_inliers)) {
     return kNoPartners;
   }
@@ -194,7 +194,7 @@ std::string_view PairCheck::examine(PreparedMap& a, std::size_t region, const Qu
   if (relation.overlap < params_.min_overlap) {
     return "too little of the node was seen in the region";
   }
-  if (relation.consistency < params_.min_consistency || relation.similarity < params_.min_similarity ||
+  if (relation.consistency < min_consistency || relation.similarity < params_.min_similarity ||
       relation.residual_m > params_.max_residual_m) {
     return kOffTheWalls;
   }

@@ -43,6 +43,9 @@ struct PairCheckParams {
   IcpParams icp;  ///< ICP from proposals of similar pictures, as printed (spec S4.6)
   /// Headings from which that ICP starts where the pictures say the rotation between the robots.
   std::vector<double> known_heading_restarts_rad{0.0, 0.2618, -0.2618};
+  /// As min_consistency where similar pictures say the place: what is seen of things from their other side has no
+  /// partner there, while eq (7) and the residual hold.
+  double pictured_min_consistency = 0.5;
   /// Lower limit of the standard deviation of a match: local maps are distorted.
   double sigma_floor_m = 0.03;
   double sigma_floor_rad = 0.006;
@@ -76,8 +79,8 @@ class PairCheck {
                                                   const Pose2& map_a_T_node, const IcpParams& params) const;
   void locate(PreparedMap& a, std::size_t region, const Query& query, const UncertainPose& region_T_base,
               NodeRelation& relation) const;
-  [[nodiscard]] std::string_view examine(PreparedMap& a, std::size_t region, const Query& query,
-                                         const slam::GlobalCandidate& start, NodeRelation& relation) const;
+  [[nodiscard]] std::string_view examine(PreparedMap& a, std::size_t region, const Query& query, const Pose2& start,
+                                         double min_consistency, NodeRelation& relation) const;
 
   PairCheckParams params_;
   slam::GlobalMatcher search_;

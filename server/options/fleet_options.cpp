@@ -76,6 +76,7 @@ void describe(config::Fields& f, PairCheckParams& params) {
   f.check("similarity_sigma_m", params.similarity_sigma_m > 0.0, "must be above 0");
   f.section("icp", params.icp);
   f.angles_deg("known_heading_restarts_deg", params.known_heading_restarts_rad);
+  f.field("pictured_min_consistency", params.pictured_min_consistency);
   f.field("sigma_floor_m", params.sigma_floor_m);
   f.angle_deg("sigma_floor_deg", params.sigma_floor_rad);
 }
@@ -114,6 +115,8 @@ void describe(config::Fields& f, PictureParams& params) {
   f.check("sure_alike", params.sure_alike >= 1, "must be 1 or more");
   f.field("sure_unlike", params.sure_unlike);
   f.check("sure_unlike", params.sure_unlike >= 1, "must be 1 or more");
+  f.field("telling_features", params.telling_features);
+  f.field("telling_share", params.telling_share);
 }
 
 void describe(config::Fields& f, MergeParams& params) {

@@ -2,7 +2,7 @@
 /// Pass conditions as lines that people and scripts read: "PASS R5 bearing_deg=3.2 limit=5 seeds=1-20".
 ///
 /// A condition that the method as printed in its paper does not meet, while ours does, is a FINDING: it is reported
-/// with its cause in docs/results.md instead of being adjusted away, and it fails no report.
+/// with its cause in docs/printed.md instead of being adjusted away, and it fails no report.
 #pragma once
 
 #include <ostream>
@@ -17,7 +17,9 @@ struct Check {
   std::string id;  ///< number in spec S7, e.g. "R5"
   bool passed = false;
   std::vector<std::pair<std::string, std::string>> figures;  ///< name and value, neither with spaces
-  bool finding = false;  ///< true: not met by the method as printed only; a FINDING where it has not passed
+  /// True: not met by the method as printed only, or by an experiment that leaves nothing to show; a FINDING where it
+  /// has not passed.
+  bool finding = false;
 };
 
 /// PASS, FAIL or FINDING.

@@ -188,44 +188,54 @@ Check check_false_pairs(const std::vector<FleetResult>& runs) {
 
 namespace {
 
-std::string share_in_time(const std::vector<FleetResult>& runs, int& in_time) {
-  in_time = static_cast<int>(std::count_if(runs.begin(), runs.end(), [](const FleetResult& run) {
-    return run.merged == run.pairs && run.merged_at_s <= kPosterTime_s;
-  }));
-  return std::to_string(in_time) + "/" + std::to_string(runs.size());
+/// Merges of one kind of robot.
+struct Merges {
+  int in_time = 0;  ///< runs that merged within kPosterTime_s and rightly
+  int wrong = 0;    ///< runs with a wrong merge at any time
+  double error_m = 0.0;
+  std::vector<double> at_s;
+};
+
+Merges merges_of(const std::vector<FleetResult>& runs) {
+  Merges merges;
+  for (const FleetResult& run : runs) {
+    const bool right = run.merged == run.pairs && run.wrong == 0;
+    merges.in_time += right && run.merged_at_s <= kPosterTime_s ? 1 : 0;
+    merges.wrong += run.wrong > 0 ? 1 : 0;
+    merges.error_m = std::max(merges.error_m, run.error_m);
+    if (right) {
+      merges.at_s.push_back(run.merged_at_s);
+    }
+  }
+  return merges;
 }
 
 }  // namespace
 
-Check check_posters(const std::vector<FleetResult>& pictures, const std::vector<FleetResult>& laser) {
-  int wrong = 0;
-  double error_m = 0.0;
-  std::vector<double> at_s;
+Check check_posters(const std::string& id, const std::vector<FleetResult>& pictures,
+                    const std::vector<FleetResult>& laser) {
+  const Merges with_pictures = merges_of(pictures);
+  const Merges with_laser = merges_of(laser);
+  const auto share = [](const Merges& merges, const std::vector<FleetResult>& runs) {
+    return std::to_string(merges.in_time) + "/" + std::to_string(runs.size());
+  };
+  std::vector<std::uint64_t> seeds;
   for (const FleetResult& run : pictures) {
-    wrong += run.wrong;
-    error_m = std::max(error_m, run.error_m);
-    if (run.merged > 0) {
-      at_s.push_back(run.merged_at_s);
-    }
+    seeds.push_back(run.seed);
   }
-  std::vector<double> laser_at_s;
-  for (const FleetResult& run : laser) {
-    if (run.merged > 0) {
-      laser_at_s.push_back(run.merged_at_s);
-    }
-  }
-  int with_pictures = 0;
-  int with_laser = 0;
-  const std::string share = share_in_time(pictures, with_pictures);
-  const std::string laser_share = share_in_time(laser, with_laser);
-  return {.id = "S4-POSTERS",
-          .passed = !pictures.empty() && wrong == 0 && with_pictures > with_laser,
-          .figures = {{"merged_in_300_s", share},
-                      {"laser_alone", laser_share},
-                      {"wrong", std::to_string(wrong)},
-                      {"error_max_m", fixed(error_m, 3)},
-                      {"merged_at_s", fixed(mean_spread(at_s).mean, 0)},
-                      {"laser_merged_at_s", fixed(mean_spread(laser_at_s).mean, 0)}}};
+  const bool right = !pictures.empty() && with_pictures.wrong == 0 && with_pictures.in_time >= with_laser.in_time;
+  const bool all_by_laser = with_laser.in_time == static_cast<int>(laser.size());
+  return {.id = id,
+          .passed = right && with_pictures.in_time > with_laser.in_time,
+          .figures = {{"merged_in_300_s", share(with_pictures, pictures)},
+                      {"laser_alone", share(with_laser, laser)},
+                      {"wrong", std::to_string(with_pictures.wrong)},
+                      {"laser_wrong", std::to_string(with_laser.wrong)},
+                      {"error_max_m", fixed(with_pictures.error_m, 3)},
+                      {"merged_at_s", fixed(mean_spread(with_pictures.at_s).mean, 0)},
+                      {"laser_merged_at_s", fixed(mean_spread(with_laser.at_s).mean, 0)},
+                      {"seeds", print_seeds(seeds)}},
+          .finding = right && all_by_laser};
 }
 
 Check check_keyframes(std::vector<LoadSample> keyframe, std::vector<LoadSample> frame) {

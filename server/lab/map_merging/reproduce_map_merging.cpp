@@ -18,6 +18,7 @@ namespace {
 constexpr const char* kWorld = "arena-20";
 constexpr const char* kTrapWorld = "twin-corridors";
 constexpr const char* kPosterWorld = "twin-posters";
+constexpr const char* kTurnedWorld = "half-turn";
 constexpr const char* kPrinted = "printed";
 constexpr const char* kOurs = "ours";
 constexpr const char* kRobot = "arena";
@@ -224,14 +225,15 @@ Status compare_with_printed(const ReproduceParams& params, const std::vector<Exp
   return files::write_file(params.out / "fleet.csv", table.csv());
 }
 
-/// The same corridors for the laser, with different posters for the camera: pictures and laser against the laser alone.
-Status compare_posters(const ReproduceParams& params, Report& report) {
-  std::vector<FleetSpec> laser = fleet_specs(params, kPosterWorld);
+/// Places that are the same for the laser, with different posters for the camera: pictures and laser against the laser
+/// alone.
+Status compare_posters(const ReproduceParams& params, const std::string& world, const std::string& id, Report& report) {
+  std::vector<FleetSpec> laser = fleet_specs(params, world);
   for (FleetSpec& spec : laser) {
     spec.label = "laser";
     spec.overrides.emplace_back("loop.pictures.at=never");
   }
-  const auto with_pictures = run_fleets(params, fleet_specs(params, kPosterWorld));
+  const auto with_pictures = run_fleets(params, fleet_specs(params, world));
   if (!with_pictures) {
     return tl::unexpected<Error>(with_pictures.error());
   }
@@ -239,9 +241,9 @@ Status compare_posters(const ReproduceParams& params, Report& report) {
   if (!laser_alone) {
     return tl::unexpected<Error>(laser_alone.error());
   }
-  report.add(check_posters(*with_pictures, *laser_alone));
+  report.add(check_posters(id, *with_pictures, *laser_alone));
   const Table table = fleet_table({{"pictures-and-laser", &*with_pictures}, {"laser", &*laser_alone}});
-  return files::write_file(params.out / "posters.csv", table.csv());
+  return files::write_file(params.out / (world + ".csv"), table.csv());
 }
 
 /// One robot and two of them in the arena: the tree, the figures and the merges.
@@ -256,6 +258,14 @@ Status run_arena(const ReproduceParams& params, Report& report) {
   return compare_with_printed(params, *runs, report);
 }
 
+Status run_posters(const ReproduceParams& params, Report& report) {
+  return compare_posters(params, kPosterWorld, "S4-POSTERS", report);
+}
+
+Status run_turned(const ReproduceParams& params, Report& report) {
+  return compare_posters(params, kTurnedWorld, "S4-TURNED", report);
+}
+
 Status run_trap(const ReproduceParams& params, Report& report) {
   const auto trapped = run_fleets(params, fleet_specs(params, kTrapWorld));
   if (!trapped) {
@@ -267,14 +277,14 @@ Status run_trap(const ReproduceParams& params, Report& report) {
 
 }  // namespace
 
-std::vector<std::string> map_merging_worlds() { return {kWorld, kPosterWorld, kTrapWorld}; }
+std::vector<std::string> map_merging_worlds() { return {kWorld, kPosterWorld, kTurnedWorld, kTrapWorld}; }
 
 Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
   std::error_code error;
   std::filesystem::create_directories(params.out, error);
   using Part = Status (*)(const ReproduceParams&, Report&);
-  const std::array<std::pair<const char*, Part>, 3> parts{
-      {{kWorld, &run_arena}, {kPosterWorld, &compare_posters}, {kTrapWorld, &run_trap}}};
+  const std::array<std::pair<const char*, Part>, 4> parts{
+      {{kWorld, &run_arena}, {kPosterWorld, &run_posters}, {kTurnedWorld, &run_turned}, {kTrapWorld, &run_trap}}};
   for (const auto& [world, run] : parts) {
     if (!chosen(params, world) || (params.smallest && run != &run_arena)) {
       continue;

@@ -165,6 +165,28 @@ TEST(MergeJudge, WhatMayBeSlidAlongACorridorIsNoRival) {
   EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05), hypothesis(50.0, 8.0, 0.0)}), MergeVerdict::kAmbiguous);
 }
 
+MergeHypothesis pictured(MergeHypothesis made, std::size_t alike, std::size_t unlike) {
+  made.pictures = {alike, unlike};
+  return made;
+}
+
+TEST(MergeJudge, PicturesDecideBetweenPlacesThatAreAlikeForALaser) {
+  const MergeHypothesis one = hypothesis(60.0, 20.0, 0.05);
+  EXPECT_EQ(verdict_of({pictured(one, 3, 0), pictured(one, 0, 3)}), MergeVerdict::kMerged);
+  EXPECT_EQ(verdict_of({pictured(one, 3, 0), pictured(one, 0, 1)}), MergeVerdict::kAmbiguous);
+  EXPECT_EQ(verdict_of({pictured(one, 3, 0), pictured(one, 1, 3)}), MergeVerdict::kAmbiguous);
+  EXPECT_EQ(verdict_of({pictured(one, 0, 3)}), MergeVerdict::kAmbiguous) << "pictures deny it";
+}
+
+TEST(MergeJudge, PicturesOfTheSamePlacesNeedFewerWalls) {
+  const MergeHypothesis few_walls = hypothesis(16.0, 6.0, 0.05, 1);
+  EXPECT_EQ(verdict_of({few_walls}), MergeVerdict::kAmbiguous);
+  EXPECT_EQ(verdict_of({pictured(few_walls, 2, 0)}), MergeVerdict::kMerged);
+  const MergeHypothesis hardly_any = hypothesis(8.0, 5.0, 0.0);
+  EXPECT_EQ(verdict_of({pictured(hardly_any, 2, 0)}), MergeVerdict::kAmbiguous) << "the operator may confirm";
+  EXPECT_EQ(verdict_of({pictured(hypothesis(1.0, 0.5, 0.0), 2, 0)}), MergeVerdict::kInsufficientOverlap);
+}
+
 TEST(MergeJudge, LongCorridorsWithManyDoorsAreNotSure) {
   EXPECT_EQ(verdict_of({hypothesis(90.0, 12.0, 0.05)}), MergeVerdict::kAmbiguous);
 }

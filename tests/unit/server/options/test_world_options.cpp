@@ -43,14 +43,14 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedWorld,
                          ::testing::Values("arena-20", "paper-a", "paper-b", "no-target", "office", "office-no-target",
                                            "demo", "corridor", "hospital", "hall", "closet", "closet-gap", "open-door",
                                            "laboratory", "laboratory-moved", "tank", "tank-no-sphere", "twin-corridors",
-                                           "twin-posters"));
+                                           "twin-posters", "half-turn"));
 
 TEST(ShippedWorlds, AreAllInTheTestAbove) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/worlds"))) {
     files += entry.path().extension() == ".yaml" ? 1 : 0;
   }
-  EXPECT_EQ(files, 19U);
+  EXPECT_EQ(files, 20U);
 }
 
 TEST(ShippedWorlds, AreAsLargeAsTheyShouldBe) {

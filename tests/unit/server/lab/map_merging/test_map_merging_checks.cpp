@@ -81,11 +81,18 @@ TEST(FalsePairCheck, WantsTheFalsePairRefusedInEachRunAndAcceptedInNone) {
 }
 
 TEST(PosterCheck, WantsMoreMergesInTimeThanTheLaserAloneAndNoWrongOne) {
-  EXPECT_TRUE(check_posters({merged_at(200.0)}, {merged_at(400.0)}).passed);
-  EXPECT_FALSE(check_posters({merged_at(400.0)}, {merged_at(200.0)}).passed);
+  const auto verdict = [](const FleetResult& pictures, const FleetResult& laser) {
+    return verdict_of(check_posters("S4-POSTERS", {pictures}, {laser}));
+  };
+  EXPECT_EQ(verdict(merged_at(200.0), merged_at(400.0)), "PASS");
+  EXPECT_EQ(verdict(merged_at(400.0), merged_at(200.0)), "FAIL");
+  EXPECT_EQ(verdict(merged_at(400.0), merged_at(400.0)), "FAIL") << "neither in time";
+  EXPECT_EQ(verdict(merged_at(200.0), merged_at(200.0)), "FINDING") << "there is nothing to raise";
   FleetResult wrong = merged_at(200.0);
   wrong.wrong = 1;
-  EXPECT_FALSE(check_posters({wrong}, {merged_at(400.0)}).passed);
+  EXPECT_EQ(verdict(wrong, merged_at(400.0)), "FAIL");
+  EXPECT_EQ(verdict(wrong, merged_at(200.0)), "FAIL");
+  EXPECT_EQ(verdict(merged_at(200.0), wrong), "PASS") << "a wrong merge is none";
 }
 
 }  // namespace
