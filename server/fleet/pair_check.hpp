@@ -43,8 +43,8 @@ struct PairCheckParams {
   IcpParams icp;  ///< ICP from proposals of similar pictures, as printed (spec S4.6)
   /// Headings from which that ICP starts where the pictures say the rotation between the robots.
   std::vector<double> known_heading_restarts_rad{0.0, 0.2618, -0.2618};
-  /// As min_consistency where similar pictures say the place: what is seen of things from their other side has no
-  /// partner there, while eq (7) and the residual hold.
+  /// As min_consistency where similar pictures say the place: the far side of an object has no partner
+  /// there, while eq (7) and the residual hold.
   double pictured_min_consistency = 0.5;
   /// Lower limit of the standard deviation of a match: local maps are distorted.
   double sigma_floor_m = 0.03;

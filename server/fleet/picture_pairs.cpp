@@ -64,11 +64,10 @@ bool PicturePairs::agrees(const PicturePair& pair, const std::function<Pose2(std
          std::abs(wrap_angle(expected.theta_rad - said.theta_rad)) <= params_.alike_rad;
 }
 
-bool PicturePairs::tell(const PlacedPicture& of_a, const PlacedPicture& of_b, const Pose2& expected) const {
+bool PicturePairs::comparable(const PlacedPicture& of_a, const PlacedPicture& of_b, const Pose2& expected) const {
   const vision::ViewFeatures& a = of_a.picture->features;
   const vision::ViewFeatures& b = of_b.picture->features;
-  if (distance_m(expected, of_a.map_T_base) > params_.near_m ||
-      std::min(a.size(), b.size()) < params_.telling_features) {
+  if (distance_m(expected, of_a.map_T_base) > params_.near_m || std::min(a.size(), b.size()) < params_.min_features) {
     return false;
   }
   const double a_T_b_rad = expected.theta_rad - of_a.map_T_base.theta_rad;
@@ -80,7 +79,7 @@ bool PicturePairs::tell(const PlacedPicture& of_a, const PlacedPicture& of_b, co
   const auto shown = std::count_if(b.bearings_rad.begin(), b.bearings_rad.end(), [&](float bearing_rad) {
     return shown_in(a, static_cast<double>(bearing_rad) + a_T_b_rad);
   });
-  return static_cast<double>(shown) >= params_.telling_share * static_cast<double>(b.size());
+  return static_cast<double>(shown) >= params_.min_directions * static_cast<double>(b.size());
 }
 
 PictureEvidence PicturePairs::evidence(const std::function<Pose2(std::size_t)>& map_a_T_node) const {
@@ -97,7 +96,7 @@ PictureEvidence PicturePairs::evidence(const std::function<Pose2(std::size_t)>& 
   for (const PlacedPicture& of_b : pictures_b_) {
     const Pose2 expected = map_a_T_node(of_b.node) * of_b.picture->node_T_base;
     for (const PlacedPicture& of_a : pictures_a_) {
-      if (!alike_a.contains(of_a.picture) && !alike_b.contains(of_b.picture) && tell(of_a, of_b, expected)) {
+      if (!alike_a.contains(of_a.picture) && !alike_b.contains(of_b.picture) && comparable(of_a, of_b, expected)) {
         unlike_a.insert(of_a.picture);
         unlike_b.insert(of_b.picture);
       }

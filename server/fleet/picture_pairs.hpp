@@ -29,8 +29,8 @@ struct PictureParams {
   std::size_t sure_unlike = 2;
   /// Pictures with fewer features, or of which less than this share looks at the directions that the other one shows,
   /// deny nothing: of a bare wall, or of another side of the place.
-  std::size_t telling_features = 60;
-  double telling_share = 0.5;
+  std::size_t min_features = 60;
+  double min_directions = 0.5;
 
   friend bool operator==(const PictureParams&, const PictureParams&) = default;
 };
@@ -74,7 +74,7 @@ class PicturePairs {
   [[nodiscard]] std::vector<PicturePair> proposals() const;
   /// Whether two pictures would be similar if they were of one place: both show enough, in the same directions.
   /// `expected` is the pose of robot b in the frame `map` of robot a that is to be judged.
-  [[nodiscard]] bool tell(const PlacedPicture& of_a, const PlacedPicture& of_b, const Pose2& expected) const;
+  [[nodiscard]] bool comparable(const PlacedPicture& of_a, const PlacedPicture& of_b, const Pose2& expected) const;
   /// Whether a pair lies where a pose of map b in map a expects it. `map_a_T_node` gives the pose of a local map of b,
   /// by index, in the frame `map` of a.
   [[nodiscard]] bool agrees(const PicturePair& pair, const std::function<Pose2(std::size_t)>& map_a_T_node) const;

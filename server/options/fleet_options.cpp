@@ -115,8 +115,8 @@ void describe(config::Fields& f, PictureParams& params) {
   f.check("sure_alike", params.sure_alike >= 1, "must be 1 or more");
   f.field("sure_unlike", params.sure_unlike);
   f.check("sure_unlike", params.sure_unlike >= 1, "must be 1 or more");
-  f.field("telling_features", params.telling_features);
-  f.field("telling_share", params.telling_share);
+  f.field("min_features", params.min_features);
+  f.field("min_directions", params.min_directions);
 }
 
 void describe(config::Fields& f, MergeParams& params) {

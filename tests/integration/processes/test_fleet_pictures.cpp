@@ -8,8 +8,6 @@
 namespace seeker::testing {
 namespace {
 
-constexpr std::size_t kRobots = 3;
-
 /// What the main robot has received of another one and keeps on its disk.
 std::vector<fleet::NodePicture> pictures_on_disk(const std::filesystem::path& folder) {
   std::vector<fleet::NodePicture> pictures;
@@ -25,11 +23,12 @@ std::vector<fleet::NodePicture> pictures_on_disk(const std::filesystem::path& fo
 }
 
 TEST(FleetPictures, TravelByPiecesAndSpeakForTheMerge) {
-  Team team("fleet_pictures", source_file("tests/support/worlds/studio.yaml"), kRobots);
-  for (std::size_t k = 0; k < kRobots; ++k) {
+  constexpr std::size_t kMembers = 3;
+  Team team("fleet_pictures", source_file("tests/support/worlds/studio.yaml"), kMembers);
+  for (std::size_t k = 0; k < kMembers; ++k) {
     team.start(k);
   }
-  for (std::size_t k = 0; k < kRobots; ++k) {
+  for (std::size_t k = 0; k < kMembers; ++k) {
     team.explore(k);
   }
   const api::FleetStatus fleet = team.until([](const api::FleetMember& member) {

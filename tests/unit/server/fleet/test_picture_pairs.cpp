@@ -85,9 +85,9 @@ TEST(PicturePairs, ProposeThePoseOfTheOtherRobotAtEachPlaceThatBothHaveSeen) {
   // Pictures that were taken up to 3 m apart are similar here, and count as alike within 2 m of where they should be.
   const Pose2 elsewhere = a.truth(b) * Pose2{8.0, 0.0, 0.0};
   EXPECT_TRUE(pairs.evidence(at(elsewhere)).denies(params));
-  PictureParams telling = params;
-  telling.telling_features = 1000;
-  const PicturePairs bare(a.map, b.map, telling);
+  PictureParams strict = params;
+  strict.min_features = 1000;
+  const PicturePairs bare(a.map, b.map, strict);
   EXPECT_EQ(bare.evidence(at(elsewhere)).unlike, 0U) << "pictures that show little deny nothing";
 }
 
