@@ -120,19 +120,28 @@ TEST(MergeByPictures, TellsWhichOfTwoEqualCorridorsIsMeant) {
   }
 }
 
-TEST(MergeByPictures, DecidesWhereScansOfTenMetresOfWallDoNot) {
-  const auto walls = office(1);
-  const auto marks = marks_on(walls, 1);
-  Driven a(walls, {{1.0, 6.0}, {9.0, 6.0}}, 11);
-  Driven b(walls, {{13.0, 6.0}, {7.0, 6.0}}, 12);
-  const MergeAnswer by_scans = merge(a.map, b.map);
-  EXPECT_FALSE(by_scans.merged()) << figures_of(by_scans);
-  a.take_pictures(marks);
-  b.take_pictures(marks);
-  const MergeAnswer answer = merge(a.map, b.map);
-  EXPECT_TRUE(answer.merged() || answer.verdict == MergeVerdict::kAmbiguous) << figures_of(answer);
-  ASSERT_FALSE(answer.hypotheses.empty());
-  EXPECT_THAT(answer.hypotheses.front().a_T_b.a_T_b, Pose2Near(a.truth(b), 0.3, 0.03)) << figures_of(answer);
+TEST(MergeByPictures, ProposeTheRightPlaceWhereScansHaveTooLittleInCommon) {
+  constexpr int kBuildings = 20;
+  int by_scans = 0;
+  int by_pictures = 0;
+  int undecided = 0;
+  for (std::uint64_t building = 1; building <= kBuildings; ++building) {
+    const auto walls = office(building);
+    const auto marks = marks_on(walls, building);
+    Driven a(walls, {{1.0, 6.0}, {9.0, 6.0}}, 11);
+    Driven b(walls, {{13.0, 6.0}, {7.0, 6.0}}, 12);
+    by_scans += merge(a.map, b.map).merged() ? 1 : 0;
+    a.take_pictures(marks);
+    b.take_pictures(marks);
+    const MergeAnswer answer = merge(a.map, b.map);
+    undecided += answer.verdict == MergeVerdict::kInsufficientOverlap ? 1 : 0;
+    if (answer.merged() || answer.verdict == MergeVerdict::kAmbiguous) {
+      by_pictures += answer.merged() ? 1 : 0;
+      EXPECT_THAT(answer.hypotheses.front().a_T_b.a_T_b, Pose2Near(a.truth(b), 0.3, 0.03)) << figures_of(answer);
+    }
+  }
+  EXPECT_GT(by_pictures, by_scans);
+  EXPECT_EQ(undecided, 0);
 }
 
 /// The second robot believes to have seen at its start what the first one saw at its own.
