@@ -308,6 +308,9 @@ Status validate(const RobotOptions& options) {
   if (const Status ok = fleet::validate(options.topology); !ok) {
     return fail_with_context("topology", ok.error());
   }
+  if (const Status ok = vision::validate(options.fleet.merge.pictures.views); !ok) {
+    return fail_with_context("fleet.merge.pictures", ok.error());
+  }
   const Status stereo = check_stereo(options.stereo);
   return stereo ? stereo : fail_with_context("stereo", stereo.error());
 }

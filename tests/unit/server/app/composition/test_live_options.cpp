@@ -104,5 +104,14 @@ TEST(Connections, ASafetySupervisorWithoutAnySensorIsRefused) {
       << wrong.error().message;
 }
 
+TEST(RobotOptions, RefuseLimitsOfSimilarPicturesOutOfRange) {
+  const Result<RobotOptions> options =
+      parse_robot_options("{fleet: {merge: {pictures: {views: {min_share: 1.5}}}}}", "robot.yaml", {});
+  ASSERT_TRUE(options) << options.error().message;
+  const Status valid = validate(*options);
+  ASSERT_FALSE(valid);
+  EXPECT_NE(valid.error().message.find("fleet.merge.pictures"), std::string::npos) << valid.error().message;
+}
+
 }  // namespace
 }  // namespace seeker::app
