@@ -173,19 +173,6 @@ void describe(config::Fields& f, SurveyParams& params) {
   f.section("look", params.look);
 }
 
-namespace {
-
-void describe_mode(config::Fields& f, StereoSettings& settings) {
-  const StereoMode before = settings.mode;
-  f.choice("mode", settings.mode,
-           config::Choices<StereoMode>{{"default", StereoMode::kDefault}, {"paper", StereoMode::kPaper}});
-  if (f.reading() && settings.mode != before) {
-    take_mode(settings);
-  }
-}
-
-}  // namespace
-
 void describe(config::Fields& f, StereoSettings& settings) {
   describe_mode(f, settings);
   f.optional_section("camera", settings.camera);

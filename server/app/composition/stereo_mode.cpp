@@ -1,6 +1,7 @@
 #include "server/app/composition/stereo_mode.hpp"
 
 namespace seeker::app {
+namespace {
 
 void take_mode(StereoSettings& settings) {
   const bool paper = settings.mode == StereoMode::kPaper;
@@ -13,6 +14,17 @@ void take_mode(StereoSettings& settings) {
   localiser.eye_height_m = settings.localiser.eye_height_m;
   settings.localiser = localiser;
   settings.estimator.update = paper ? localize::paper_update_params() : localize::UpdateParams{};
+}
+
+}  // namespace
+
+void describe_mode(config::Fields& f, StereoSettings& settings) {
+  const StereoMode before = settings.mode;
+  f.choice("mode", settings.mode,
+           config::Choices<StereoMode>{{"default", StereoMode::kDefault}, {"paper", StereoMode::kPaper}});
+  if (f.reading() && settings.mode != before) {
+    take_mode(settings);
+  }
 }
 
 }  // namespace seeker::app
