@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "common/api/fleet.hpp"
 #include "common/core/angle.hpp"
@@ -44,7 +45,8 @@ Result<fleet::NodePicture> decode_picture(std::span<const std::uint8_t> bytes) {
   }
   const auto count = static_cast<std::size_t>(message.bearings_size());
   if (count > api::kMaxFleetPictureFeatures) {
-    return fail(Errc::kTooLarge, "a picture has more than 1000 features");
+    return fail(Errc::kTooLarge,
+                "a picture has more than " + std::to_string(api::kMaxFleetPictureFeatures) + " features");
   }
   const Result<Pose2> node_T_base = wire::from_message<Pose2>(message.node_t_base());
   if (!message.has_node_t_base() || !node_T_base || message.descriptors().size() != count * vision::kDescriptorSize ||
