@@ -2,8 +2,10 @@
 /// Lists of seeds in the form that people write.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/core/result.hpp"
@@ -14,5 +16,13 @@ namespace seeker::lab {
 [[nodiscard]] Result<std::vector<std::uint64_t>> parse_seeds(const std::string& text);
 /// The shortest text that parse_seeds() reads as these seeds; they may be in any order.
 [[nodiscard]] std::string print_seeds(std::vector<std::uint64_t> seeds);
+
+/// The seeds of runs, each of which has a member `seed`, as that text.
+template <class Run>
+[[nodiscard]] std::string seeds_text(const std::vector<Run>& runs) {
+  std::vector<std::uint64_t> seeds(runs.size());
+  std::transform(runs.begin(), runs.end(), seeds.begin(), [](const Run& run) { return run.seed; });
+  return print_seeds(std::move(seeds));
+}
 
 }  // namespace seeker::lab

@@ -219,10 +219,6 @@ Check check_posters(const std::string& id, const std::vector<FleetResult>& pictu
   const auto share = [](const Merges& merges, const std::vector<FleetResult>& runs) {
     return std::to_string(merges.in_time) + "/" + std::to_string(runs.size());
   };
-  std::vector<std::uint64_t> seeds;
-  for (const FleetResult& run : pictures) {
-    seeds.push_back(run.seed);
-  }
   const bool right = !pictures.empty() && with_pictures.wrong == 0 && with_pictures.in_time >= with_laser.in_time;
   const bool all_by_laser = with_laser.in_time == static_cast<int>(laser.size());
   return {.id = id,
@@ -234,7 +230,7 @@ Check check_posters(const std::string& id, const std::vector<FleetResult>& pictu
                       {"error_max_m", fixed(with_pictures.error_m, 3)},
                       {"merged_at_s", fixed(mean_spread(with_pictures.at_s).mean, 0)},
                       {"laser_merged_at_s", fixed(mean_spread(with_laser.at_s).mean, 0)},
-                      {"seeds", print_seeds(seeds)}},
+                      {"seeds", seeds_text(pictures)}},
           .finding = right && all_by_laser};
 }
 

@@ -188,7 +188,7 @@ Result<std::vector<ExploreResult>> run_single(const ReproduceParams& params, Rep
   return runs;
 }
 
-Result<std::vector<FleetResult>> run_fleets(const ReproduceParams& params, std::vector<FleetSpec> specs) {
+Result<std::vector<FleetResult>> run_fleets(const ReproduceParams& params, const std::vector<FleetSpec>& specs) {
   return fleet_missing(specs, params.out, params.show_progress);
 }
 
@@ -204,11 +204,11 @@ Status compare_with_printed(const ReproduceParams& params, const std::vector<Exp
     spec.label = kPrinted;
     spec.time_limit_s = params.smallest ? kSmallestTime_s : spec.time_limit_s;
   }
-  const auto our_runs = run_fleets(params, std::move(ours));
+  const auto our_runs = run_fleets(params, ours);
   if (!our_runs) {
     return tl::unexpected<Error>(our_runs.error());
   }
-  const auto printed_runs = run_fleets(params, std::move(printed));
+  const auto printed_runs = run_fleets(params, printed);
   if (!printed_runs) {
     return tl::unexpected<Error>(printed_runs.error());
   }
@@ -237,7 +237,7 @@ Status compare_posters(const ReproduceParams& params, const std::string& world, 
   if (!with_pictures) {
     return tl::unexpected<Error>(with_pictures.error());
   }
-  const auto laser_alone = run_fleets(params, std::move(laser));
+  const auto laser_alone = run_fleets(params, laser);
   if (!laser_alone) {
     return tl::unexpected<Error>(laser_alone.error());
   }

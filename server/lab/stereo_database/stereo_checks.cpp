@@ -45,12 +45,7 @@ Mean mean_of(const std::vector<StereoResult>& runs, std::string_view name) {
 using Figures = std::vector<std::pair<std::string, std::string>>;
 
 Figures figures_of(const std::vector<StereoResult>& runs) {
-  std::vector<std::uint64_t> seeds;
-  seeds.reserve(runs.size());
-  for (const StereoResult& run : runs) {
-    seeds.push_back(run.seed);
-  }
-  return {{"mode", runs.front().mode}, {"seeds", print_seeds(seeds)}};
+  return {{"mode", runs.front().mode}, {"seeds", seeds_text(runs)}};
 }
 
 void add(Report& report, std::string id, bool passed, const std::vector<StereoResult>& runs, Figures figures) {

@@ -168,10 +168,6 @@ constexpr Row kRows[] = {{"R3", "Table1,Fig1:matches_before>after", "-", &table1
 }  // namespace
 
 void compare_stereo(const std::vector<StereoResult>& printed, const std::vector<StereoResult>& ours, Report& report) {
-  std::vector<std::uint64_t> seeds;
-  for (const StereoResult& run : printed) {
-    seeds.push_back(run.seed);
-  }
   for (const Row& row : kRows) {
     if (row.id == std::string("R4") && !is_updated(printed) && is_updated(ours) &&
         std::all_of(printed.begin(), printed.end(), [](const StereoResult& run) { return run.before == 0; })) {
@@ -185,7 +181,7 @@ void compare_stereo(const std::vector<StereoResult>& printed, const std::vector<
                             {"paper", row.paper},
                             {"printed", as_printed.figures},
                             {"ours", as_ours.figures},
-                            {"seeds", print_seeds(seeds)}},
+                            {"seeds", seeds_text(printed)}},
                 .finding = as_ours.met});
   }
 }
@@ -210,12 +206,8 @@ void report_bisection(const std::vector<BisectionResult>& bisections, Report& re
       best = i;
     }
   }
-  std::vector<std::uint64_t> seeds;
-  for (const BisectionResult& bisection : bisections) {
-    seeds.push_back(bisection.seed);
-  }
   check.figures.emplace_back("most", best > 0 ? rows[best].name : "none");
-  check.figures.emplace_back("seeds", print_seeds(seeds));
+  check.figures.emplace_back("seeds", seeds_text(bisections));
   check.passed = mean_mm(rows.size() - 1) < mean_mm(0);
   report.add(std::move(check));
 }
