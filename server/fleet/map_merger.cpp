@@ -11,15 +11,6 @@
 namespace seeker::fleet {
 namespace {
 
-/// Indices of nodes by their ids.
-std::map<std::uint32_t, std::size_t> indices_of(const PreparedMap& map) {
-  std::map<std::uint32_t, std::size_t> indices;
-  for (std::size_t k = 0; k < map.nodes().size(); ++k) {
-    indices[map.nodes()[k].id] = k;
-  }
-  return indices;
-}
-
 /// The part of a local map that was seen from around a picture, with its middle where that was taken.
 PreparedNode surroundings_of(const PreparedNode& node, const NodePicture& picture, double radius_m) {
   PreparedNode part;
@@ -37,7 +28,7 @@ PreparedNode surroundings_of(const PreparedNode& node, const NodePicture& pictur
 class Question {
  public:
   Question(PreparedMap& a, PreparedMap& b, const PicturePairs& pictures, const MergeParams& params)
-      : a_(a), b_(b), pictures_(pictures), params_(params), index_a_(indices_of(a)), index_b_(indices_of(b)) {}
+      : a_(a), b_(b), pictures_(pictures), params_(params), index_a_(node_indices(a)), index_b_(node_indices(b)) {}
 
   void compare(const PairCheck& check, MergeAnswer& answer);
   [[nodiscard]] std::vector<MergeHypothesis> hypotheses();
@@ -96,8 +87,8 @@ void Question::compare_pictures(const PairCheck& check, MergeAnswer& answer) {
       continue;
     }
     const PreparedNode part = surroundings_of(b_.nodes()[pair.b.node], *pair.b.picture, params_.pictures.scans_m);
-    const std::size_t region = a_.region_at(pair.a.map_T_base.translation()).value_or(a_.nodes()[pair.a.node].region);
-    PairFindings found = check.find_at(a_, region, part, pair.map_a_T_base_b() * inverse(pair.b.picture->node_T_base));
+    PairFindings found =
+        check.find_at(a_, region_of(a_, pair.a), part, pair.map_a_T_base_b() * inverse(pair.b.picture->node_T_base));
     ++answer.compared;
     ++checks;
     if (found.relations.empty()) {

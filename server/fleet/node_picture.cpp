@@ -1,47 +1,41 @@
 #include "server/fleet/node_picture.hpp"
 
-#include <cstring>
 #include <set>
+#include <string_view>
+
+#include "common/core/hash.hpp"
 
 namespace seeker::fleet {
 namespace {
 
-/// FNV-1a, eight bytes at a time.
-void mix(std::uint64_t& hash, const void* data, std::size_t bytes) {
-  constexpr std::uint64_t kPrime = 1099511628211ULL;
-  const auto* at = static_cast<const unsigned char*>(data);
-  for (std::size_t k = 0; k < bytes; k += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, at + k, std::min(sizeof(word), bytes - k));
-    hash = (hash ^ word) * kPrime;
-    hash ^= hash >> 32U;
-  }
+template <class T>
+std::string_view bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};  // NOLINT: their bytes
 }
 
 }  // namespace
 
-PictureComparisons::Key PictureComparisons::key_of(const NodePicture& picture) {
-  Key hash = 14695981039346656037ULL;
-  const vision::ViewFeatures& features = picture.features;
-  mix(hash, features.bearings_rad.data(), features.bearings_rad.size() * sizeof(float));
-  mix(hash, features.descriptors.data(), features.descriptors.size() * sizeof(vision::Descriptor));
-  return hash;
+KeyedPicture keyed(const NodePicture& picture) {
+  Fnv1a hash;
+  hash.add(bytes_of(picture.features.bearings_rad));
+  hash.add(bytes_of(picture.features.descriptors));
+  return {&picture, hash.value()};
 }
 
-std::optional<vision::ViewMatch> PictureComparisons::match(const NodePicture& own, const NodePicture& other,
+std::optional<vision::ViewMatch> PictureComparisons::match(const KeyedPicture& own, const KeyedPicture& other,
                                                            const vision::ViewMatchParams& params) {
-  const std::pair key{key_of(own), key_of(other)};
+  const std::pair key{own.key, other.key};
   const auto known = known_.find(key);
   if (known != known_.end()) {
     return known->second;
   }
-  return known_[key] = vision::match_views(own.features, other.features, params);
+  return known_[key] = vision::match_views(own.picture->features, other.picture->features, params);
 }
 
 void PictureComparisons::keep_only(const NodePictures& own) {
-  std::set<Key> keys;
+  std::set<std::uint64_t> keys;
   for (const auto& picture : own) {
-    keys.insert(key_of(*picture));
+    keys.insert(keyed(*picture).key);
   }
   std::erase_if(known_, [&](const auto& entry) { return !keys.contains(entry.first.first); });
 }

@@ -28,12 +28,19 @@ struct NodePicture {
 /// Pictures of one robot in the order in which they were taken; none is null.
 using NodePictures = std::vector<std::shared_ptr<const NodePicture>>;
 
+/// A picture with the hash of its features.
+struct KeyedPicture {
+  const NodePicture* picture = nullptr;
+  std::uint64_t key = 0;
+};
+[[nodiscard]] KeyedPicture keyed(const NodePicture& picture);
+
 /// Results of comparisons by the values of both pictures, so that maps which grow compare only what is new.
 /// Not thread-safe.
 class PictureComparisons {
  public:
-  /// As vision::match_views(own.features, other.features, params). The parameters must be the same in all calls.
-  [[nodiscard]] std::optional<vision::ViewMatch> match(const NodePicture& own, const NodePicture& other,
+  /// As vision::match_views() of their features. The parameters must be the same in all calls.
+  [[nodiscard]] std::optional<vision::ViewMatch> match(const KeyedPicture& own, const KeyedPicture& other,
                                                        const vision::ViewMatchParams& params);
   /// Forgets the comparisons of pictures that are not among `own`.
   void keep_only(const NodePictures& own);
@@ -41,10 +48,8 @@ class PictureComparisons {
   [[nodiscard]] std::size_t size() const { return known_.size(); }
 
  private:
-  using Key = std::uint64_t;  ///< hash of a picture's features
-  [[nodiscard]] static Key key_of(const NodePicture& picture);
-
-  std::map<std::pair<Key, Key>, std::optional<vision::ViewMatch>> known_;  ///< the own picture first
+  /// By the keys of both pictures, the own one first.
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::optional<vision::ViewMatch>> known_;
 };
 
 }  // namespace seeker::fleet

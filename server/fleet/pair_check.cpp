@@ -102,60 +102,50 @@ PairFindings PairCheck::find(PreparedMap& a, std::size_t region, const PreparedN
   return findings;
 }
 
-std::optional<IcpResult> PairCheck::icp_from(PreparedMap& a, std::size_t region, const Query& query,
-                                             const Pose2& map_a_T_node, const IcpParams& params) const {
+PairFindings PairCheck::find_by_icp(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
+                                    const Pose2& map_a_T_node, const IcpParams& params, const Judge& judge) const {
+  PairFindings findings;
+  const std::shared_ptr<const slam::PlaceMap> place = a.place(region);
+  if (!place) {
+    findings.refusal = kNothingSeen;
+    return findings;
+  }
+  const Query query(node_b, params_);
   const Pose2& map_T_region = a.nodes()[a.regions()[region].node].map_T_node;
-  return icp(a.place(region)->cloud(), query.sparse, inverse(map_T_region) * map_a_T_node * query.node_T_base, params);
+  const auto found =
+      icp(place->cloud(), query.sparse, inverse(map_T_region) * map_a_T_node * query.node_T_base, params);
+  NodeRelation relation;
+  findings.refusal = found ? judge(query, *found, relation) : kNoPartners;
+  if (findings.refusal.empty()) {
+    findings.relations.push_back(relation);
+  }
+  return findings;
 }
 
 PairFindings PairCheck::find_at(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
                                 const Pose2& map_a_T_node) const {
-  PairFindings findings;
-  if (!a.place(region)) {
-    findings.refusal = kNothingSeen;
-    return findings;
-  }
-  const Query query(node_b, params_);
   IcpParams from_here = params_.icp;
   from_here.restarts_rad = params_.known_heading_restarts_rad;
-  const auto found = icp_from(a, region, query, map_a_T_node, from_here);
-  findings.refusal = found ? std::string_view() : kNoPartners;
-  if (found) {
-    NodeRelation relation;
-    findings.refusal = examine(a, region, query, found->a_T_b, params_.pictured_min_consistency, relation);
-    if (findings.refusal.empty()) {
-      findings.relations.push_back(relation);
-    }
-  }
-  return findings;
+  const auto judge = [&](const Query& query, const IcpResult& found, NodeRelation& relation) {
+    return examine(a, region, query, found.a_T_b, params_.pictured_min_consistency, relation);
+  };
+  return find_by_icp(a, region, node_b, map_a_T_node, from_here, judge);
 }
 
 PairFindings PairCheck::find_as_printed(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
                                         const Pose2& map_a_T_node) const {
-  PairFindings findings;
-  if (!a.place(region)) {
-    findings.refusal = kNothingSeen;
-    return findings;
-  }
-  const Query query(node_b, params_);
-  const auto found = icp_from(a, region, query, map_a_T_node, params_.icp);
-  if (!found) {
-    findings.refusal = kNoPartners;
-    return findings;
-  }
-  NodeRelation relation;
-  relation.overlap = found->pair_share;
-  relation.consistency = found->pair_share;
-  relation.similarity = similarity_of(*a.place(region), query.sparse, found->a_T_b, params_.similarity_sigma_m,
-                                      params_.match.first_gate_m);
-  relation.residual_m = std::sqrt(found->mean_square_m2);
-  if (relation.similarity < params_.min_similarity || relation.residual_m > params_.max_residual_m) {
-    findings.refusal = kOffTheWalls;
-    return findings;
-  }
-  locate(a, region, query, {found->a_T_b, Matrix3::Zero()}, relation);
-  findings.relations.push_back(relation);
-  return findings;
+  const auto judge = [&](const Query& query, const IcpResult& found, NodeRelation& relation) {
+    relation.overlap = found.pair_share;
+    relation.consistency = found.pair_share;
+    relation.similarity = similarity_of(*a.place(region), query.sparse, found.a_T_b, params_.similarity_sigma_m,
+                                        params_.match.first_gate_m);
+    relation.residual_m = std::sqrt(found.mean_square_m2);
+    locate(a, region, query, {found.a_T_b, Matrix3::Zero()}, relation);
+    const bool on_the_walls =
+        relation.similarity >= params_.min_similarity && relation.residual_m <= params_.max_residual_m;
+    return on_the_walls ? std::string_view() : kOffTheWalls;
+  };
+  return find_by_icp(a, region, node_b, map_a_T_node, params_.icp, judge);
 }
 
 void PairCheck::locate(PreparedMap& a, std::size_t region, const Query& query, const UncertainPose& region_T_base,

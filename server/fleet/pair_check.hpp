@@ -2,7 +2,7 @@
 /// Localisation of one robot's local map in a part of another's map: search, ICP, and the check of the points.
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -75,8 +75,10 @@ class PairCheck {
 
  private:
   struct Query;
-  [[nodiscard]] std::optional<IcpResult> icp_from(PreparedMap& a, std::size_t region, const Query& query,
-                                                  const Pose2& map_a_T_node, const IcpParams& params) const;
+  /// Why a pose that ICP has found is refused; empty where it is not, and the relation is filled then.
+  using Judge = std::function<std::string_view(const Query& query, const IcpResult& found, NodeRelation& relation)>;
+  [[nodiscard]] PairFindings find_by_icp(PreparedMap& a, std::size_t region, const PreparedNode& node_b,
+                                         const Pose2& map_a_T_node, const IcpParams& params, const Judge& judge) const;
   void locate(PreparedMap& a, std::size_t region, const Query& query, const UncertainPose& region_T_base,
               NodeRelation& relation) const;
   [[nodiscard]] std::string_view examine(PreparedMap& a, std::size_t region, const Query& query, const Pose2& start,

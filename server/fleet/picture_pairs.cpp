@@ -10,19 +10,21 @@
 namespace seeker::fleet {
 
 std::vector<PlacedPicture> placed_pictures(const PreparedMap& map) {
-  std::map<std::uint32_t, std::size_t> nodes;
-  for (std::size_t k = 0; k < map.nodes().size(); ++k) {
-    nodes[map.nodes()[k].id] = k;
-  }
+  const std::map<std::uint32_t, std::size_t> nodes = node_indices(map);
   std::vector<PlacedPicture> placed;
   placed.reserve(map.pictures().size());
   for (const auto& picture : map.pictures()) {
     const auto node = nodes.find(picture->node);
     if (node != nodes.end()) {
-      placed.push_back({picture.get(), node->second, map.nodes()[node->second].map_T_node * picture->node_T_base});
+      const Pose2 map_T_base = map.nodes()[node->second].map_T_node * picture->node_T_base;
+      placed.push_back({keyed(*picture), node->second, map_T_base});
     }
   }
   return placed;
+}
+
+std::size_t region_of(const PreparedMap& map, const PlacedPicture& picture) {
+  return map.region_at(picture.map_T_base.translation()).value_or(map.nodes()[picture.node].region);
 }
 
 Pose2 PicturePair::map_a_T_base_b() const {
@@ -34,7 +36,7 @@ PicturePairs::PicturePairs(PreparedMap& a, PreparedMap& b, const PictureParams& 
   for (const PlacedPicture& of_b : pictures_b_) {
     const auto first = static_cast<std::ptrdiff_t>(pairs_.size());
     for (const PlacedPicture& of_a : pictures_a_) {
-      if (const auto match = a.picture_comparisons().match(*of_a.picture, *of_b.picture, params.views)) {
+      if (const auto match = a.picture_comparisons().match(of_a, of_b, params.views)) {
         pairs_.push_back({of_a, of_b, *match});
       }
     }

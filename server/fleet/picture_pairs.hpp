@@ -36,13 +36,15 @@ struct PictureParams {
 };
 
 /// A picture with its pose in the map as it is now.
-struct PlacedPicture {
-  const NodePicture* picture = nullptr;
+struct PlacedPicture : KeyedPicture {
   std::size_t node = 0;  ///< index of its local map among the prepared ones
   Pose2 map_T_base;
 };
 /// The pictures of the local maps that are there.
 [[nodiscard]] std::vector<PlacedPicture> placed_pictures(const PreparedMap& map);
+
+/// The region of the map that shows where a picture was taken; else that of its local map.
+[[nodiscard]] std::size_t region_of(const PreparedMap& map, const PlacedPicture& picture);
 
 /// Two similar pictures.
 struct PicturePair {

@@ -271,4 +271,12 @@ UncertainPose PreparedMap::between(std::size_t from, std::size_t to) {
   return {inverse(a.map_T_node) * b.map_T_node, covariance ? *covariance : kUnknown_m2 * Matrix3::Identity()};
 }
 
+std::map<std::uint32_t, std::size_t> node_indices(const PreparedMap& map) {
+  std::map<std::uint32_t, std::size_t> indices;
+  for (std::size_t k = 0; k < map.nodes().size(); ++k) {
+    indices[map.nodes()[k].id] = k;
+  }
+  return indices;
+}
+
 }  // namespace seeker::fleet

@@ -103,4 +103,7 @@ class PreparedMap {
   PictureComparisons comparisons_;
 };
 
+/// Indices of the prepared nodes by their ids.
+[[nodiscard]] std::map<std::uint32_t, std::size_t> node_indices(const PreparedMap& map);
+
 }  // namespace seeker::fleet

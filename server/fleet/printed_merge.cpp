@@ -45,9 +45,8 @@ MergeAnswer MapMerger::merge_as_printed(PreparedMap& a, PreparedMap& b) const {
   for (const PicturePair& pair : pictures.proposals()) {
     const NodePicture& taken_b = *pair.b.picture;
     const PreparedNode node_b = around_picture(b.nodes()[pair.b.node], taken_b);
-    const std::size_t region = a.region_at(pair.a.map_T_base.translation()).value_or(a.nodes()[pair.a.node].region);
     const PairFindings found =
-        check_.find_as_printed(a, region, node_b, pair.a.map_T_base * inverse(taken_b.node_T_base));
+        check_.find_as_printed(a, region_of(a, pair.a), node_b, pair.a.map_T_base * inverse(taken_b.node_T_base));
     ++answer.compared;
     if (!found.relations.empty()) {
       answer.hypotheses = {hypothesis_of(a, b, pair, found.relations.front(), params_)};

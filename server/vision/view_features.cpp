@@ -39,13 +39,6 @@ Agreement largest_agreement(const std::vector<double>& differences_rad, double h
 
 }  // namespace
 
-DetectorParams view_detector_params() {
-  constexpr int kKeyPoints = 300;
-  DetectorParams params;
-  params.wanted = kKeyPoints;
-  return params;
-}
-
 ViewFeatureExtractor::ViewFeatureExtractor(const ViewParams& view, const DetectorParams& detector)
     : view_(view), detector_(detector) {
   SEEKER_ASSERT(validate(detector_).has_value());

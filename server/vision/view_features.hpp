@@ -25,14 +25,11 @@ struct ViewFeatures {
   friend bool operator==(const ViewFeatures&, const ViewFeatures&) = default;
 };
 
-/// Parameters of the detector for a node's picture: 300 key points, one per position.
-[[nodiscard]] DetectorParams view_detector_params();
-
 /// Finds the features of a picture. The same picture gives the same features: no state, no random numbers. Thread-safe.
 class ViewFeatureExtractor {
  public:
   /// Requires valid parameters (asserted).
-  explicit ViewFeatureExtractor(const ViewParams& view, const DetectorParams& detector = view_detector_params());
+  ViewFeatureExtractor(const ViewParams& view, const DetectorParams& detector);
 
   /// Features of the working picture: an omnidirectional picture is unwrapped first, so that an upright object looks
   /// alike at any bearing. Fails with kInvalidArgument when the picture is empty or has not the calibrated size.

@@ -1,6 +1,7 @@
 #include "server/app/composition/loop_options.hpp"
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "common/api/fleet.hpp"
@@ -92,7 +93,7 @@ void describe(config::Fields& f, NodePictureParams& params) {
   f.check("frame_period_s", params.frame_period > Duration::zero(), "must be above 0");
   f.field("features", params.features);
   f.check("features", params.features >= 1 && params.features <= static_cast<int>(api::kMaxFleetPictureFeatures),
-          "must be from 1 to 1000");
+          "must be from 1 to " + std::to_string(api::kMaxFleetPictureFeatures));
 }
 
 void describe(config::Fields& f, LoopParams& params) {

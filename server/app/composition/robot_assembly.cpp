@@ -30,7 +30,7 @@ Result<std::shared_ptr<const vision::ViewFeatureExtractor>> picture_extractor(co
   if (const Status ok = vision::validate(options.search.recogniser); !ok) {
     return fail_with_context("search.recogniser", ok.error());
   }
-  vision::DetectorParams detector = vision::view_detector_params();
+  vision::DetectorParams detector;
   detector.wanted = options.loop.pictures.features;
   return std::make_shared<const vision::ViewFeatureExtractor>(options.search.recogniser.view, detector);
 }

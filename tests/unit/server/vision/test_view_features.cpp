@@ -65,7 +65,7 @@ TEST(MatchViews, RefusesMatchesThatAgreeOnNoRotation) {
 TEST(ViewFeatureExtractor, RefusesAPictureOfAnotherSize) {
   ViewParams params;
   params.omni.emplace();
-  EXPECT_EQ(ViewFeatureExtractor(params).extract(Image(10, 10, 1)).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(ViewFeatureExtractor(params, {}).extract(Image(10, 10, 1)).error().code, Errc::kInvalidArgument);
 }
 
 }  // namespace
