@@ -174,13 +174,21 @@ std::pair<double, double> FleetExchange::error_of(const Relation& relation) cons
   return {distance_m(truth, *relation.a_T_b), std::abs(wrap_angle(truth.theta_rad - relation.a_T_b->theta_rad))};
 }
 
-void FleetExchange::deliver(std::size_t to) {
-  FleetView view{members_[to]->id, {}, floors_[to]};
+std::vector<FleetExchange::Partner> FleetExchange::partners_of(std::size_t to) const {
+  std::vector<Partner> partners;
   for (const Relation& relation : relations_) {
     if (relation.a_T_b && (relation.a == to || relation.b == to)) {
       const Pose2 to_T_from = relation.a == to ? *relation.a_T_b : inverse(*relation.a_T_b);
-      view.others.push_back(seen_from(to_T_from, *members_[relation.a == to ? relation.b : relation.a]));
+      partners.push_back({to_T_from, members_[relation.a == to ? relation.b : relation.a].get()});
     }
+  }
+  return partners;
+}
+
+void FleetExchange::deliver(std::size_t to) {
+  FleetView view{members_[to]->id, {}, floors_[to]};
+  for (const Partner& partner : partners_of(to)) {
+    view.others.push_back(seen_from(partner.to_T_from, *partner.from));
   }
   members_[to]->loop->neighbours().set_fleet(std::move(view), members_[to]->loop->now());
 }
@@ -189,13 +197,9 @@ void FleetExchange::deliver(std::size_t to) {
 void FleetExchange::carry_floors() {
   for (std::size_t to = 0; to < members_.size(); ++to) {
     std::vector<std::pair<Pose2, nav::SharedFloor>> floors;
-    for (const Relation& relation : relations_) {
-      if (relation.a_T_b && (relation.a == to || relation.b == to)) {
-        const Pose2 to_T_from = relation.a == to ? *relation.a_T_b : inverse(*relation.a_T_b);
-        const FleetMember& from = *members_[relation.a == to ? relation.b : relation.a];
-        if (auto seen = from.loop->robot_map().occupancy().snapshot()) {
-          floors.emplace_back(to_T_from, std::make_shared<const Grid<std::uint8_t>>(*std::move(seen)));
-        }
+    for (const Partner& partner : partners_of(to)) {
+      if (auto seen = partner.from->loop->robot_map().occupancy().snapshot()) {
+        floors.emplace_back(partner.to_T_from, std::make_shared<const Grid<std::uint8_t>>(*std::move(seen)));
       }
     }
     floors_[to] = nav::carried(floors);

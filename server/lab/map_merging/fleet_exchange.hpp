@@ -50,8 +50,15 @@ class FleetExchange {
     std::size_t alike = 0;  ///< places whose pictures confirm it
   };
 
+  /// Another robot that is merged with one, and where that one has its map.
+  struct Partner {
+    Pose2 to_T_from;
+    const FleetMember* from = nullptr;
+  };
+
   void merge(RobotTime now);
   void take_maps();
+  [[nodiscard]] std::vector<Partner> partners_of(std::size_t to) const;
   [[nodiscard]] fleet::NodePictures pictures_of(std::size_t member) const;
   void count_false_pair(const fleet::MergeAnswer& answer, const Relation& relation);
   /// Errors of position and angle against where the robots truly began.

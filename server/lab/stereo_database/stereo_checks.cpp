@@ -22,22 +22,16 @@ struct Mean {
 };
 
 Mean mean_of(const std::vector<StereoResult>& runs, std::string_view name) {
-  Mean mean;
+  Mean mean{.landmarks = mean_score(runs, name, &DatabaseScore::landmarks),
+            .rms_m = mean_score(runs, name, &DatabaseScore::rms_m),
+            .rms_rad = mean_score(runs, name, &DatabaseScore::rms_rad),
+            .nees = mean_score(runs, name, &DatabaseScore::mean_nees),
+            .compared = mean_score(runs, name, &DatabaseScore::mean_compared),
+            .step_ms = mean_score(runs, name, &DatabaseScore::median_step_ms)};
   for (const StereoResult& run : runs) {
-    if (const DatabaseScore* score = run.find(name)) {
-      mean.landmarks += score->landmarks;
-      mean.rms_m += score->rms_m;
-      mean.rms_rad += score->rms_rad;
-      mean.nees += score->mean_nees;
-      mean.compared += score->mean_compared;
-      mean.step_ms += score->median_step_ms;
-      mean.unnoticed += score->unnoticed;
-      ++mean.runs;
-    }
-  }
-  const double count = std::max(1, mean.runs);
-  for (double* value : {&mean.landmarks, &mean.rms_m, &mean.rms_rad, &mean.nees, &mean.compared, &mean.step_ms}) {
-    *value /= count;
+    const DatabaseScore* score = run.find(name);
+    mean.unnoticed += score != nullptr ? score->unnoticed : 0;
+    mean.runs += score != nullptr ? 1 : 0;
   }
   return mean;
 }

@@ -28,26 +28,6 @@ double mean_over(const Runs& runs, const std::function<double(const StereoResult
   return sum / static_cast<double>(std::max<std::size_t>(1, runs.size()));
 }
 
-/// Mean of a member of one database's scores over the runs that have it.
-double mean_score(const Runs& runs, const char* database, double DatabaseScore::*member) {
-  double sum = 0.0;
-  int count = 0;
-  for (const StereoResult& run : runs) {
-    if (const DatabaseScore* score = run.find(database)) {
-      sum += score->*member;
-      ++count;
-    }
-  }
-  return sum / std::max(1, count);
-}
-
-double mean_landmarks(const Runs& runs, const char* database) {
-  return mean_over(runs, [&](const StereoResult& run) {
-    const DatabaseScore* score = run.find(database);
-    return score != nullptr ? static_cast<double>(score->landmarks) : 0.0;
-  });
-}
-
 double millimetres(const Runs& runs, const char* database) {
   return 1000.0 * mean_score(runs, database, &DatabaseScore::rms_m);
 }
@@ -64,9 +44,9 @@ Judged table1(const Runs& runs) {
 }
 
 Judged table2(const Runs& runs) {
-  const double all = mean_landmarks(runs, "all");
-  const double sparse = mean_landmarks(runs, "sparse");
-  const double salient = mean_landmarks(runs, "salient");
+  const double all = mean_score(runs, "all", &DatabaseScore::landmarks);
+  const double sparse = mean_score(runs, "sparse", &DatabaseScore::landmarks);
+  const double salient = mean_score(runs, "salient", &DatabaseScore::landmarks);
   return {all > sparse && sparse > salient && salient > 0.0,
           fixed(all, 0) + ">" + fixed(sparse, 0) + ">" + fixed(salient, 0)};
 }

@@ -2,9 +2,11 @@
 /// Results of one seed of the stereo experiment: numbers in one file, curves and rows of the tables beside it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/config/fields.hpp"
@@ -78,6 +80,21 @@ struct StereoResult {
 
   [[nodiscard]] const DatabaseScore* find(std::string_view name) const;
 };
+
+/// Mean of a figure of one database over the runs that have that database; 0 where none has it.
+template <class T>
+[[nodiscard]] double mean_score(const std::vector<StereoResult>& runs, std::string_view database,
+                                T DatabaseScore::*figure) {
+  double sum = 0.0;
+  int count = 0;
+  for (const StereoResult& run : runs) {
+    if (const DatabaseScore* score = run.find(database)) {
+      sum += static_cast<double>(score->*figure);
+      ++count;
+    }
+  }
+  return sum / std::max(1, count);
+}
 void describe(config::Fields& f, StereoResult& result);
 [[nodiscard]] Status save(const std::filesystem::path& path, const StereoResult& result);
 
