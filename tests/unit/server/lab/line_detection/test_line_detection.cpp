@@ -5,6 +5,7 @@
 #include "common/core/angle.hpp"
 #include "server/lab/line_detection/line_scene.hpp"
 #include "server/lab/line_detection/reproduce_line_detection.hpp"
+#include "tests/support/data.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -28,10 +29,12 @@ TEST(ReproduceS5, EveryConditionHoldsAndAllFilesAreWritten) {
   std::filesystem::remove_all(out);
   ReproduceParams params;
   params.out = out;
+  params.config = testing::source_file("config");  // of the recorded RPLIDAR, where SEEKER_DATA names the recordings
   params.seeds.resize(20);
   std::iota(params.seeds.begin(), params.seeds.end(), 1U);
   Report report(nullptr);
-  ASSERT_TRUE(reproduce_line_detection(params, report));
+  const Status done = reproduce_line_detection(params, report);
+  ASSERT_TRUE(done) << done.error().message;
   EXPECT_GE(report.checks().size(), 7U + 5U + 2U + 2U) << "rows of Table 1, threshold history, scenes";
   for (const Check& check : report.checks()) {
     EXPECT_TRUE(check.passed || check.finding) << line_of(check);
