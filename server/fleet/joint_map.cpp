@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "server/fleet/icp.hpp"
+#include "server/fleet/map_graph.hpp"
 #include "server/fleet/pair_fusion.hpp"
 #include "server/slam/covariance.hpp"
 #include "server/slam/pose_graph.hpp"
@@ -17,12 +17,6 @@ namespace {
 
 constexpr unsigned kNodeBits = 24;
 constexpr unsigned kSegmentBits = 48;
-constexpr double kLeastSigma_m = 1e-3;  // an edge without any error would leave nothing to divide by
-constexpr double kLeastSigma_rad = 1e-4;
-
-/// The robot's local map and its number in the graph.
-using GraphNodes = std::map<std::uint32_t, std::size_t>;
-
 /// The work of one join().
 class Joiner {
  public:
@@ -45,7 +39,6 @@ class Joiner {
  private:
   [[nodiscard]] const LineMap* map_of(std::uint8_t slot) const;
   [[nodiscard]] Pose2 guess_of(const MapRelation& relation) const;
-  [[nodiscard]] Status add_own_edges(std::uint8_t slot);
   [[nodiscard]] Status add_relations();
   [[nodiscard]] JointRobot robot_of(std::uint8_t slot);
   void append(std::uint8_t slot, const JointRobot& robot, LineMap& whole) const;
@@ -138,24 +131,6 @@ void Joiner::spread() {
   }
 }
 
-Status Joiner::add_own_edges(std::uint8_t slot) {
-  const GraphNodes& numbers = nodes_.at(slot);
-  for (const MapEdge& edge : map_of(slot)->edges) {
-    const auto added = graph_.add_edge(
-        {.i = numbers.at(edge.from),
-         .j = numbers.at(edge.to),
-         .i_T_j = edge.from_T_to,
-         .information = slam::information_of(slam::with_floor(edge.covariance, kLeastSigma_m, kLeastSigma_rad)),
-         .kernel = edge.loop ? slam::EdgeKernel::kSwitchable : slam::EdgeKernel::kNone,
-         .kernel_width = params_.kernel_width});
-    if (!added) {
-      return tl::unexpected<Error>(added.error());
-    }
-    graph_.set_enabled(*added, edge.enabled);
-  }
-  return {};
-}
-
 Status Joiner::add_relations() {
   for (std::size_t r = 0; r < relations_.size(); ++r) {
     const MapRelation& relation = relations_[r];
@@ -180,13 +155,18 @@ Status Joiner::add_relations() {
 }
 
 Status Joiner::build() {
+  std::vector<const LineMap*> joined;
+  joined.reserve(start_.size());
   for (const auto& [slot, joint_T_map] : start_) {
-    for (const MapNode& node : map_of(slot)->nodes) {
-      nodes_[slot][node.id] = graph_.add_node(joint_T_map * node.map_T_node);
+    joined.push_back(map_of(slot));
+  }
+  const double variance = variance_factor(joined);
+  for (const auto& [slot, joint_T_map] : start_) {
+    Result<GraphNodes> added = add_map(graph_, *map_of(slot), joint_T_map, variance, params_.kernel_width);
+    if (!added) {
+      return tl::unexpected<Error>(added.error());
     }
-    if (Status added = add_own_edges(slot); !added) {
-      return added;
-    }
+    nodes_[slot] = *std::move(added);
   }
   graph_.fix(nodes_.at(maps_.front().slot).begin()->second);
   return add_relations();
@@ -194,17 +174,10 @@ Status Joiner::build() {
 
 JointRobot Joiner::robot_of(std::uint8_t slot) {
   JointRobot robot;
-  std::vector<Point2> joint;
-  std::vector<Point2> own;
   for (const MapNode& node : map_of(slot)->nodes) {
-    const Pose2& joint_T_node = graph_.pose(nodes_.at(slot).at(node.id));
-    robot.nodes[node.id] = {node.map_T_node, joint_T_node};
-    for (const Point2& arm : {Point2(0.0, 0.0), Point2(1.0, 0.0)}) {
-      joint.push_back(joint_T_node * arm);
-      own.push_back(node.map_T_node * arm);
-    }
+    robot.nodes[node.id] = {node.map_T_node, graph_.pose(nodes_.at(slot).at(node.id))};
   }
-  robot.joint_T_map = rigid_fit(joint, own);
+  robot.joint_T_map = rigid_pose(*map_of(slot), [&robot](std::uint32_t id) { return robot.nodes.at(id).joint_T_node; });
   const std::size_t main = nodes_.at(maps_.front().slot).begin()->second;
   const std::size_t first = nodes_.at(slot).begin()->second;
   robot.main_T_first.a_T_b = inverse(graph_.pose(main)) * graph_.pose(first);

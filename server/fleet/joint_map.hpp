@@ -54,7 +54,7 @@ struct JointRobot {
     Pose2 joint_T_node;
   };
   std::map<std::uint32_t, Node> nodes;  ///< by the robot's own id; not empty
-  Pose2 joint_T_map;                    ///< the rigid motion that fits all of them best
+  Pose2 joint_T_map;                    ///< the rigid motion that fits best where the robot has been
   UncertainPose main_T_first;           ///< pose of its first local map in the frame of the main robot's first one
 
   /// Transforms a pose in the robot's own frame `map` (of the robot, a goal, a detection) with the nearest local map.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/fleet/deformed_pair.hpp"
 #include "server/fleet/map_overlap.hpp"
 #include "server/fleet/pair_check.hpp"
 #include "server/fleet/pair_fusion.hpp"
@@ -55,6 +56,7 @@ struct MergeHypothesis {
   /// Number of local maps that show the walls of the other's map, of the robot that has fewer.
   std::size_t witnesses = 0;
   PictureEvidence pictures;  ///< what the pictures of both robots say of it
+  Deformation deformation;   ///< how far both maps were deformed before they were compared
   double confidence = 0.0;   ///< 0 to 1: grows with the shared wall, falls with the contradiction
 
   /// The criterion by which hypotheses are ranked.
@@ -84,6 +86,7 @@ struct MergeParams {
   slam::ConsistencyParams consistency;
   OverlapParams overlap;
   DistortionParams distortion;
+  DeformationParams deformation;
   std::size_t max_hypotheses = 4;
   std::size_t min_pairs = 2;        ///< number of node pairs required for a merge, or of witnesses
   double min_shared_wall_m = 12.0;  ///< shared wall below which the overlap is insufficient
@@ -99,13 +102,15 @@ struct MergeParams {
   /// Length of a wall of one map that the other has looked through above which the merge is not certain; shorter pieces
   /// occur by noise.
   double sure_denied_piece_m = 1.5;
+  /// The same as a share of the shared wall, up to kept_denied_piece_m: doors, chairs and people move in many places.
+  double denied_piece_share = 0.01;
   /// The same for maps that are merged already: doors are shut and objects are moved while robots drive.
   double kept_denied_piece_m = 3.0;
   /// The result is ambiguous when another hypothesis has this share of the best one's support, at most the
   /// contradiction below, and min_weak_wall_m.
   double rival_ratio = 0.35;
   double max_rival_contradiction = 0.4;
-  double max_rival_denied_piece_m = 1.5;
+  double max_rival_denied_piece_m = 2.0;
 };
 
 [[nodiscard]] double confidence_of(const MergeHypothesis& hypothesis, const MergeParams& params);

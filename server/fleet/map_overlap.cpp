@@ -118,25 +118,36 @@ void count(const Around& in_a, const Around& in_b, const PreparedNode& node, con
 
 using Square = std::pair<long, long>;
 
-/// Takes what is joined to `start` out of `open`; how many squares that were.
-std::size_t take_piece(std::set<Square>& open, const Square& start, long reach) {
-  std::vector<Square> edge{start};
+/// Takes what is joined to `start` out of `open`.
+std::vector<Square> take_piece(std::set<Square>& open, const Square& start, long reach) {
+  std::vector<Square> piece{start};
   open.erase(start);
-  std::size_t taken = 0;
-  while (!edge.empty()) {
-    const Square from = edge.back();
-    edge.pop_back();
-    ++taken;
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    const Square from = piece[k];
     for (long dx = -reach; dx <= reach; ++dx) {
       for (long dy = -reach; dy <= reach; ++dy) {
         const Square next{from.first + dx, from.second + dy};
         if (open.erase(next) > 0) {
-          edge.push_back(next);
+          piece.push_back(next);
         }
       }
     }
   }
-  return taken;
+  return piece;
+}
+
+/// The extent of a piece along its principal axis, in squares. The number of squares would call a heap of chairs a long
+/// wall.
+double length_of(const std::vector<Square>& piece) {
+  Eigen::Matrix2Xd centres(2, static_cast<Eigen::Index>(piece.size()));
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    centres.col(static_cast<Eigen::Index>(k)) =
+        Point2(static_cast<double>(piece[k].first), static_cast<double>(piece[k].second));
+  }
+  const Eigen::Matrix2Xd offsets = centres.colwise() - centres.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Matrix2> eigen(offsets * offsets.transpose());
+  const Eigen::RowVectorXd along = eigen.eigenvectors().col(1).transpose() * offsets;
+  return along.maxCoeff() - along.minCoeff() + 1.0;
 }
 
 double longest_denied_m(const Tally& tally, const OverlapParams& params) {
@@ -147,11 +158,12 @@ double longest_denied_m(const Tally& tally, const OverlapParams& params) {
     }
   }
   const long reach = std::max(1L, std::lround(params.piece_gap_m / params.cell_m));
-  std::size_t longest = 0;
+  double longest = 0.0;
   while (!open.empty()) {
-    longest = std::max(longest, take_piece(open, *open.begin(), reach));
+    const std::vector<Square> piece = take_piece(open, *open.begin(), reach);
+    longest = std::max(longest, length_of(piece));
   }
-  return params.cell_m * static_cast<double>(longest);
+  return params.cell_m * longest;
 }
 
 MapOverlap summary_of(const Tally& tally, const OverlapParams& params) {
@@ -177,14 +189,15 @@ MapOverlap summary_of(const Tally& tally, const OverlapParams& params) {
 
 }  // namespace
 
-MapOverlap overlap_of(PreparedMap& a, PreparedMap& b, const std::function<Pose2(std::size_t)>& map_a_T_node,
+MapOverlap overlap_of(PreparedMap& a, PreparedMap& b,
+                      const std::function<std::optional<Pose2>(std::size_t)>& map_a_T_node,
                       const OverlapParams& params) {
   Tally tally;
   for (std::size_t k = 0; k < b.nodes().size(); ++k) {
     const PreparedNode& node = b.nodes()[k];
-    const Pose2 pose = map_a_T_node(k);
-    const std::optional<std::size_t> region = a.region_at(pose * node.middle);
-    const Around in_a = region ? around(a, *region, pose) : Around{};
+    const std::optional<Pose2> pose = map_a_T_node(k);
+    const std::optional<std::size_t> region = pose ? a.region_at(*pose * node.middle) : std::nullopt;
+    const Around in_a = region ? around(a, *region, *pose) : Around{};
     const Around in_b = in_a.place ? around(b, node.region, node.map_T_node) : Around{};
     if (in_b.place) {
       count(in_a, in_b, node, params, tally);

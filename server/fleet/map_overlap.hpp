@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "server/fleet/prepared_map.hpp"
 #include "server/slam/scan_matcher.hpp"
@@ -37,10 +38,11 @@ struct MapOverlap {
   std::size_t witnesses = 0;
 };
 
-/// Compares the nodes of b with a. `map_a_T_node` gives the pose of a node of b, by index, in the frame `map` of a. The
-/// opposite direction has a result of its own: a may contradict an observation of b and not vice versa.
+/// Compares the nodes of b with a. `map_a_T_node` gives the pose of a node of b, by index, in the frame `map` of a; one
+/// whose pose is not known well enough has none, and proves and denies nothing. The opposite direction has a result of
+/// its own: a may contradict an observation of b and not vice versa.
 [[nodiscard]] MapOverlap overlap_of(PreparedMap& a, PreparedMap& b,
-                                    const std::function<Pose2(std::size_t)>& map_a_T_node,
+                                    const std::function<std::optional<Pose2>(std::size_t)>& map_a_T_node,
                                     const OverlapParams& params = {});
 
 }  // namespace seeker::fleet

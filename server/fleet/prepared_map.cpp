@@ -142,23 +142,27 @@ void PreparedMap::prepare_regions() {
 }
 
 void PreparedMap::prepare_graph() {
-  constexpr double kLeastSigma_m = 1e-3;
-  constexpr double kLeastSigma_rad = 1e-4;
+  constexpr double kKernelWidth = 3.0;
   graph_ = slam::PoseGraph();
   graph_node_.clear();
-  for (const MapNode& node : map_.nodes) {
-    graph_node_[node.id] = graph_.add_node(node.map_T_node);
+  // Without a graph nothing is known of the covariances: between() says so.
+  if (Result<GraphNodes> added = add_map(graph_, map_, {}, variance_factor({&map_}), kKernelWidth)) {
+    graph_node_ = *std::move(added);
   }
-  for (const MapEdge& edge : map_.edges) {
-    if (edge.enabled) {
-      (void)graph_.add_edge(
-          {.i = graph_node_.at(edge.from),
-           .j = graph_node_.at(edge.to),
-           .i_T_j = edge.from_T_to,
-           .information = slam::information_of(slam::with_floor(edge.covariance, kLeastSigma_m, kLeastSigma_rad)),
-           .kernel = edge.loop ? slam::EdgeKernel::kSwitchable : slam::EdgeKernel::kNone});
-    }
+}
+
+Result<PreparedMap> PreparedMap::deformed(const std::function<Pose2(std::uint32_t)>& map_T_node) const {
+  PreparedMap made(params_);
+  made.nodes_ = nodes_;
+  made.made_ = made_;
+  LineMap map = map_;
+  for (MapNode& node : map.nodes) {
+    node.map_T_node = map_T_node(node.id);
   }
+  if (Status taken = made.update(std::move(map)); !taken) {
+    return tl::unexpected<Error>(taken.error());
+  }
+  return made;
 }
 
 PreparedMap::Made PreparedMap::recipe_of(const PreparedRegion& region) const {
@@ -267,8 +271,12 @@ UncertainPose PreparedMap::between(std::size_t from, std::size_t to) {
   if (from == to) {
     return {};
   }
+  const Pose2 step = inverse(a.map_T_node) * b.map_T_node;
+  if (graph_node_.empty()) {
+    return {step, kUnknown_m2 * Matrix3::Identity()};
+  }
   const Result<Matrix3> covariance = graph_.relative_covariance(graph_node_.at(a.id), graph_node_.at(b.id));
-  return {inverse(a.map_T_node) * b.map_T_node, covariance ? *covariance : kUnknown_m2 * Matrix3::Identity()};
+  return {step, covariance ? *covariance : kUnknown_m2 * Matrix3::Identity()};
 }
 
 std::map<std::uint32_t, std::size_t> node_indices(const PreparedMap& map) {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "common/core/line_map.hpp"
+#include "server/fleet/map_graph.hpp"
 #include "server/fleet/node_picture.hpp"
 #include "server/fleet/scan_signature.hpp"
 #include "server/slam/pairwise_consistency.hpp"
@@ -60,6 +62,9 @@ class PreparedMap {
   /// Sets the pictures that the robot has taken at its topology's nodes. Those of local maps that are not in the map,
   /// or have no scans, are kept, but show nothing until they are there.
   void set_pictures(NodePictures pictures);
+  /// The map without pictures, its local maps moved to other poses, by their ids; its segments stay. Errors are those
+  /// of update().
+  [[nodiscard]] Result<PreparedMap> deformed(const std::function<Pose2(std::uint32_t)>& map_T_node) const;
 
   [[nodiscard]] const LineMap& map() const { return map_; }
   [[nodiscard]] const std::vector<PreparedNode>& nodes() const { return nodes_; }
@@ -98,7 +103,7 @@ class PreparedMap {
   std::vector<Made> made_;  ///< most recently used first
   SignatureIndex index_;    ///< of all nodes' signatures; values are indices of nodes
   slam::PoseGraph graph_;
-  std::map<std::uint32_t, std::size_t> graph_node_;  ///< by id
+  GraphNodes graph_node_;
   NodePictures pictures_;
   PictureComparisons comparisons_;
 };

@@ -119,6 +119,17 @@ void describe(config::Fields& f, PictureParams& params) {
   f.field("min_directions", params.min_directions);
 }
 
+void describe(config::Fields& f, DeformationParams& params) {
+  f.field("min_pairs", params.min_pairs);
+  f.field("max_ratio", params.max_ratio);
+  f.field("kernel_width", params.kernel_width);
+  f.check("kernel_width", params.kernel_width > 0.0, "must be above 0");
+  f.field("max_iterations", params.max_iterations);
+  f.field("max_sigma_m", params.max_sigma_m);
+  f.angle_deg("max_sigma_deg", params.max_sigma_rad);
+  f.check("max_sigma", params.max_sigma_m > 0.0 && params.max_sigma_rad > 0.0, "must be above 0");
+}
+
 void describe(config::Fields& f, MergeParams& params) {
   f.choice("method", params.method,
            config::choices_of(std::array{MergeMethod::kPicturesAndLaser, MergeMethod::kPrinted}));
@@ -129,6 +140,7 @@ void describe(config::Fields& f, MergeParams& params) {
   f.section("consistency", params.consistency);
   f.section("overlap", params.overlap);
   f.section("distortion", params.distortion);
+  f.section("deformation", params.deformation);
   f.field("max_hypotheses", params.max_hypotheses);
   f.check("max_hypotheses", params.max_hypotheses >= 1 && params.max_hypotheses <= 16, "must be from 1 to 16");
   f.field("min_pairs", params.min_pairs);
@@ -141,6 +153,7 @@ void describe(config::Fields& f, MergeParams& params) {
   f.field("max_contradiction", params.max_contradiction);
   f.field("sure_contradiction", params.sure_contradiction);
   f.field("sure_denied_piece_m", params.sure_denied_piece_m);
+  f.field("denied_piece_share", params.denied_piece_share);
   f.field("kept_denied_piece_m", params.kept_denied_piece_m);
   f.check("kept_denied_piece_m", params.kept_denied_piece_m >= params.sure_denied_piece_m,
           "must be sure_denied_piece_m or more");

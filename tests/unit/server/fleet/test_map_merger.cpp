@@ -16,7 +16,9 @@ std::string figures_of(const MergeAnswer& answer) {
   std::ostringstream text;
   for (const MergeHypothesis& h : answer.hypotheses) {
     text << h.a_T_b.a_T_b << ": " << h.pairs.size() << " pairs, " << h.shared_wall_m << " m shared, " << h.weak_wall_m
-         << " m across, " << h.contradiction << " denied, " << h.denied_piece_m << " m in one piece\n";
+         << " m across, " << h.contradiction << " denied, " << h.denied_piece_m << " m in one piece, deformed "
+         << h.deformation.chi2 << "/" << h.deformation.dof << ", " << h.deformation.largest_rad << " rad, off "
+         << h.deformation.switched_off << "\n";
   }
   return text.str();
 }
@@ -44,6 +46,16 @@ TEST(MapMerger, DoesNotMergeTwoBuildings) {
   }
 }
 
+TEST(MapMerger, DoesNotMergeTwoBuildingsHoweverMuchTheirMapsMayDeform) {
+  for (std::uint64_t seed = 21; seed <= 30; ++seed) {
+    const ToyDrift drift{0.03, 0.003 * static_cast<double>(seed - 20)};
+    PreparedMap a = prepared(toy_map(office(seed), drive({{1.0, 6.0}, {23.0, 6.0}, {1.0, 6.1}}), seed, drift));
+    PreparedMap b = prepared(toy_map(office(seed + 100), drive(kEast), seed + 50, drift));
+    const MergeAnswer answer = MapMerger().merge(a, b);
+    EXPECT_NE(answer.verdict, MergeVerdict::kMerged) << "seed " << seed << "\n" << figures_of(answer);
+  }
+}
+
 TEST(MapMerger, AnswersTheSameWhenAskedAgainAndTheInverseInTheOtherDirection) {
   const auto walls = office(2);
   PreparedMap a = prepared(toy_map(walls, drive(kWest), 11));
@@ -55,6 +67,47 @@ TEST(MapMerger, AnswersTheSameWhenAskedAgainAndTheInverseInTheOtherDirection) {
   EXPECT_EQ(first.hypotheses.front().a_T_b.a_T_b, again.hypotheses.front().a_T_b.a_T_b);
   EXPECT_THAT(inverse(back.hypotheses.front().a_T_b.a_T_b),
               Pose2Near(first.hypotheses.front().a_T_b.a_T_b, 0.1, 0.015));
+}
+
+/// The map with everything from a local map on turned about it: its heading slipped there.
+LineMap slipped(LineMap map, std::uint32_t from, double slip_rad) {
+  for (MapEdge& edge : map.edges) {
+    if (edge.to == from) {
+      edge.from_T_to = edge.from_T_to * Pose2{0.0, 0.0, slip_rad};
+    }
+    map.nodes[edge.to].map_T_node = map.nodes[edge.from].map_T_node * edge.from_T_to;
+  }
+  return map;
+}
+
+constexpr double kSlip_rad = 0.06;
+
+/// The answer for a good map and one whose heading has slipped, whose steps are as uncertain as `sigma_rad` says.
+MergeAnswer merge_with_slipped(double sigma_rad) {
+  const auto walls = office(2);
+  const std::vector<Point2> there_and_back{{1.0, 6.0}, {23.0, 6.0}, {1.0, 6.1}};
+  const auto path = drive(there_and_back);
+  LineMap slipping = slipped(toy_map(walls, path, 12), 2, kSlip_rad);
+  for (MapEdge& edge : slipping.edges) {
+    edge.covariance(2, 2) = sigma_rad * sigma_rad;
+  }
+  PreparedMap a = prepared(toy_map(walls, path, 11));
+  PreparedMap b = prepared(slipping);
+  return MapMerger().merge(a, b);
+}
+
+TEST(MapMerger, DeformsAMapWhoseHeadingHasSlippedBeforeItJudges) {
+  const MergeAnswer answer = merge_with_slipped(kSlip_rad / 2.0);
+  ASSERT_TRUE(answer.merged()) << answer.reason << "\n" << figures_of(answer);
+  const Deformation& deformation = answer.hypotheses.front().deformation;
+  EXPECT_GT(deformation.dof, 0U);
+  EXPECT_LT(deformation.ratio(), MergeParams{}.deformation.max_ratio);
+  EXPECT_GT(deformation.largest_rad, 0.5 * kSlip_rad);
+}
+
+TEST(MapMerger, DoesNotDeformAMapMoreThanItsCovarianceAllows) {
+  const MergeAnswer answer = merge_with_slipped(kSlip_rad / 30.0);
+  EXPECT_EQ(answer.verdict, MergeVerdict::kContradicted) << answer.reason << "\n" << figures_of(answer);
 }
 
 TEST(MapMerger, APlaceThatOnlyOneOfThemHasSeenIsTooLittle) {
@@ -154,10 +207,30 @@ TEST(MergeJudge, LocalMapsThatShowTheSameWallsSpeakWhereOnlyOnePairWasFound) {
 
 TEST(MergeJudge, AWallThatTheOtherLookedThroughDeniesWhatManyOthersAffirm) {
   MergeHypothesis looked_through = hypothesis(60.0, 20.0, 0.05);
-  looked_through.denied_piece_m = 2.0;
+  looked_through.denied_piece_m = 2.1;
   EXPECT_EQ(verdict_of({looked_through}), MergeVerdict::kAmbiguous);
   // Nor is it a rival to one that nothing denies.
   EXPECT_EQ(verdict_of({hypothesis(60.0, 20.0, 0.05), looked_through}), MergeVerdict::kMerged);
+}
+
+TEST(MergeJudge, TheMoreBothHaveSeenTheLongerIsTheWallThatWasMovedMeanwhile) {
+  MergeHypothesis moved = hypothesis(150.0, 60.0, 0.05);
+  moved.denied_piece_m = 1.6;
+  EXPECT_EQ(verdict_of({moved}), MergeVerdict::kAmbiguous);
+  moved.shared_wall_m = 200.0;
+  EXPECT_EQ(verdict_of({moved}), MergeVerdict::kMerged);
+  moved.shared_wall_m = 1000.0;
+  moved.denied_piece_m = 3.2;
+  EXPECT_EQ(verdict_of({moved}), MergeVerdict::kAmbiguous);
+}
+
+TEST(MergeJudge, MapsThatMustDeformMoreThanTheyCanContradictEachOther) {
+  MergeHypothesis deformed = hypothesis(60.0, 20.0, 0.05);
+  deformed.deformation.dof = 6;
+  deformed.deformation.chi2 = 6.0 * MergeParams{}.deformation.max_ratio + 1.0;
+  EXPECT_EQ(verdict_of({deformed}), MergeVerdict::kContradicted);
+  deformed.deformation.chi2 -= 2.0;
+  EXPECT_EQ(verdict_of({deformed}), MergeVerdict::kMerged);
 }
 
 TEST(MergeJudge, WhatMayBeSlidAlongACorridorIsNoRival) {

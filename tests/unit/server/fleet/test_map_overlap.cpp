@@ -34,6 +34,13 @@ TEST(MapOverlap, WhatStoodThereAllTheTimeIsDeniedByTheOther) {
   EXPECT_GT(overlap_with_empty(b).denied_piece_m, 0.4);
 }
 
+TEST(MapOverlap, ABoxDeniesByItsExtentAndNotByTheLengthOfItsSides) {
+  constexpr double kDiagonal_m = 0.75;
+  constexpr double kCells_m = 0.3;  // the walls are scattered over the cells beside them
+  PreparedMap b = visited_map(1000, 12);
+  EXPECT_LT(overlap_with_empty(b).denied_piece_m, kDiagonal_m + kCells_m);
+}
+
 TEST(MapOverlap, WhatARobotHasLookedThroughItselfIsNoWallOfIts) {
   PreparedMap b = visited_map(12, 12);
   const MapOverlap overlap = overlap_with_empty(b);
@@ -53,6 +60,15 @@ TEST(MapOverlap, CountsTheLocalMapsThatShowEnoughOfTheOthersWalls) {
     return k == 0 ? Pose2{kFar_m, kFar_m, 0.0} : b.nodes()[k].map_T_node;
   };
   EXPECT_EQ(overlap_of(a, b, one_elsewhere).witnesses, all - 1);
+}
+
+TEST(MapOverlap, WhatIsNotLaidExactlyProvesAndDeniesNothing) {
+  PreparedMap b = visited_map(1000, 12);
+  PreparedMap a = visited_map(0, 11);
+  const MapOverlap overlap = overlap_of(a, b, [](std::size_t) { return std::nullopt; });
+  EXPECT_EQ(overlap.shared_wall_m, 0.0);
+  EXPECT_EQ(overlap.contradiction, 0.0);
+  EXPECT_EQ(overlap.denied_piece_m, 0.0);
 }
 
 }  // namespace

@@ -48,11 +48,14 @@ Status read(const std::string& text, MergeParams& params) {
 TEST(MergeOptions, ReadWhatAFileSaysAndKeepTheRest) {
   MergeParams params;
   ASSERT_TRUE(
-      read("sure_shared_wall_m: 45\npair: {sigma_floor_deg: 1, icp: {keep: 0.7}}\noverlap: {settle_m: 0.2}\n", params));
+      read("sure_shared_wall_m: 45\npair: {sigma_floor_deg: 1, icp: {keep: 0.7}}\noverlap: {settle_m: 0.2}\n"
+           "deformation: {max_sigma_deg: 2}\n",
+           params));
   EXPECT_DOUBLE_EQ(params.sure_shared_wall_m, 45.0);
   EXPECT_NEAR(params.pair.sigma_floor_rad, kPi / 180.0, 1e-12);
   EXPECT_DOUBLE_EQ(params.pair.icp.keep, 0.7);
   EXPECT_DOUBLE_EQ(params.overlap.settle_m, 0.2);
+  EXPECT_NEAR(params.deformation.max_sigma_rad, 2.0 * kPi / 180.0, 1e-12);
   EXPECT_EQ(params.min_pairs, MergeParams{}.min_pairs);
 }
 
