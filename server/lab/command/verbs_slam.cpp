@@ -62,7 +62,8 @@ Verb add_merge(CLI::App& app) {
   verb->add_option("logs", o->logs, "Logs or map files (*.seekermap), each taken for a robot of its own")->required();
   verb->add_option("--span", o->spans, "Part of a log in per cent of its duration, e.g. 0-50; one for each log");
   verb->add_option("--out", o->out,
-                   "Folder for report.json, merged.png and merged.seekermap (default: none is written)");
+                   "Folder for report.json, merged.png, merged.seekermap and the trajectories in the joint map, "
+                   "robot-1.tum and so on (default: none is written)");
   add_geometry(*verb, *o);
   verb->add_flag("--json", o->json, "Print JSON");
   return [o] {

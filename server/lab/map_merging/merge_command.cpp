@@ -109,6 +109,22 @@ Result<std::vector<fleet::PreparedMap>> prepare(std::vector<MergedLog>& logs) {
   return prepared;
 }
 
+/// The trajectory of each joined robot in the joint map, each pose carried by the nearest local map.
+Status write_trajectories(const std::filesystem::path& folder, const MergeRun& run) {
+  for (const auto& [slot, robot] : run.joint.robots) {
+    Trajectory joined = run.logs[slot].run.trajectory;
+    for (StampedPose& at : joined) {
+      at.map_T_base = robot.to_joint(at.map_T_base);
+    }
+    const std::string name = "robot-" + std::to_string(slot + 1) + ".tum";
+    Status ok = joined.empty() ? Status{} : files::write_file(folder / name, tum_text(joined));
+    if (!ok) {
+      return ok;
+    }
+  }
+  return {};
+}
+
 Status write_results(const MergeOptions& o, const MergeRun& run) {
   std::error_code error;
   std::filesystem::create_directories(o.out, error);
@@ -116,6 +132,9 @@ Status write_results(const MergeOptions& o, const MergeRun& run) {
     return fail(Errc::kIo, "cannot make the folder " + o.out.string() + ": " + error.message());
   }
   if (Status ok = files::write_file(o.out / "report.json", std::string_view(merge_json(run))); !ok) {
+    return ok;
+  }
+  if (Status ok = write_trajectories(o.out, run); !ok) {
     return ok;
   }
   const Result<Image> picture = merge_picture(run);

@@ -50,7 +50,8 @@ struct MergeRun {
 [[nodiscard]] std::string merge_json(const MergeRun& run);
 /// Picture of the joined walls and the paths of the robots, in one frame.
 [[nodiscard]] Result<Image> merge_picture(const MergeRun& run);
-/// Runs the command, writes report.json, merged.png and merged.seekermap into the folder, and prints the figures.
+/// Runs the command, writes report.json, merged.png, merged.seekermap and for each joined log its trajectory in the
+/// joint map (robot-1.tum and so on) into the folder, and prints the figures.
 [[nodiscard]] Status run_merge_command(const MergeOptions& options, std::ostream& out);
 
 }  // namespace seeker::lab

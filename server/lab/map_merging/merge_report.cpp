@@ -18,6 +18,8 @@ struct ReportHypothesis {
   std::vector<double> covariance;
   fleet::MergeHypothesis figures;
   std::uint64_t pairs = 0;
+  std::uint64_t deformation_dof = 0;
+  double deformation_largest_deg = 0.0;
 };
 
 void describe(config::Fields& f, ReportHypothesis& h) {
@@ -29,6 +31,10 @@ void describe(config::Fields& f, ReportHypothesis& h) {
   f.field("contradiction", h.figures.contradiction);
   f.field("denied_piece_m", h.figures.denied_piece_m);
   f.field("residual_m", h.figures.residual_m);
+  f.field("deformation_chi2", h.figures.deformation.chi2);
+  f.field("deformation_dof", h.deformation_dof);
+  f.field("deformation_largest_m", h.figures.deformation.largest_m);
+  f.field("deformation_largest_deg", h.deformation_largest_deg);
   f.field("confidence", h.figures.confidence);
 }
 
@@ -107,7 +113,12 @@ ReportPair report_of(const MergeRun& run, const fleet::PairAnswer& pair) {
   report.compared = pair.answer.compared;
   for (const fleet::MergeHypothesis& h : pair.answer.hypotheses) {
     const Matrix3& c = h.a_T_b.covariance;
-    report.hypotheses.push_back({h.a_T_b.a_T_b, {c.data(), c.data() + c.size()}, h, h.pairs.size()});
+    report.hypotheses.push_back({h.a_T_b.a_T_b,
+                                 {c.data(), c.data() + c.size()},
+                                 h,
+                                 h.pairs.size(),
+                                 h.deformation.dof,
+                                 rad_to_deg(h.deformation.largest_rad)});
   }
   for (const fleet::RejectedPair& r : pair.answer.rejected) {
     report.rejected.push_back({r.node_a, r.node_b, std::string(r.reason)});
@@ -138,13 +149,21 @@ std::string pose_text(const Pose2& pose) {
   return fixed(pose.x_m, 3) + " m, " + fixed(pose.y_m, 3) + " m, " + fixed(rad_to_deg(pose.theta_rad), 2) + " deg";
 }
 
+std::string deformation_text(const fleet::Deformation& deformation) {
+  return deformation.dof == 0 ? ", not deformed"
+                              : ", deformed by up to " + fixed(deformation.largest_m, 2) + " m, " +
+                                    fixed(rad_to_deg(deformation.largest_rad), 1) + " deg between neighbours (chi2 " +
+                                    fixed(deformation.chi2, 0) + ", " + std::to_string(deformation.dof) + " dof)";
+}
+
 std::string hypothesis_text(const fleet::MergeHypothesis& h) {
   const Matrix3& c = h.a_T_b.covariance;
   return "  a_T_b " + pose_text(h.a_T_b.a_T_b) + " (sigma " + fixed(std::sqrt(c(0, 0)), 3) + ", " +
          fixed(std::sqrt(c(1, 1)), 3) + ", " + fixed(rad_to_deg(std::sqrt(c(2, 2))), 2) + "), confidence " +
          fixed(h.confidence, 2) + ": " + std::to_string(h.pairs.size()) + " node pairs, " + fixed(h.shared_wall_m, 1) +
          " m of shared wall (" + fixed(h.weak_wall_m, 1) + " m across), " + fixed(100.0 * h.contradiction, 1) +
-         " % denied (" + fixed(h.denied_piece_m, 1) + " m in one piece), residual " + fixed(h.residual_m, 3) + " m\n";
+         " % denied (" + fixed(h.denied_piece_m, 1) + " m in one piece), residual " + fixed(h.residual_m, 3) + " m" +
+         deformation_text(h.deformation) + "\n";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "server/lab/active_slam/explore_experiment.hpp"
 #include "server/lab/active_slam/explore_picture.hpp"
 #include "server/lab/experiments/log_stopwatch.hpp"
+#include "server/lab/map_merging/other_buildings.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -19,6 +20,7 @@ constexpr const char* kWorld = "arena-20";
 constexpr const char* kTrapWorld = "twin-corridors";
 constexpr const char* kPosterWorld = "twin-posters";
 constexpr const char* kTurnedWorld = "half-turn";
+constexpr const char* kOthers = "other-buildings";  ///< maps of several worlds against each other
 constexpr const char* kPrinted = "printed";
 constexpr const char* kOurs = "ours";
 constexpr const char* kRobot = "arena";
@@ -192,6 +194,33 @@ Result<std::vector<FleetResult>> run_fleets(const ReproduceParams& params, const
   return fleet_missing(specs, params.out, params.show_progress);
 }
 
+/// Maps of different drawn buildings against each other.
+Status run_others(const ReproduceParams& params, Report& report) {
+  constexpr double kSmallest_s = 40.0;
+  constexpr double kWhole_s = 180.0;
+  constexpr std::size_t kSeeds = 2;
+  const std::vector<std::string> worlds =
+      params.smallest ? std::vector<std::string>{kWorld, "hall"}
+                      : std::vector<std::string>{kWorld, "hall", "office", "laboratory", "hospital", kTrapWorld};
+  std::vector<ExploreSpec> specs;
+  for (const std::string& world : worlds) {
+    for (std::size_t k = 0; k < std::min(params.smallest ? 1 : kSeeds, params.seeds.size()); ++k) {
+      specs.push_back(spec_of(params, params.seeds[k], world));
+      specs.back().time_limit_s = params.smallest ? kSmallest_s : kWhole_s;
+    }
+  }
+  const Result<std::vector<BuildingMap>> maps = map_buildings(specs);
+  if (!maps) {
+    return tl::unexpected<Error>(maps.error());
+  }
+  const Result<std::vector<OtherBuildings>> pairs = compare_buildings(*maps);
+  if (!pairs) {
+    return tl::unexpected<Error>(pairs.error());
+  }
+  report.add(check_other_buildings(*pairs));
+  return files::write_file(params.out / "others.csv", other_buildings_table(*pairs).csv());
+}
+
 /// Two robots as printed beside two of ours, into whose pictures a false pair is injected; fleet.csv has both.
 Status compare_with_printed(const ReproduceParams& params, const std::vector<ExploreResult>& single, Report& report) {
   std::vector<FleetSpec> ours = fleet_specs(params, kWorld);
@@ -277,16 +306,19 @@ Status run_trap(const ReproduceParams& params, Report& report) {
 
 }  // namespace
 
-std::vector<std::string> map_merging_worlds() { return {kWorld, kPosterWorld, kTurnedWorld, kTrapWorld}; }
+std::vector<std::string> map_merging_worlds() { return {kWorld, kOthers, kPosterWorld, kTurnedWorld, kTrapWorld}; }
 
 Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
   std::error_code error;
   std::filesystem::create_directories(params.out, error);
   using Part = Status (*)(const ReproduceParams&, Report&);
-  const std::array<std::pair<const char*, Part>, 4> parts{
-      {{kWorld, &run_arena}, {kPosterWorld, &run_posters}, {kTurnedWorld, &run_turned}, {kTrapWorld, &run_trap}}};
+  const std::array<std::pair<const char*, Part>, 5> parts{{{kWorld, &run_arena},
+                                                           {kOthers, &run_others},
+                                                           {kPosterWorld, &run_posters},
+                                                           {kTurnedWorld, &run_turned},
+                                                           {kTrapWorld, &run_trap}}};
   for (const auto& [world, run] : parts) {
-    if (!chosen(params, world) || (params.smallest && run != &run_arena)) {
+    if (!chosen(params, world) || (params.smallest && run != &run_arena && run != &run_others)) {
       continue;
     }
     if (Status ok = run(params, report); !ok) {

@@ -71,11 +71,12 @@ inline constexpr double kSharedTime = 0.65;
 inline constexpr double kArenaWallShare = 0.90;
 inline constexpr double kPosterTime_s = 300.0;
 
-/// The worlds of the experiment, each of which may be run alone (ReproduceParams::worlds).
+/// The parts of the experiment, named after their worlds, each of which may be run alone (ReproduceParams::worlds).
 [[nodiscard]] std::vector<std::string> map_merging_worlds();
 
 /// Makes Fig 3 (tree), Fig 6 (map of one robot with its nodes), Fig 10(a) (merged maps), Fig 11 (load); runs.csv,
-/// table.csv, fleet.csv with the rows of the robots as printed and of ours, trap.csv, twin-posters.csv, half-turn.csv;
+/// table.csv, fleet.csv with the rows of the robots as printed and of ours, trap.csv, twin-posters.csv, half-turn.csv,
+/// others.csv (pairs of different buildings);
 /// PASS, FAIL and FINDING lines.
 [[nodiscard]] Status reproduce_map_merging(const ReproduceParams& params, Report& report);
 

@@ -333,7 +333,8 @@ TEST(FleetChain, ARobotIsMergedOverAnotherThatItMeets) {
   join(leader, packed(in_two_offices(kBetween, 12), "r1"));
   const api::FleetMember member = until(leader, "r2", placed);
   const Pose2 truth = inverse(fleet::drive(kWest).front()) * fleet::drive(kFarEast).front();
-  EXPECT_THAT(*member.main_T_map, Pose2Near(truth, 0.4, 0.04));
+  // 46 m away the drift of three maps shows, 0.004 rad for each of a dozen steps: a standard deviation of 0.3 m.
+  EXPECT_THAT(*member.main_T_map, Pose2Near(truth, 0.6, 0.04));
   EXPECT_NE(member.reason.find("'r1'"), std::string::npos) << member.reason;
   EXPECT_GT(member.confidence, 0.0);
 }

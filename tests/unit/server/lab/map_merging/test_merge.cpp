@@ -1,6 +1,7 @@
 #include "server/lab/map_merging/merge_command.hpp"
 
 #include <cmath>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +91,24 @@ TEST_F(MergeOf, TwoRunsOfARealRobotMeetInTheCommonFrameOfTheirLocaliser) {
   EXPECT_EQ(run->joint.robots.size(), 2U);
   EXPECT_EQ(run->joint.map.keyframes.size(),
             run->logs[0].run.map.keyframes.size() + run->logs[1].run.map.keyframes.size());
+}
+
+TEST_F(MergeOf, TwoPartsOfALogWriteTheirTrajectoriesInTheJointMap) {
+  SEEKER_REQUIRE_DATA(log, "lidar/p3dx/trace0.clf.gz");
+  MergeOptions o = options({log, log});
+  o.spans = {"0-60", "30-100"};
+  o.out = folder() / "out";
+  std::ostringstream out;
+  const Status done = run_merge_command(o, out);
+  ASSERT_TRUE(done) << done.error().message;
+  const auto first = read_trajectory(o.out / "robot-1.tum");
+  const auto second = read_trajectory(o.out / "robot-2.tum");
+  ASSERT_TRUE(first && second) << out.str();
+  // Both have the scans between 30 and 60 per cent, and say the same of where they were taken.
+  const double shared_s = second->poses.front().stamp_s;
+  const auto by_first = pose_at(first->poses, shared_s);
+  ASSERT_TRUE(by_first);
+  EXPECT_THAT(*by_first, Pose2Near(second->poses.front().map_T_base, 0.2, deg_to_rad(3.0)));
 }
 
 }  // namespace
