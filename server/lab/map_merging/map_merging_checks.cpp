@@ -149,10 +149,11 @@ Check check_sharing(const std::vector<FleetResult>& runs, const std::vector<Expl
     contacts += run.contacts;
   }
   const double mean = mean_spread(ratios).mean;
+  const double limit = ratios.size() < kSharedRuns ? kSharedTimeOfFew : kSharedTime;
   return {.id = "S4-SHARE",
-          .passed = !ratios.empty() && mean <= kSharedTime && contacts == 0,
+          .passed = !ratios.empty() && mean <= limit && contacts == 0,
           .figures = {{"time_ratio", fixed(mean, 3)},
-                      {"limit", fixed(kSharedTime, 2)},
+                      {"limit", fixed(limit, 2)},
                       {"contacts", std::to_string(contacts)},
                       {"runs", std::to_string(ratios.size())}}};
 }
