@@ -84,13 +84,15 @@ void MotionCommands::pass(RobotTime now, const BaseCondition& condition, PacketL
     line.write(p2os::encode_command(CommandId::kStop));
     halt();
   }
+  const bool from_rest = !must_repeat();
   commanded_ = condition.allowed(wanted_);
   const WireVelocity velocity = on_wire(commanded_);
-  const bool repeat = !sent_ || (must_repeat() && now - sent_at_ >= params_.velocity_resend);
+  const bool repeat = !sent_ || (must_repeat() && now - repeated_at_ >= params_.velocity_resend);
   if (repeat || !(velocity == *sent_)) {
     send(velocity, repeat, line);
     sent_ = velocity;
-    sent_at_ = repeat ? now : sent_at_;
+    // A change of one part does not put off the repetition of the other.
+    repeated_at_ = repeat || from_rest ? now : repeated_at_;
   }
 }
 
@@ -98,7 +100,7 @@ RobotTime MotionCommands::wake() const {
   if (!sent_) {
     return RobotTime::min();
   }
-  const RobotTime repeat = must_repeat() ? sent_at_ + params_.velocity_resend : RobotTime::max();
+  const RobotTime repeat = must_repeat() ? repeated_at_ + params_.velocity_resend : RobotTime::max();
   return wanted_ == Twist2{} ? repeat : std::min(repeat, wanted_at_ + params_.command_timeout);
 }
 

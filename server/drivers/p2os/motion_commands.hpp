@@ -61,7 +61,7 @@ class MotionCommands {
   RobotTime wanted_at_;
   Twist2 commanded_;
   std::optional<WireVelocity> sent_;
-  RobotTime sent_at_;
+  RobotTime repeated_at_;  ///< all parts were sent
   bool base_moves_ = false;
 };
 
