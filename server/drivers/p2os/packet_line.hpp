@@ -9,20 +9,23 @@
 
 #include "common/core/time.hpp"
 #include "server/drivers/link/device_session.hpp"
-#include "server/protocols/p2os/packet_reader.hpp"
+#include "server/protocols/p2os/timed_packet_reader.hpp"
 
 namespace seeker::drivers {
 
 /// Both directions of one line, with their statistics over all connections.
 class PacketLine {
  public:
-  void feed(std::span<const std::uint8_t> bytes, RobotTime now);
+  void feed(std::span<const std::uint8_t> bytes, RobotTime now) {
+    bytes_in_ += bytes.size();
+    reader_.feed(bytes, now);
+  }
   /// The next whole packet. Nothing: more bytes are needed.
   [[nodiscard]] std::optional<p2os::Packet> next() { return reader_.next(); }
   /// Looks into an unfinished packet when the line has been quiet for a while; next() may deliver after it.
-  void pass(RobotTime now);
+  void pass(RobotTime now) { reader_.pass(now); }
   /// When pass() is wanted next; the farthest time: no packet is unfinished.
-  [[nodiscard]] RobotTime wake() const;
+  [[nodiscard]] RobotTime wake() const { return reader_.wake(); }
 
   void write(const std::vector<std::uint8_t>& bytes);
   void set_baud(std::uint32_t baud);
@@ -36,9 +39,7 @@ class PacketLine {
   [[nodiscard]] LinkStatistics statistics() const;
 
  private:
-  p2os::PacketReader reader_;
-  std::optional<RobotTime> last_byte_;  ///< while a packet is unfinished
-  bool salvaged_ = false;               ///< the unfinished packet was looked into already
+  p2os::TimedPacketReader reader_;
   std::vector<LineAction> actions_;
   std::uint64_t bytes_in_ = 0;
   std::uint64_t bytes_out_ = 0;
