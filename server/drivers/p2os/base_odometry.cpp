@@ -8,8 +8,8 @@
 namespace seeker::drivers {
 namespace {
 
-/// The gyroscope's packet may come before or after the information of the same time, so that the base stands for the
-/// gyroscope only from the second packet at rest on.
+/// The rotation of the last step in motion is corrected in the first packet at rest, so that the base stands for the
+/// gyroscope only from the second one on.
 constexpr int kPacketsAtRest = 2;
 
 /// Shortest difference of two counters that wrap.
@@ -28,6 +28,8 @@ void BaseOdometry::connect(const p2os::PioneerModel& model, Duration sip_cycle) 
   doubtful_.reset();
   velocity_ = {};
   packets_at_rest_ = 0;
+  last_rotation_rad_ = 0.0;
+  last_passed_ = Duration{0};
 }
 
 void BaseOdometry::add(std::span<const p2os::GyroReading> readings) {
@@ -52,15 +54,15 @@ bool BaseOdometry::possible(const Pose2& step, Duration passed) const {
          std::abs(step.theta_rad) <= model_->omega_max_rad_s * passed_s + params_.step_margin_rad;
 }
 
-void BaseOdometry::go(Pose2 step, Duration passed) {
-  const std::optional<double> rotation_rad = gyro_->take_rotation_rad(passed);
-  if (rotation_rad && packets_at_rest_ < kPacketsAtRest) {
-    // The way was driven along the mean of the headings, which the gyroscope knows better.
-    const double turn_rad = (*rotation_rad - step.theta_rad) / 2.0;
-    const Pose2 way = Pose2{0.0, 0.0, turn_rad} * Pose2{step.x_m, step.y_m, 0.0};
-    step = {way.x_m, way.y_m, *rotation_rad};
-  }
-  odom_T_base_ = odom_T_base_ * step;
+double BaseOdometry::gyro_correction_rad() {
+  const std::optional<double> rotation_rad = gyro_->take_rotation_rad(last_passed_);
+  return rotation_rad && packets_at_rest_ < kPacketsAtRest ? *rotation_rad - last_rotation_rad_ : 0.0;
+}
+
+void BaseOdometry::go(const Pose2& step, Duration passed) {
+  odom_T_base_ = odom_T_base_ * Pose2{0.0, 0.0, gyro_correction_rad()} * step;
+  last_rotation_rad_ = step.theta_rad;
+  last_passed_ = passed;
 }
 
 void BaseOdometry::measure_velocity(const p2os::Sip& sip, const Pose2& step) {

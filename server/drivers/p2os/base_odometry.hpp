@@ -47,7 +47,9 @@ class BaseOdometry {
   /// Motion in the frame of the earlier pose.
   [[nodiscard]] Pose2 step_between(const Counters& from, const Counters& to) const;
   [[nodiscard]] bool possible(const Pose2& step, Duration passed) const;
-  void go(Pose2 step, Duration passed);
+  void go(const Pose2& step, Duration passed);
+  /// What the gyroscope adds to the rotation that the wheels showed in the last step.
+  [[nodiscard]] double gyro_correction_rad();
   void measure_velocity(const p2os::Sip& sip, const Pose2& step);
 
   const P2osParams& params_;
@@ -58,6 +60,8 @@ class BaseOdometry {
   std::optional<Counters> doubtful_;  ///< of a dropped step
   Pose2 odom_T_base_;
   Twist2 velocity_;
+  double last_rotation_rad_ = 0.0;  ///< by the wheels, in the last step
+  Duration last_passed_{0};
   int packets_at_rest_ = 0;
   std::uint64_t dropped_steps_ = 0;
 };

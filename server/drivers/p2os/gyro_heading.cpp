@@ -11,8 +11,8 @@ constexpr std::size_t kRestReadings = 40;
 /// A reading this far from the average being taken is motion that the wheels have not shown yet
 /// (AriaCoda b0d02e05, src/ArAnalogGyro.cpp: 0.5 % of the value).
 constexpr double kRestSpread = 2.56;
-/// Part of the time that must be covered by readings; the rest is the jitter of the line.
-constexpr double kLeastCover = 0.6;
+/// Part of a time that the readings may cover too little or too much, from the jitter of the line.
+constexpr double kCoverTolerance = 0.4;
 
 }  // namespace
 
@@ -42,10 +42,10 @@ void GyroHeading::add(std::span<const p2os::GyroReading> readings, bool at_rest)
   }
 }
 
-std::optional<double> GyroHeading::take_rotation_rad(Duration passed) {
+std::optional<double> GyroHeading::take_rotation_rad(Duration time) {
   const double rotation_rad = std::exchange(rotation_rad_, 0.0);
   const Duration covered = std::exchange(covered_, Duration{0});
-  if (covered == Duration{0} || to_seconds(covered) < kLeastCover * to_seconds(passed)) {
+  if (covered == Duration{0} || std::abs(to_seconds(covered - time)) > kCoverTolerance * to_seconds(time)) {
     return std::nullopt;
   }
   return rotation_rad;

@@ -20,8 +20,8 @@ class GyroHeading {
 
   /// Readings in their order, kGyroReadingPeriod apart; `at_rest`: the wheels stand.
   void add(std::span<const p2os::GyroReading> readings, bool at_rest);
-  /// Rotation since the last call, counter-clockwise, if the readings cover enough of the time that has passed between.
-  [[nodiscard]] std::optional<double> take_rotation_rad(Duration passed);
+  /// Rotation since the last call, counter-clockwise, if the readings cover about this time.
+  [[nodiscard]] std::optional<double> take_rotation_rad(Duration time);
 
   /// Average value at rest. Nothing: the base has not stood long enough yet.
   [[nodiscard]] std::optional<double> rest_count() const { return rest_count_; }

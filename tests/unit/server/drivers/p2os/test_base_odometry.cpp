@@ -126,6 +126,9 @@ TEST_F(BaseOdometryTest, TheGyroscopeTurnsTheHeadingOnceItsValueAtRestIsKnown) {
     odometry.add(readings(30.0 * count_rad_s));
     add(0, 0, k * units);
   }
+  sip.left_velocity = sip.right_velocity = 0;
+  odometry.add(readings(0.0));
+  add(0, 0, 5 * units);
   EXPECT_NEAR(odometry.odom_T_base().theta_rad, 30.0 * count_rad_s * 0.5, 1e-9);
 }
 
