@@ -87,7 +87,7 @@ void MotionCommands::pass(RobotTime now, const BaseCondition& condition, PacketL
   const bool from_rest = !must_repeat();
   commanded_ = condition.allowed(wanted_);
   const WireVelocity velocity = on_wire(commanded_);
-  const bool repeat = !sent_ || (must_repeat() && now - repeated_at_ >= params_.velocity_resend);
+  const bool repeat = !sent_ || (!from_rest && now - repeated_at_ >= params_.velocity_resend);
   if (repeat || !(velocity == *sent_)) {
     send(velocity, repeat, line);
     sent_ = velocity;

@@ -68,6 +68,24 @@ TEST(P2osHandshake, TheLimitsOfTheConfigurationAreSetWithItsSonarAndGyroscope) {
   EXPECT_EQ(talk.session.statistics().connects, 1U);
 }
 
+TEST(P2osHandshake, WhatTheConfigurationStatesLimitsTheCommandsAndHastensThePulse) {
+  Talk talk;
+  talk.greet();
+  talk.say(p2os::write_sip({}));
+  talk.say(p2os::write_config(config()));
+  talk.say(p2os::write_sip({}));
+  talk.heard();
+  talk.session.set_velocity({2.0, -3.0}, talk.now);
+  EXPECT_THAT(talk.heard(), ElementsAre(command(CommandId::kVel, 300), command(CommandId::kRotVel, -60)));
+  talk.session.set_velocity({}, talk.now);
+  talk.heard();
+  for (int k = 0; k < 4; ++k) {  // the watchdog's 600 ms hold three pulses
+    talk.session.loop_alive(talk.now);
+    talk.inform();
+  }
+  EXPECT_THAT(talk.heard(), ElementsAre(command(CommandId::kPulse), command(CommandId::kPulse)));
+}
+
 TEST(P2osHandshake, ABaseThatSendsNoConfigurationIsAskedAgainAndDrivenByItsModel) {
   Talk talk;
   talk.greet();

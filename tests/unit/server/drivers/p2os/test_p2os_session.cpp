@@ -155,6 +155,18 @@ TEST(P2osSession, WhileABumperIsPressedTheBaseMovesOnlyAwayFromIt) {
   EXPECT_THAT(talk.session.base_fault()->message, HasSubstr("rear"));
 }
 
+TEST(P2osSession, BumpersThatAreNotUsedStopNothing) {
+  P2osParams params;
+  params.use_bumpers = false;
+  Talk talk(params);
+  talk.connect();
+  talk.sip.stall_right_front = 0x80;
+  talk.inform();
+  talk.session.set_velocity({0.25, 0.0}, talk.now);
+  EXPECT_THAT(talk.heard(), ElementsAre(command(CommandId::kVel, 250)));
+  EXPECT_FALSE(talk.session.base_fault());
+}
+
 TEST(P2osSession, AReleasedBumperAllowsAllMotionAgain) {
   Talk talk;
   talk.connect();
