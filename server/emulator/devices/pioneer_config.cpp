@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "common/core/angle.hpp"
 #include "server/protocols/p2os/command.hpp"
+#include "server/protocols/p2os/pioneer_model.hpp"
 
 namespace seeker::emulator {
 namespace {

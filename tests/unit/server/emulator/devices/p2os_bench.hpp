@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -26,9 +28,7 @@ class P2osBench {
   void pass(Duration duration) {
     for (const RobotTime end = now + duration; now < end;) {
       now += kStep;
-      reading.velocity = blocked ? Twist2{} : commanded;
-      reading.stalled = blocked && !(commanded == Twist2{});
-      reading.odom_T_base = reading.odom_T_base * integrate(reading.velocity, to_seconds(kStep));
+      world ? world() : follow();
       device.pass(now);
     }
   }
@@ -71,9 +71,15 @@ class P2osBench {
   SonarScan sonar;
   std::optional<double> contact_bearing_rad;
   bool blocked = false;
+  std::function<void()> world;  ///< moves the robot for kStep and sets what it reads, in place of the blocks
   P2osDevice device;
 
  private:
+  void follow() {
+    reading.velocity = blocked ? Twist2{} : commanded;
+    reading.stalled = blocked && !(commanded == Twist2{});
+    reading.odom_T_base = reading.odom_T_base * integrate(reading.velocity, to_seconds(kStep));
+  }
   P2osDeviceHooks hooks() {
     return {[this](RobotTime) { return reading; }, [this](RobotTime) { return sonar; },
             [this](const Twist2& twist) { commanded = twist; }, [this] { return contact_bearing_rad; }};

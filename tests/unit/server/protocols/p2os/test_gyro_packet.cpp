@@ -26,6 +26,7 @@ TEST(P2osGyroPacket, ACountIsTheRotationOfTheManual) {
 RC_GTEST_PROP(P2osGyroPacket, AnyReadingsComeBack, (std::vector<std::pair<std::uint16_t, std::uint8_t>> values)) {
   values.resize(std::min(values.size(), kMaxGyroReadings));
   std::vector<GyroReading> readings;
+  readings.reserve(values.size());
   for (const auto& [rate, temperature] : values) {
     readings.push_back({rate, temperature});
   }
