@@ -166,7 +166,7 @@ TEST_F(BaseOdometryTest, ADriftingGyroscopeDoesNotTurnABaseThatStands) {
   EXPECT_DOUBLE_EQ(odometry.odom_T_base().theta_rad, 0.0);
 }
 
-RC_GTEST_PROP(BaseOdometry, AnyWayInTheUnitsOfTheCountersIsFollowedToTheUnit, (std::vector<std::int8_t> ways)) {
+RC_GTEST_PROP(BaseOdometry, AnyWayInTheUnitsOfTheCountersIsFollowedToTheUnit, (const std::vector<std::int8_t>& ways)) {
   P2osParams params;
   BaseOdometry odometry(params);
   odometry.connect(*p2os::find_pioneer_model("p3at"), std::chrono::milliseconds(100));

@@ -287,7 +287,7 @@ TEST_F(P2osDeviceTest, UnknownCommandsAreIgnoredAndOutputThatNobodyTakesIsBounde
   EXPECT_LT(bench.device.take_output().size(), 5000U);
 }
 
-RC_GTEST_PROP(P2osDevice, AnyBytesInAConnectionLeaveABaseThatCanBeCommanded, (std::vector<std::uint8_t> bytes)) {
+RC_GTEST_PROP(P2osDevice, AnyBytesInAConnectionLeaveABaseThatCanBeCommanded, (const std::vector<std::uint8_t>& bytes)) {
   P2osBench bench;
   bench.connect();
   for (std::size_t k = 0; k + 2 < bytes.size(); k += 3) {
