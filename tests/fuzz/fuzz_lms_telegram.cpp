@@ -72,6 +72,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Sender sender = data[0] % 2 == 0 ? Sender::kHost : Sender::kDevice;
   const std::size_t chunk = std::size_t{data[0]} / 2 + 1;
   const std::span<const std::uint8_t> bytes(data + 1, size - 1);
+  if (!bytes.empty() && bytes.size() <= seeker::lms200::kMaxPayloadBytes) {
+    const Bytes payload(bytes.begin(), bytes.end());
+    sender == Sender::kHost ? check_command(payload) : check_response(payload);
+  }
   seeker::lms200::TelegramReader reader(sender);
   std::uint64_t end = 0;
   for (std::size_t at = 0; at < bytes.size(); at += chunk) {

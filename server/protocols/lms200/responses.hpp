@@ -65,8 +65,8 @@ struct DeviceError {
 
   friend bool operator==(const DeviceError&, const DeviceError&) = default;
 };
-/// Longest list that is written.
-inline constexpr std::size_t kMaxDeviceErrors = 400;
+/// The longest list that a telegram holds.
+inline constexpr std::size_t kMaxDeviceErrors = 405;
 
 /// Payloads from the response byte to the status byte, which is given.
 [[nodiscard]] std::vector<std::uint8_t> encode_plain(std::uint8_t code, std::uint8_t status);
