@@ -175,21 +175,21 @@ std::vector<LineAction> LmsSession::take_actions() {
 void LmsSession::lose(RobotTime now) {
   failure_ = Error{Errc::kLinkLost, "no scan of the laser scanner for " +
                                         std::to_string(static_cast<int>(to_seconds(now - last_scan_) * 1e3)) +
-                                        " ms: " + cause_of_silence()};
+                                        " ms: " + cause_of_silence(now)};
 }
 
-std::string LmsSession::cause_of_silence() const {
-  const LinkStatistics now = statistics();
-  if (now.bytes_in == at_last_scan_.bytes_in) {
+std::string LmsSession::cause_of_silence(RobotTime now) const {
+  if (now - last_byte_ >= seconds(params_.scan_timeout_s / 2.0)) {
     return "it sends nothing; check its power and its cable";
   }
   if (health_.fatal()) {
     return health_.warning()->message;
   }
-  if (now.packets_in == at_last_scan_.packets_in) {
-    return "what it sends is damaged; check its cable, and that nobody else uses its port";
+  const LinkStatistics all = statistics();
+  if (all.bytes_skipped - at_last_scan_.bytes_skipped > (all.bytes_in - at_last_scan_.bytes_in) / 2) {
+    return "what it sends is damaged or comes at another rate; check its cable, and that nobody else uses its port";
   }
-  return "what it sends are other telegrams than the scans that were asked for; check that nobody else uses its port";
+  return "what it sends are no scans as they were asked for; check that nobody else uses its port";
 }
 
 void LmsSession::close(RobotTime /*now*/) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/core/scan.hpp"
@@ -54,7 +55,7 @@ class LmsSession final : public DeviceSession {
   void advance(RobotTime now);
   void perform_drops();
   void lose(RobotTime now);
-  [[nodiscard]] std::string cause_of_silence() const;
+  [[nodiscard]] std::string cause_of_silence(RobotTime now) const;
 
   LmsParams params_;
   LmsHealth health_;

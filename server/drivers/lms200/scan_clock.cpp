@@ -13,6 +13,29 @@ constexpr double kEarlyScans = 0.25;
 /// Part of a scan's time over which every recent arrival lies if the device changed its phase.
 constexpr double kLateScans = 0.5;
 
+/// A distance is nearly a multiple of a step if it differs by less than both: a part of the step, and scans.
+constexpr double kNearStep = 0.25;
+constexpr double kNearScans = 0.8;
+
+/// The step, at least 1, of which most distances, in scans, are nearly multiples; of several such the largest.
+std::int64_t common_step(const std::vector<double>& apart) {
+  const double longest = *std::max_element(apart.begin(), apart.end());
+  std::int64_t best = 1;
+  std::ptrdiff_t most = 0;
+  for (std::int64_t step = 1; static_cast<double>(step) < longest + kNearScans; ++step) {
+    const auto length = static_cast<double>(step);
+    const double near = std::min(kNearStep * length, kNearScans);
+    const auto fitting = std::count_if(apart.begin(), apart.end(), [&](double distance) {
+      return distance > length / 2.0 && std::abs(std::remainder(distance, length)) < near;
+    });
+    if (fitting >= most) {
+      most = fitting;
+      best = step;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 void ScanClock::reset() {
@@ -53,14 +76,12 @@ RobotTime ScanClock::place(RobotTime arrival) {
 }
 
 void ScanClock::learn() {
-  std::vector<std::int64_t> apart;
+  std::vector<double> apart;
   apart.reserve(points_.size());
   for (std::size_t i = 1; i < points_.size(); ++i) {
-    apart.push_back(std::llround((points_[i].arrival_s - points_[i - 1].arrival_s) / params_.period_s));
+    apart.push_back((points_[i].arrival_s - points_[i - 1].arrival_s) / params_.period_s);
   }
-  const auto median = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
-  std::nth_element(apart.begin(), median, apart.end());
-  scans_apart_ = std::max<std::int64_t>(*median, 1);
+  scans_apart_ = common_step(apart);
   number_points(static_cast<double>(scans_apart_) * params_.period_s);
 }
 

@@ -24,10 +24,11 @@ struct ScanClockParams {
 /// of the distances, a linear programme: it is the edge of their lower convex hull at their mean n). It needs neither
 /// the distribution of the delays nor their bound; a constant part of the delay cannot be seen.
 ///
-/// The line from the device is as a rule slower than the device, which then sends every k-th scan. k is learnt as the
-/// median of the first distances, because a delay may be longer than P and n would be ambiguous; until then arrivals
-/// are returned as they are. If all newest arrivals lie over half a scan above the line, or one below it, the device
-/// has changed its phase, and learning begins again.
+/// The line from the device is as a rule slower than the device, which then sends every k-th scan. k is found from the
+/// first distances, because a delay may be longer than P and n would be ambiguous: the number of which most distances
+/// are nearly a multiple, and of several such the largest. Until then arrivals are returned as they are. If all newest
+/// arrivals lie over half a scan above the line, or one lies clearly below it, the device has changed its phase, and
+/// that begins again.
 class ScanClock {
  public:
   explicit ScanClock(const ScanClockParams& params) : params_(params) {}

@@ -84,6 +84,17 @@ TEST(LmsScanClock, ATelegramThatComesLateAndLostOnesMoveNoStamp) {
   EXPECT_LT(worst_error_s(stream, clock, 20, 20000), 0.004);
 }
 
+TEST(LmsScanClock, TheDistanceIsFoundAlthoughNearlyHalfOfTheTelegramsAreLost) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Stream stream;
+    stream.rng = Rng(seed);
+    stream.jitter_s = 0.004;
+    stream.lost = 0.45;
+    ScanClock clock = clock_of_half_degrees();
+    EXPECT_LT(worst_error_s(stream, clock, 0, 200), 0.005) << seed;
+  }
+}
+
 TEST(LmsScanClock, AFastLineOnWhichEveryScanIsSentIsFollowedToo) {
   Stream stream;
   stream.scans_apart = 1;
