@@ -53,8 +53,9 @@ void LmsSession::open(RobotTime now) {
   reader_.clear();
   maker_.restart();
   phase_ = Phase::kHandshake;
-  handshake_.begin(now);
   last_byte_ = now;
+  handshake_.begin(now);
+  advance(now);
 }
 
 void LmsSession::receive(std::span<const std::uint8_t> bytes, RobotTime now) {

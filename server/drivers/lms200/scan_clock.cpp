@@ -16,13 +16,14 @@ constexpr double kLateScans = 0.5;
 /// A distance is nearly a multiple of a step if it differs by less than both: a part of the step, and scans.
 constexpr double kNearStep = 0.25;
 constexpr double kNearScans = 0.8;
+/// Telegrams are never farther apart: the longest one needs 64 of the shortest scans at 9600 baud.
+constexpr std::int64_t kLongestStep = 100;
 
 /// The step, at least 1, of which most distances, in scans, are nearly multiples; of several such the largest.
 std::int64_t common_step(const std::vector<double>& apart) {
-  const double longest = *std::max_element(apart.begin(), apart.end());
   std::int64_t best = 1;
   std::ptrdiff_t most = 0;
-  for (std::int64_t step = 1; static_cast<double>(step) < longest + kNearScans; ++step) {
+  for (std::int64_t step = 1; step <= kLongestStep; ++step) {
     const auto length = static_cast<double>(step);
     const double near = std::min(kNearStep * length, kNearScans);
     const auto fitting = std::count_if(apart.begin(), apart.end(), [&](double distance) {
