@@ -20,7 +20,7 @@ struct LmsParams {
   std::vector<std::uint32_t> search_bauds{9600, 19200};
   lms200::Variant variant{180, 50};
   lms200::Unit unit = lms200::Unit::kMillimetre;
-  lms200::MeasuringMode measuring_mode = lms200::MeasuringMode::k8mFieldsABDazzle;
+  lms200::MeasuringMode measuring_mode = lms200::MeasuringMode::k8mFieldsAbDazzle;
   /// Only these values of each scan are sent, so that more scans a second fit on the line. Nothing: all values.
   std::optional<lms200::SubRange> sub_range;
   /// Whether unit and measuring mode may be written to the device, which keeps them in flash that wears out. If not,

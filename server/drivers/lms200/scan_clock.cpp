@@ -56,7 +56,7 @@ RobotTime ScanClock::place(RobotTime arrival) {
     return arrival;
   }
   const double arrival_s = to_seconds(arrival - origin_);
-  if (!learnt()) {
+  if (!distance_known()) {
     points_.push_back({0.0, arrival_s});
     if (points_.size() < params_.learning) {
       return arrival;

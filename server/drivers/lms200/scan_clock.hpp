@@ -36,7 +36,7 @@ class ScanClock {
   /// The arrival without its delay, given in the order of the telegrams: never later than `arrival`.
   [[nodiscard]] RobotTime place(RobotTime arrival);
   /// Whether the distance of the telegrams is known, so that delays are removed.
-  [[nodiscard]] bool learnt() const { return scans_apart_ > 0; }
+  [[nodiscard]] bool distance_known() const { return scans_apart_ > 0; }
   void reset();
 
  private:

@@ -16,7 +16,7 @@ namespace {
 namespace lms = lms200;
 
 /// A mode that is not documented measures as this one.
-constexpr auto kDefaultMode = lms::MeasuringMode::k8mFieldsABDazzle;
+constexpr auto kDefaultMode = lms::MeasuringMode::k8mFieldsAbDazzle;
 constexpr auto kDefaultUnit = lms::Unit::kCentimetre;
 
 std::vector<std::uint16_t> words_of(const std::vector<float>& ranges_m, const lms::ConfigBlock& config) {

@@ -19,7 +19,6 @@ namespace operating_mode {
 inline constexpr std::uint8_t kInstallation = 0x00;
 inline constexpr std::uint8_t kContinuous = 0x24;          ///< all values of every scan that the line has time for
 inline constexpr std::uint8_t kRequest = 0x25;             ///< scans on request only
-inline constexpr std::uint8_t kMeanContinuous = 0x26;      ///< one byte follows: scans per mean
 inline constexpr std::uint8_t kContinuousSubRange = 0x27;  ///< two words follow: first and last value, from 1
 }  // namespace operating_mode
 

@@ -46,11 +46,11 @@ std::optional<MeasuringMode> measuring_mode_of(std::uint8_t code) {
 
 int value_bits(MeasuringMode mode) {
   switch (mode) {
-    case MeasuringMode::k8mFieldsABDazzle:
+    case MeasuringMode::k8mFieldsAbDazzle:
     case MeasuringMode::k8mReflector:
-    case MeasuringMode::k8mFieldsABC: return 13;
+    case MeasuringMode::k8mFieldsAbc: return 13;
     case MeasuringMode::k16mReflector:
-    case MeasuringMode::k16mFieldsAB: return 14;
+    case MeasuringMode::k16mFieldsAb: return 14;
     case MeasuringMode::k32mReflector:
     case MeasuringMode::k32mFieldA: return 15;
     case MeasuringMode::k32m:

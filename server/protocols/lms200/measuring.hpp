@@ -20,11 +20,11 @@ enum class Unit : std::uint8_t { kCentimetre = 0, kMillimetre = 1, kDecimetre = 
 
 /// How a word of 16 bits is shared between range (low bits) and flags (high bits). The ranges stated are those in mm.
 enum class MeasuringMode : std::uint8_t {
-  k8mFieldsABDazzle = 0x00,
+  k8mFieldsAbDazzle = 0x00,
   k8mReflector = 0x01,
-  k8mFieldsABC = 0x02,
+  k8mFieldsAbc = 0x02,
   k16mReflector = 0x03,
-  k16mFieldsAB = 0x04,
+  k16mFieldsAb = 0x04,
   k32mReflector = 0x05,
   k32mFieldA = 0x06,
   k32m = 0x0F,

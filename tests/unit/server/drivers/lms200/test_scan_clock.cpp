@@ -113,17 +113,17 @@ TEST(LmsScanClock, AChangeOfPhaseIsFollowedWithinTwoSeconds) {
   EXPECT_LT(worst_error_s(stream, clock, 10, 200), 0.002);
 }
 
-TEST(LmsScanClock, UntilTheDistanceIsLearntArrivalsAreReturned) {
+TEST(LmsScanClock, UntilTheDistanceIsKnownArrivalsAreReturned) {
   Stream stream;
   stream.jitter_s = 0.016;
   ScanClock clock = clock_of_half_degrees();
   for (int i = 0; i < 7; ++i) {
     const RobotTime arrival = robot_time_s(stream.next().arrival_s);
     EXPECT_EQ(clock.place(arrival), arrival);
-    EXPECT_FALSE(clock.learnt());
+    EXPECT_FALSE(clock.distance_known());
   }
   (void)clock.place(robot_time_s(stream.next().arrival_s));
-  EXPECT_TRUE(clock.learnt());
+  EXPECT_TRUE(clock.distance_known());
 }
 
 TEST(LmsByteArrivals, ABytesLatestArrivalIsThatOfItsPieceLessTheBytesBehindIt) {

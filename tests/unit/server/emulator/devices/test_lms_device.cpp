@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include "server/protocols/lms200/responses.hpp"
 #include "server/protocols/lms200/status_block.hpp"
@@ -287,6 +290,29 @@ TEST(LmsDevice, AFloodOfCommandsIsNotStored) {
   host.run(30.0);
   EXPECT_LT(host.all.size(), 33U * 160U);
   EXPECT_TRUE(host.ask(kRequestMode));
+}
+
+RC_GTEST_PROP(LmsDevice, AnyBytesAreEnduredAndTheNextCommandIsAnswered, ()) {
+  LmsHost host;
+  for (int i = *rc::gen::inRange(0, 20); i > 0; --i) {
+    const Bytes bytes = *rc::gen::arbitrary<Bytes>();
+    if (*rc::gen::arbitrary<bool>() && !bytes.empty()) {
+      host.send(encode_telegram(lms::Sender::kHost, bytes));
+    } else {
+      host.send(bytes);
+    }
+    host.run(0.01 * *rc::gen::inRange(0, 30));
+  }
+  host.baud = host.device.baud();
+  host.run(0.2);
+  host.command(lms::RequestType{});
+  host.run(3.0);
+  std::optional<Bytes> answer;
+  while (auto payload = host.telegram()) {
+    answer = payload->front() == code::kType ? payload : answer;
+  }
+  // A reset among the bytes ends with the power-on telegram instead.
+  RC_ASSERT(answer.has_value() || std::find(host.all.begin(), host.all.end(), code::kReset) != host.all.end());
 }
 
 TEST(LmsDevice, RangesBeyondTheModesLimitAreCodes) {

@@ -11,8 +11,8 @@
 namespace seeker::lms200 {
 namespace {
 
-constexpr std::array kModes{MeasuringMode::k8mFieldsABDazzle, MeasuringMode::k8mReflector, MeasuringMode::k8mFieldsABC,
-                            MeasuringMode::k16mReflector,     MeasuringMode::k16mFieldsAB, MeasuringMode::k32mReflector,
+constexpr std::array kModes{MeasuringMode::k8mFieldsAbDazzle, MeasuringMode::k8mReflector, MeasuringMode::k8mFieldsAbc,
+                            MeasuringMode::k16mReflector,     MeasuringMode::k16mFieldsAb, MeasuringMode::k32mReflector,
                             MeasuringMode::k32mFieldA,        MeasuringMode::k32m};
 constexpr std::array kUnits{Unit::kCentimetre, Unit::kMillimetre, Unit::kDecimetre};
 
@@ -41,7 +41,7 @@ TEST(Lms200Measuring, ZeroIsNoReturn) {
 TEST(Lms200Measuring, FlagsAreNotPartOfTheRange) {
   EXPECT_FLOAT_EQ(range_of(0xE000 | 1234, MeasuringMode::k8mReflector, Unit::kMillimetre), 1.234F);
   EXPECT_EQ(flags_of(0xE000 | 1234, MeasuringMode::k8mReflector), 7);
-  EXPECT_EQ(flags_of(0x4000 | 1234, MeasuringMode::k16mFieldsAB), 1);
+  EXPECT_EQ(flags_of(0x4000 | 1234, MeasuringMode::k16mFieldsAb), 1);
   EXPECT_EQ(flags_of(0x8000 | 1234, MeasuringMode::k32mFieldA), 1);
   EXPECT_EQ(flags_of(0xFFFF, MeasuringMode::k32m), 0);
 }
