@@ -37,14 +37,14 @@ Status validate(const RplidarParams& params) {
         params.angle_step_rad <= kTwoPi / kLeastBeams)) {
     return refuse("angle_step_rad", "between a turn's 8192nd and 8th part");
   }
-  if (!(params.least_turn_share > 0.0 && params.least_turn_share <= 1.0)) {
-    return refuse("least_turn_share", "above 0 and at most 1");
+  if (!(params.least_revolution_share > 0.0 && params.least_revolution_share <= 1.0)) {
+    return refuse("least_revolution_share", "above 0 and at most 1");
   }
   if (params.tries < 1 || params.restarts < 0 || params.resets < 0) {
     return refuse("tries, restarts and resets", "at least 1, 0 and 0");
   }
   if (holds_nothing(params.answer_timeout) || holds_nothing(params.stop_pause) || holds_nothing(params.boot_time) ||
-      holds_nothing(params.scan_timeout) || holds_nothing(params.turn_timeout)) {
+      holds_nothing(params.scan_timeout) || holds_nothing(params.revolution_timeout)) {
     return refuse("time-outs and pauses", "above 0");
   }
   return {};

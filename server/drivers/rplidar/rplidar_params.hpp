@@ -29,15 +29,15 @@ struct RplidarParams {
   double range_min_m = 0.15;
   double range_max_m = 12.0;
   double angle_step_rad = deg_to_rad(1.0);  ///< of the scans; rounded so that a turn has a whole number of beams
-  double least_turn_share = 0.75;           ///< a turn of which less was received is not delivered
+  double least_revolution_share = 0.75;     ///< a turn of which less was received is not delivered
   Duration answer_timeout = std::chrono::milliseconds(500);
-  int tries = 3;                                         ///< of a request before it counts as unanswered
-  Duration stop_pause = std::chrono::milliseconds(100);  ///< from STOP to the next request
-  Duration boot_time = std::chrono::seconds(2);          ///< from RESET to the next request
-  Duration scan_timeout = std::chrono::seconds(1);       ///< silence after which the scan is started again
-  Duration turn_timeout = std::chrono::seconds(5);       ///< without a whole turn: the rotor is blocked, or worse
-  int restarts = 3;                                      ///< of the scan in a row before the line is given up
-  int resets = 2;                                        ///< of a device in protection stop before it is given up
+  int tries = 3;                                          ///< of a request before it counts as unanswered
+  Duration stop_pause = std::chrono::milliseconds(100);   ///< from STOP to the next request
+  Duration boot_time = std::chrono::seconds(2);           ///< from RESET to the next request
+  Duration scan_timeout = std::chrono::seconds(1);        ///< silence after which the scan is started again
+  Duration revolution_timeout = std::chrono::seconds(5);  ///< without a whole turn: the rotor is blocked, or worse
+  int restarts = 3;                                       ///< of the scan in a row before the line is given up
+  int resets = 2;                                         ///< of a device in protection stop before it is given up
 };
 
 /// Refuses settings that no device can have, naming the field.

@@ -84,7 +84,7 @@ void RplidarSession::receive(std::span<const std::uint8_t> bytes, RobotTime now)
   if (step_ == Step::kStarting && reader_.streaming()) {
     step_ = Step::kScanning;
     last_record_ = now;
-    last_turn_ = now;
+    last_revolution_ = now;
   }
   const Step asked = step_;
   for (const rplidar::Answer& answer : answers) {
@@ -130,7 +130,7 @@ void RplidarSession::follow_scan(const rplidar::Answer& answer, RobotTime now) {
   }
   restarts_ = 0;
   resets_ = 0;
-  last_turn_ = now;
+  last_revolution_ = now;
   scan_ = std::move(turn);
 }
 
@@ -148,7 +148,7 @@ void RplidarSession::pass(RobotTime now) {
     case Step::kScanning:
       if (turning_ && now >= last_record_ + params_.scan_timeout) {
         restart("it fell silent", now);
-      } else if (now >= last_turn_ + params_.turn_timeout) {
+      } else if (now >= last_revolution_ + params_.revolution_timeout) {
         restart("it completes no turn; see that its rotor runs freely", now);
       }
       return;
@@ -180,7 +180,8 @@ RobotTime RplidarSession::wake() const {
     case Step::kStopping:
     case Step::kBooting: return pause_until_;
     case Step::kScanning:
-      return std::min(turning_ ? last_record_ + params_.scan_timeout : kNever, last_turn_ + params_.turn_timeout);
+      return std::min(turning_ ? last_record_ + params_.scan_timeout : kNever,
+                      last_revolution_ + params_.revolution_timeout);
     default: return enquiry_.deadline();
   }
 }

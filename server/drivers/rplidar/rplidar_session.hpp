@@ -56,7 +56,7 @@ class RplidarSession final : public DeviceSession {
     kScanning,
     kFailed,
   };
-  /// What the device told about itself since the handshake began.
+  /// What the device answered about itself since the handshake began.
   struct Findings {
     rplidar::DeviceInfo info;
     rplidar::SampleRate rate;
@@ -101,10 +101,10 @@ class RplidarSession final : public DeviceSession {
   rplidar::ConfType asked_conf_ = rplidar::ConfType::kTypicalMode;
   ScanStream stream_;
   std::vector<LineAction> actions_;
-  RobotTime pause_until_;  ///< end of kStopping and kBooting
-  RobotTime last_record_;  ///< newest sample or capsule
-  RobotTime last_turn_;    ///< newest whole turn, or the start of the scan
-  std::size_t baud_ = 0;   ///< index of the rate in use
+  RobotTime pause_until_;      ///< end of kStopping and kBooting
+  RobotTime last_record_;      ///< newest sample or capsule
+  RobotTime last_revolution_;  ///< newest whole turn, or the start of the scan
+  std::size_t baud_ = 0;       ///< index of the rate in use
   std::size_t bauds_tried_ = 0;
   bool turning_ = false;  ///< a whole turn has come since the scan was started
   int resets_ = 0;

@@ -6,7 +6,7 @@
 namespace seeker::drivers {
 
 void ScanStream::start(Duration sample_period, Duration byte_time) {
-  turns_.restart();
+  revolutions_.restart();
   chain_.reset();
   sample_period_ = sample_period;
   byte_time_ = byte_time;
@@ -17,7 +17,7 @@ std::optional<LaserScan> ScanStream::add(const rplidar::Answer& answer, RobotTim
     return now - byte_time_ * static_cast<Duration::rep>(answer.bytes_behind + bytes);
   };
   if (const auto* sample = std::get_if<rplidar::LegacySample>(&answer.value)) {
-    return turns_.add(rplidar::to_polar(*sample), begun_before(rplidar::kLegacyBytes));
+    return revolutions_.add(rplidar::to_polar(*sample), begun_before(rplidar::kLegacyBytes));
   }
   if (const auto* capsule = std::get_if<rplidar::ExpressCapsule>(&answer.value)) {
     return add_capsule(*capsule, answer.after_gap, begun_before(rplidar::kCapsuleBytes));
@@ -35,7 +35,7 @@ std::optional<LaserScan> ScanStream::add_capsule(const rplidar::ExpressCapsule& 
   std::optional<LaserScan> turn;
   RobotTime time = last_measured - sample_period_ * static_cast<Duration::rep>(rplidar::kCapsuleSamples - 1);
   for (const rplidar::PolarSample& sample : *samples) {
-    if (std::optional<LaserScan> whole = turns_.add(sample, time)) {
+    if (std::optional<LaserScan> whole = revolutions_.add(sample, time)) {
       turn = std::move(whole);
     }
     time += sample_period_;

@@ -6,7 +6,7 @@
 
 #include "common/core/scan.hpp"
 #include "common/core/time.hpp"
-#include "server/drivers/rplidar/turn_collector.hpp"
+#include "server/drivers/rplidar/revolution_collector.hpp"
 #include "server/protocols/rplidar/answer_reader.hpp"
 #include "server/protocols/rplidar/capsule_chain.hpp"
 
@@ -16,7 +16,7 @@ namespace seeker::drivers {
 /// was measured, and the line takes its time for each byte.
 class ScanStream {
  public:
-  explicit ScanStream(const RplidarParams& params) : turns_(params) {}
+  explicit ScanStream(const RplidarParams& params) : revolutions_(params) {}
 
   /// A scan begins whose samples are `sample_period` apart, on a line that takes `byte_time` for a byte.
   void start(Duration sample_period, Duration byte_time);
@@ -28,7 +28,7 @@ class ScanStream {
   [[nodiscard]] std::optional<LaserScan> add_capsule(const rplidar::ExpressCapsule& capsule, bool after_gap,
                                                      RobotTime measured);
 
-  TurnCollector turns_;
+  RevolutionCollector revolutions_;
   rplidar::CapsuleChain chain_;
   RobotTime held_measured_;  ///< when the last sample of the capsule that the chain holds was measured
   Duration sample_period_{};

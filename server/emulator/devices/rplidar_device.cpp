@@ -21,7 +21,7 @@ constexpr std::size_t kMaxOutput = 65'536;
 /// Samples that are sent one by one may wait for so many of their kind.
 constexpr int kLegacyBatch = 8;
 constexpr std::uint16_t kStuckCode = 0x8001;
-constexpr double kQ6PerTurn = rplidar::kTurnQ6;
+constexpr double kQ6PerRevolution = rplidar::kRevolutionQ6;
 constexpr double kQ3PerRad = 8.0 * 180.0 / kPi;
 /// Half of what the field holds, below the bit that some programs take for a sign.
 constexpr double kMaxCompensationQ3 = 31.0;
@@ -163,7 +163,7 @@ void RplidarDevice::advance(RobotTime now) {
   // A protection stop in between ends the scan.
   while (scanning() && *time_ + sample_period() <= now) {
     *time_ += sample_period();
-    turn_rotor(sample_period());
+    advance_rotor(sample_period());
     if (scanning() && (forced_ || rotor_.rate_hz() >= params_.least_rotation_hz)) {
       take_sample();
     } else {
@@ -171,12 +171,12 @@ void RplidarDevice::advance(RobotTime now) {
     }
   }
   if (!scanning() && now > *time_) {
-    turn_rotor(now - *time_);
+    advance_rotor(now - *time_);
     time_ = now;
   }
 }
 
-void RplidarDevice::turn_rotor(Duration passed) {
+void RplidarDevice::advance_rotor(Duration passed) {
   if (!blocked_) {
     return rotor_.advance(passed, target_hz());
   }
@@ -200,8 +200,8 @@ void RplidarDevice::take_sample() {
 RplidarDevice::Measured RplidarDevice::measure() const {
   const double raw_rad = rotor_.angle_cw_rad();
   Measured measured;
-  measured.raw_angle_q6 =
-      static_cast<std::uint16_t>(static_cast<int>(std::lround(raw_rad / kTwoPi * kQ6PerTurn)) % rplidar::kTurnQ6);
+  measured.raw_angle_q6 = static_cast<std::uint16_t>(
+      static_cast<int>(std::lround(raw_rad / kTwoPi * kQ6PerRevolution)) % rplidar::kRevolutionQ6);
   const auto range_at = [&](double angle_cw_rad) {
     const std::optional<double> range_m = measure_(wrap_angle(-angle_cw_rad), *time_);
     const bool echo = range_m && *range_m > 0.0 && *range_m <= params_.range_max_m;
@@ -220,8 +220,8 @@ void RplidarDevice::send_legacy(const Measured& measured) {
   constexpr int kQ6PerQ3 = 8;
   const int angle_q6 = measured.raw_angle_q6 - kQ6PerQ3 * measured.compensation_q3;
   rplidar::LegacySample sample;
-  sample.begins_turn = last_raw_q6_ && measured.raw_angle_q6 < *last_raw_q6_;
-  sample.angle_q6 = static_cast<std::uint16_t>((angle_q6 + rplidar::kTurnQ6) % rplidar::kTurnQ6);
+  sample.begins_revolution = last_raw_q6_ && measured.raw_angle_q6 < *last_raw_q6_;
+  sample.angle_q6 = static_cast<std::uint16_t>((angle_q6 + rplidar::kRevolutionQ6) % rplidar::kRevolutionQ6);
   if (measured.range_m) {
     const double distance_q2 = std::round(*measured.range_m * kQ2PerMetre);
     sample.distance_q2 = static_cast<std::uint16_t>(std::clamp(distance_q2, 1.0, 65'535.0));

@@ -39,7 +39,7 @@ struct RplidarDeviceParams {
 
 /// A1M8 with firmware 1.20: 5.5 Hz, always turning.
 [[nodiscard]] RplidarDeviceParams rplidar_a1();
-/// A2M8 with firmware 1.29 on its accessory board: 10 Hz, turning when it is told to.
+/// A2M8 with firmware 1.29 on its accessory board: 10 Hz, turning on request.
 [[nodiscard]] RplidarDeviceParams rplidar_a2();
 
 /// What the device would measure at a moment: the distance in metres in a direction, counter-clockwise from its front
@@ -86,7 +86,7 @@ class RplidarDevice final : public EmulatedDevice {
   void start(Stream stream, bool forced, RobotTime now);
   void end_scan();
   void advance(RobotTime now);
-  void turn_rotor(Duration passed);
+  void advance_rotor(Duration passed);
   void take_sample();
   [[nodiscard]] Measured measure() const;
   void send_legacy(const Measured& measured);

@@ -7,7 +7,7 @@ namespace {
 
 /// No scanner turns further than this while it takes 32 samples: a quarter turn would be over 30 Hz at 4000 samples
 /// per second.
-constexpr int kMaxAdvanceQ6 = kTurnQ6 / 4;
+constexpr int kMaxAdvanceQ6 = kRevolutionQ6 / 4;
 /// Where a whole capsule is missing, the scanner has turned twice as far; a rotor that starts gains a few degrees at
 /// most from capsule to capsule.
 constexpr double kMaxGrowth = 1.5;
@@ -23,7 +23,7 @@ std::optional<std::array<PolarSample, kCapsuleSamples>> CapsuleChain::add(const 
   if (!before || after_gap || capsule.first) {
     return std::nullopt;
   }
-  const int advance_q6 = (capsule.start_angle_q6 - before->start_angle_q6 + 2 * kTurnQ6) % kTurnQ6;
+  const int advance_q6 = (capsule.start_angle_q6 - before->start_angle_q6 + 2 * kRevolutionQ6) % kRevolutionQ6;
   if (!plausible(advance_q6)) {
     return std::nullopt;
   }

@@ -9,7 +9,7 @@
 
 namespace seeker::rplidar {
 
-/// Holds one capsule until its successor tells how far the scanner turned meanwhile.
+/// Holds one capsule until its successor shows how far the scanner turned meanwhile.
 class CapsuleChain {
  public:
   /// Adds the next capsule and returns the samples of the one before. Nothing: there is none, or it was not the one

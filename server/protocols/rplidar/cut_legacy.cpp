@@ -20,8 +20,8 @@ constexpr std::size_t kLook = kSearch + kLongest * kLegacyBytes;
 static_assert(kLook <= kMaxStreamLook);
 
 bool follows(const LegacySample& before, const LegacySample& after) {
-  const int ahead_q6 = (after.angle_q6 - before.angle_q6 + 2 * kTurnQ6) % kTurnQ6;
-  return ahead_q6 <= kMaxAheadQ6 || ahead_q6 >= kTurnQ6 - kMaxBackQ6;
+  const int ahead_q6 = (after.angle_q6 - before.angle_q6 + 2 * kRevolutionQ6) % kRevolutionQ6;
+  return ahead_q6 <= kMaxAheadQ6 || ahead_q6 >= kRevolutionQ6 - kMaxBackQ6;
 }
 
 /// How many samples stand in a row from `at`, each a continuation of the one before; at most kLongest are counted.

@@ -39,7 +39,7 @@ struct ExpressCapsule {
 [[nodiscard]] bool may_begin_capsule(std::span<const std::uint8_t> bytes);
 /// The capsule in the first 84 bytes. Nothing: they are fewer, or a check of theirs is wrong.
 [[nodiscard]] std::optional<ExpressCapsule> decode_capsule(std::span<const std::uint8_t> bytes);
-/// The samples in SI units; `advance_q6` is the way from this capsule's start to that of the next one.
+/// The samples in SI units; `advance_q6` is the angle from this capsule's start to that of the next one.
 [[nodiscard]] std::array<PolarSample, kCapsuleSamples> to_polar(const ExpressCapsule& capsule, int advance_q6);
 
 }  // namespace seeker::rplidar

@@ -13,7 +13,7 @@ constexpr float kMetresPerQ2 = 0.00025F;
 
 std::array<std::uint8_t, kLegacyBytes> encode(const LegacySample& sample) {
   SEEKER_ASSERT(sample.quality <= kMaxLegacyQuality && sample.angle_q6 <= kMaxAngleQ6);
-  const unsigned turn_bits = sample.begins_turn ? 0b01U : 0b10U;
+  const unsigned turn_bits = sample.begins_revolution ? 0b01U : 0b10U;
   return {static_cast<std::uint8_t>((sample.quality << 2U) | turn_bits),
           static_cast<std::uint8_t>(((sample.angle_q6 & 0x7FU) << 1U) | 1U),
           static_cast<std::uint8_t>(sample.angle_q6 >> 7U), static_cast<std::uint8_t>(sample.distance_q2 & 0xFFU),
@@ -34,7 +34,7 @@ std::optional<LegacySample> decode_legacy(std::span<const std::uint8_t> bytes) {
 }
 
 PolarSample to_polar(const LegacySample& sample) {
-  const double angle_rad = deg_to_rad(kDegPerQ6 * (sample.angle_q6 % kTurnQ6));
+  const double angle_rad = deg_to_rad(kDegPerQ6 * (sample.angle_q6 % kRevolutionQ6));
   if (sample.distance_q2 == 0) {
     return {angle_rad, kNoReturn, 0};
   }

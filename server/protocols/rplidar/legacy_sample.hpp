@@ -17,7 +17,7 @@ inline constexpr std::uint8_t kMaxLegacyQuality = 0x3F;
 inline constexpr std::uint16_t kMaxAngleQ6 = 0x7FFF;
 
 struct LegacySample {
-  bool begins_turn = false;
+  bool begins_revolution = false;
   std::uint8_t quality = 0;       ///< at most kMaxLegacyQuality
   std::uint16_t angle_q6 = 0;     ///< 1/64 degree, clockwise from the front mark; at most kMaxAngleQ6
   std::uint16_t distance_q2 = 0;  ///< 1/4 mm; 0: no echo

@@ -1,5 +1,5 @@
 /// \file
-/// One measured distance of an RPLIDAR in SI units, whatever way it was sent.
+/// One measured distance of an RPLIDAR in SI units, sent alone or in a capsule.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace seeker::rplidar {
 
 /// A full turn in the scanner's units of 1/64 degree.
-inline constexpr int kTurnQ6 = 360 * 64;
+inline constexpr int kRevolutionQ6 = 360 * 64;
 inline constexpr double kDegPerQ6 = 1.0 / 64.0;
 
 struct PolarSample {

@@ -255,7 +255,7 @@ TEST(RplidarParams, ImpossibleSettingsAreRefusedByName) {
   EXPECT_THAT(refused([](RplidarParams& p) { p.motor_pwm = 1024; }), HasSubstr("motor_pwm"));
   EXPECT_THAT(refused([](RplidarParams& p) { p.range_min_m = 20.0; }), HasSubstr("range_min_m"));
   EXPECT_THAT(refused([](RplidarParams& p) { p.angle_step_rad = 1e-6; }), HasSubstr("angle_step_rad"));
-  EXPECT_THAT(refused([](RplidarParams& p) { p.least_turn_share = 0.0; }), HasSubstr("least_turn_share"));
+  EXPECT_THAT(refused([](RplidarParams& p) { p.least_revolution_share = 0.0; }), HasSubstr("least_revolution_share"));
   EXPECT_THAT(refused([](RplidarParams& p) { p.tries = 0; }), HasSubstr("tries"));
   EXPECT_THAT(refused([](RplidarParams& p) { p.scan_timeout = {}; }), HasSubstr("time-outs"));
 }

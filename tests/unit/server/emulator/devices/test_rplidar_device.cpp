@@ -167,7 +167,7 @@ TEST(RplidarDevice, LegacySamplesShowTheWallsClockwise) {
     if (std::abs(cw_deg - 330.0) > 0.1 && cw_deg > 0.1 && cw_deg < 359.9) {
       EXPECT_FLOAT_EQ(polar.range_m, static_cast<float>(cw_deg > 330.0 ? kFront_m : kElsewhere_m)) << cw_deg;
     }
-    turns += sample.begins_turn ? 1 : 0;
+    turns += sample.begins_revolution ? 1 : 0;
   }
   EXPECT_NEAR(turns, 5.5, 0.6);
 }
@@ -210,7 +210,7 @@ TEST(RplidarDevice, TurnsHaveDifferentNumbersOfSamples) {
   bytes.insert(bytes.end(), stream.begin(), stream.end());
   std::vector<int> turns{0};
   for (const rplidar::LegacySample& sample : read<rplidar::LegacySample>(AnswerType::kLegacyScan, bytes)) {
-    if (sample.begins_turn) {
+    if (sample.begins_revolution) {
       turns.push_back(0);
     }
     ++turns.back();

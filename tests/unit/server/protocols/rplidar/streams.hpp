@@ -18,11 +18,11 @@ inline void append(Bytes& to, const auto& bytes) { to.insert(to.end(), bytes.beg
 inline std::vector<LegacySample> turning_samples(std::size_t count, Rng& rng) {
   std::vector<LegacySample> samples;
   samples.reserve(count);
-  double angle_q6 = static_cast<double>(rng.below(kTurnQ6));
+  double angle_q6 = static_cast<double>(rng.below(kRevolutionQ6));
   for (std::size_t k = 0; k < count; ++k) {
     angle_q6 += rng.uniform(30.0, 100.0);
-    const bool begins = angle_q6 >= kTurnQ6;
-    angle_q6 -= begins ? kTurnQ6 : 0;
+    const bool begins = angle_q6 >= kRevolutionQ6;
+    angle_q6 -= begins ? kRevolutionQ6 : 0;
     const auto distance_q2 = static_cast<std::uint16_t>(rng.below(5) == 0 ? 0 : rng.below(48'000));
     samples.push_back({begins, static_cast<std::uint8_t>(distance_q2 == 0 ? 0 : rng.below(64)),
                        static_cast<std::uint16_t>(angle_q6), distance_q2});
@@ -33,12 +33,12 @@ inline std::vector<LegacySample> turning_samples(std::size_t count, Rng& rng) {
 /// Capsules of a scanner that turns about 20 degrees from one to the next.
 inline std::vector<ExpressCapsule> turning_capsules(std::size_t count, Rng& rng) {
   std::vector<ExpressCapsule> capsules(count);
-  double angle_q6 = static_cast<double>(rng.below(kTurnQ6));
+  double angle_q6 = static_cast<double>(rng.below(kRevolutionQ6));
   for (ExpressCapsule& capsule : capsules) {
     capsule.first = &capsule == &capsules.front();
     capsule.start_angle_q6 = static_cast<std::uint16_t>(angle_q6);
     angle_q6 += rng.uniform(1200.0, 1300.0);
-    angle_q6 -= angle_q6 >= kTurnQ6 ? kTurnQ6 : 0;
+    angle_q6 -= angle_q6 >= kRevolutionQ6 ? kRevolutionQ6 : 0;
     for (CapsuleSample& sample : capsule.samples) {
       sample.distance_mm = static_cast<std::uint16_t>(rng.below(kMaxCapsuleDistance_mm + 1U));
       sample.compensation_q3 = static_cast<std::uint8_t>(rng.below(32));

@@ -1,4 +1,4 @@
-#include "server/drivers/rplidar/turn_collector.hpp"
+#include "server/drivers/rplidar/revolution_collector.hpp"
 
 #include <algorithm>
 
@@ -38,11 +38,11 @@ class Turning {
   void skip_to(double cw_deg) { at_deg = cw_deg; }
   [[nodiscard]] RobotTime time() const { return robot_time_s(10.0 + at_deg / 0.5 * kSamplePeriod_s); }
 
-  TurnCollector collector;
+  RevolutionCollector collector;
   double at_deg = 180.25;
 };
 
-TEST(TurnCollector, GivesOneScanATurnWithCounterClockwiseBeams) {
+TEST(RevolutionCollector, GivesOneScanATurnWithCounterClockwiseBeams) {
   Turning scanner(params_of(1.0));
   const std::vector<LaserScan> scans = scanner.turn_to(180.0 + 3 * 360.0 + 5.0);
   ASSERT_EQ(scans.size(), 3U);
@@ -59,7 +59,7 @@ TEST(TurnCollector, GivesOneScanATurnWithCounterClockwiseBeams) {
   EXPECT_TRUE(validate(scan));
 }
 
-TEST(TurnCollector, TheStampIsTheMiddleAndTheSweepRunsBackwards) {
+TEST(RevolutionCollector, TheStampIsTheMiddleAndTheSweepRunsBackwards) {
   Turning scanner(params_of(1.0));
   const std::vector<LaserScan> scans = scanner.turn_to(2 * 360.0);
   ASSERT_EQ(scans.size(), 1U);
@@ -68,7 +68,7 @@ TEST(TurnCollector, TheStampIsTheMiddleAndTheSweepRunsBackwards) {
   EXPECT_NEAR(to_seconds(scans[0].sweep), -718 * kSamplePeriod_s, 1e-6);
 }
 
-TEST(TurnCollector, AScannerThatHangsTurnsTheOtherWay) {
+TEST(RevolutionCollector, AScannerThatHangsTurnsTheOtherWay) {
   RplidarParams params = params_of(1.0);
   params.upside_down = true;
   Turning scanner(params);
@@ -81,7 +81,7 @@ TEST(TurnCollector, AScannerThatHangsTurnsTheOtherWay) {
   }
 }
 
-TEST(TurnCollector, ATurnWithAGapIsDeliveredWithThoseBeamsEmpty) {
+TEST(RevolutionCollector, ATurnWithAGapIsDeliveredWithThoseBeamsEmpty) {
   Turning scanner(params_of(1.0));
   EXPECT_EQ(scanner.turn_to(630.0).size(), 1U);
   scanner.skip_to(690.25);  // 270 to 330 degrees clockwise
@@ -93,7 +93,7 @@ TEST(TurnCollector, ATurnWithAGapIsDeliveredWithThoseBeamsEmpty) {
   EXPECT_NEAR(to_seconds(scans[0].stamp), 10.0 + 1440 * kSamplePeriod_s, 1e-6);
 }
 
-TEST(TurnCollector, ATurnOfWhichTooLittleCameIsNotDelivered) {
+TEST(RevolutionCollector, ATurnOfWhichTooLittleCameIsNotDelivered) {
   Turning scanner(params_of(1.0));
   EXPECT_EQ(scanner.turn_to(560.0).size(), 1U);
   scanner.skip_to(660.25);
@@ -101,7 +101,7 @@ TEST(TurnCollector, ATurnOfWhichTooLittleCameIsNotDelivered) {
   EXPECT_EQ(scanner.turn_to(1300.0).size(), 1U);
 }
 
-TEST(TurnCollector, AWholeTurnThatIsMissingSpoilsTheTurnAroundIt) {
+TEST(RevolutionCollector, AWholeTurnThatIsMissingSpoilsTheTurnAroundIt) {
   Turning scanner(params_of(1.0));
   EXPECT_EQ(scanner.turn_to(720.0).size(), 1U);
   scanner.skip_to(1080.0);
@@ -109,8 +109,8 @@ TEST(TurnCollector, AWholeTurnThatIsMissingSpoilsTheTurnAroundIt) {
   EXPECT_EQ(scanner.turn_to(1700.0).size(), 1U);
 }
 
-TEST(TurnCollector, BearingsThatJitterOverTheSeamMakeNoTurns) {
-  TurnCollector collector(params_of(1.0));
+TEST(RevolutionCollector, BearingsThatJitterOverTheSeamMakeNoTurns) {
+  RevolutionCollector collector(params_of(1.0));
   int turns = 0;
   double raw_deg = 0.0;
   for (int k = 0; k < 10 * 720; ++k, raw_deg += 0.5) {
@@ -121,7 +121,7 @@ TEST(TurnCollector, BearingsThatJitterOverTheSeamMakeNoTurns) {
   EXPECT_EQ(turns, 9);
 }
 
-TEST(TurnCollector, RangesOutsideTheLimitsAreNoReturns) {
+TEST(RevolutionCollector, RangesOutsideTheLimitsAreNoReturns) {
   RplidarParams params = params_of(45.0);
   params.range_min_m = 1.0;
   params.range_max_m = 1.5;

@@ -16,10 +16,10 @@ namespace seeker::drivers {
 /// Puts samples onto an even grid of beams over the whole circle, counter-clockwise in the frame `laser`. A turn ends
 /// where the scanner looks straight back, so that the seam lies behind. Turns may have any number of samples; what was
 /// lost of one leaves beams without a return.
-class TurnCollector {
+class RevolutionCollector {
  public:
   /// `params` are valid.
-  explicit TurnCollector(const RplidarParams& params);
+  explicit RevolutionCollector(const RplidarParams& params);
 
   /// Adds a sample with the time at which it was measured, and returns the turn that it shows to be over. Nothing: the
   /// turn goes on, or too little of it was received.
@@ -49,7 +49,7 @@ class TurnCollector {
   std::optional<Moment> first_;  ///< of this turn
   Moment last_;
   double seen_rad_ = 0.0;  ///< how much of the turn was received
-  std::optional<Duration> usual_turn_;
+  std::optional<Duration> usual_revolution_;
 };
 
 }  // namespace seeker::drivers

@@ -1,4 +1,4 @@
-#include "server/drivers/rplidar/turn_collector.hpp"
+#include "server/drivers/rplidar/revolution_collector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,18 +16,18 @@ constexpr double kTooLong = 1.5;
 
 }  // namespace
 
-TurnCollector::TurnCollector(const RplidarParams& params) : params_(params) {
+RevolutionCollector::RevolutionCollector(const RplidarParams& params) : params_(params) {
   const double beams = std::max(1.0, std::round(kTwoPi / params.angle_step_rad));
   step_rad_ = kTwoPi / beams;
   cells_.resize(std::min(static_cast<std::size_t>(beams), kMaxScanBeams));
 }
 
-void TurnCollector::restart() {
+void RevolutionCollector::restart() {
   first_.reset();
-  usual_turn_.reset();
+  usual_revolution_.reset();
 }
 
-std::optional<LaserScan> TurnCollector::add(const rplidar::PolarSample& sample, RobotTime measured) {
+std::optional<LaserScan> RevolutionCollector::add(const rplidar::PolarSample& sample, RobotTime measured) {
   const double from_back_rad = sample.angle_cw_rad + kPi;
   const Moment now{from_back_rad < kTwoPi ? from_back_rad : from_back_rad - kTwoPi, measured};
   if (!first_) {
@@ -53,14 +53,14 @@ std::optional<LaserScan> TurnCollector::add(const rplidar::PolarSample& sample, 
   return std::nullopt;
 }
 
-void TurnCollector::begin(const Moment& first) {
+void RevolutionCollector::begin(const Moment& first) {
   first_ = first;
   last_ = first;
   seen_rad_ = std::min(first.turned_rad, kMaxStep_rad);
   std::fill(cells_.begin(), cells_.end(), Cell{});
 }
 
-void TurnCollector::put(const rplidar::PolarSample& sample, double turned_rad) {
+void RevolutionCollector::put(const rplidar::PolarSample& sample, double turned_rad) {
   // Beam 0 looks back, just left of the seam, and the beams go counter-clockwise; so does a scanner that hangs.
   const double along_rad = params_.upside_down ? turned_rad : kTwoPi - turned_rad;
   const double place = along_rad / step_rad_;
@@ -74,20 +74,20 @@ void TurnCollector::put(const rplidar::PolarSample& sample, double turned_rad) {
   cells_[at] = {echo ? sample.range_m : kNoReturn, echo ? sample.quality : std::uint8_t{0}, off_centre_rad};
 }
 
-std::optional<LaserScan> TurnCollector::finish() {
+std::optional<LaserScan> RevolutionCollector::finish() {
   const double turned_rad = last_.turned_rad - first_->turned_rad;
-  if (seen_rad_ < params_.least_turn_share * kTwoPi || !(turned_rad > 0.0)) {
+  if (seen_rad_ < params_.least_revolution_share * kTwoPi || !(turned_rad > 0.0)) {
     return std::nullopt;
   }
   const Duration turn = seconds(to_seconds(last_.time - first_->time) * kTwoPi / turned_rad);
-  const std::optional<Duration> usual = std::exchange(usual_turn_, turn);
+  const std::optional<Duration> usual = std::exchange(usual_revolution_, turn);
   if (turn <= Duration::zero() || turn > kMaxSweep || (usual && to_seconds(turn) > kTooLong * to_seconds(*usual))) {
     return std::nullopt;
   }
   return to_scan();
 }
 
-LaserScan TurnCollector::to_scan() const {
+LaserScan RevolutionCollector::to_scan() const {
   LaserScan scan;
   const double s_per_rad = to_seconds(last_.time - first_->time) / (last_.turned_rad - first_->turned_rad);
   scan.stamp = first_->time + seconds((kPi - first_->turned_rad) * s_per_rad);
