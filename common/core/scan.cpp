@@ -5,6 +5,14 @@
 
 namespace seeker {
 
+RobotTime LaserScan::time_of(std::size_t beam) const {
+  if (sweep == Duration::zero() || ranges_m.size() < 2) {
+    return stamp;
+  }
+  const double share = static_cast<double>(beam) / static_cast<double>(ranges_m.size() - 1);
+  return stamp + seconds((share - 0.5) * to_seconds(sweep));
+}
+
 Status validate(const LaserScan& scan) {
   if (scan.ranges_m.size() > kMaxScanBeams) {
     return fail(Errc::kTooLarge, "a laser scan of " + std::to_string(scan.ranges_m.size()) +
@@ -12,6 +20,10 @@ Status validate(const LaserScan& scan) {
   }
   if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_step_rad) || scan.angle_step_rad == 0.0) {
     return fail(Errc::kInvalidArgument, "the laser scan has no valid first angle and angle step");
+  }
+  if (scan.sweep > kMaxSweep || scan.sweep < -kMaxSweep) {
+    return fail(Errc::kInvalidArgument, "the laser scan claims to have taken longer than " +
+                                            std::to_string(kMaxSweep.count()) + " s; check the laser's driver");
   }
   if (!scan.quality.empty() && scan.quality.size() != scan.ranges_m.size()) {
     return fail(Errc::kInvalidArgument, "the laser scan has " + std::to_string(scan.quality.size()) +

@@ -3,6 +3,7 @@
 /// device's codes, so that algorithms test std::isfinite() only.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -17,10 +18,14 @@ inline constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 /// Largest number of beams accepted from any device, file or peer.
 inline constexpr std::size_t kMaxScanBeams = 8192;
 
+/// Longest time that a scanner may take for one sweep.
+inline constexpr std::chrono::seconds kMaxSweep{10};
+
 /// One sweep of a planar laser scanner. Beam i points to `angle_min_rad + i * angle_step_rad` in the frame `laser`;
 /// a negative step is that of a scanner which rotates clockwise.
 struct LaserScan {
-  RobotTime stamp;
+  RobotTime stamp;   ///< the middle of the sweep; where `sweep` is zero, the moment of all beams
+  Duration sweep{};  ///< time from the first beam to the last one, negative where the last one was measured first
   double angle_min_rad = 0.0;
   double angle_step_rad = 0.0;
   double range_min_m = 0.0;
@@ -32,11 +37,13 @@ struct LaserScan {
   [[nodiscard]] double angle_rad(std::size_t beam) const {
     return angle_min_rad + static_cast<double>(beam) * angle_step_rad;
   }
+  /// When the beam was measured; beams follow each other evenly.
+  [[nodiscard]] RobotTime time_of(std::size_t beam) const;
   friend bool operator==(const LaserScan&, const LaserScan&) = default;
 };
 
-/// Refuses scans that estimators must not receive: with NaN, negative ranges, no angle step, or more beams than
-/// kMaxScanBeams.
+/// Refuses scans that estimators must not receive: with NaN, negative ranges, no angle step, a sweep longer than
+/// kMaxSweep, or more beams than kMaxScanBeams.
 [[nodiscard]] Status validate(const LaserScan& scan);
 
 /// Positions of all valid returns in the frame `base`.

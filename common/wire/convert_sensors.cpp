@@ -26,6 +26,7 @@ void write(const LaserScan& from, pb::LaserScan* to) {
   write(from.base_T_laser, to->mutable_base_t_laser());
   to->mutable_ranges_m()->Add(from.ranges_m.begin(), from.ranges_m.end());
   to->set_quality(from.quality.data(), from.quality.size());
+  to->set_sweep_ns(from.sweep.count());
 }
 
 void read(const pb::LaserScan& from, LaserScan& to, Check& check) {
@@ -34,6 +35,7 @@ void read(const pb::LaserScan& from, LaserScan& to, Check& check) {
     return;
   }
   to.stamp = time_of(from.stamp_ns());
+  to.sweep = Duration(from.sweep_ns());
   to.angle_min_rad = check.finite("angle_min_rad", from.angle_min_rad());
   to.angle_step_rad = check.finite("angle_step_rad", from.angle_step_rad());
   to.range_min_m = check.finite("range_min_m", from.range_min_m());

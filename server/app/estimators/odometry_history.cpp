@@ -12,6 +12,8 @@ namespace {
 /// Between two samples no base goes so far: its odometry began anew, and what was before lies elsewhere.
 constexpr double kJump_m = 1.0;
 constexpr double kJump_rad = 1.5;
+/// A base that has been silent for longer may as well have stopped.
+constexpr Duration kLongestAhead = std::chrono::milliseconds(500);
 
 bool jumps(const Pose2& from, const Pose2& to) {
   return distance_m(from, to) > kJump_m || std::abs(wrap_angle(to.theta_rad - from.theta_rad)) > kJump_rad;
@@ -51,6 +53,18 @@ std::optional<drivers::OdometrySample> OdometryHistory::at(RobotTime stamp) cons
   sample.stamp = stamp;
   sample.odom_T_base = before.odom_T_base * Pose2{share * step.x_m, share * step.y_m, share * step.theta_rad};
   return sample;
+}
+
+std::optional<Pose2> OdometryHistory::predicted_at(RobotTime stamp) const {
+  if (samples_.empty()) {
+    return std::nullopt;
+  }
+  const drivers::OdometrySample& newest = samples_.back();
+  if (stamp <= newest.stamp) {
+    return at(stamp)->odom_T_base;
+  }
+  const Duration ahead = std::min<Duration>(stamp - newest.stamp, kLongestAhead);
+  return newest.odom_T_base * integrate(newest.velocity, to_seconds(ahead));
 }
 
 Pose2 OdometryHistory::now_T_then(RobotTime stamp) const {

@@ -18,6 +18,9 @@ class OdometryHistory {
   /// the sample after it. Stamps beyond the samples that are kept get the first or the last of them. Nothing before the
   /// first add().
   [[nodiscard]] std::optional<drivers::OdometrySample> at(RobotTime stamp) const;
+  /// odom_T_base at the stamp as at() has it; beyond the newest sample the base goes on with that sample's velocity,
+  /// for half a second at most. Nothing before the first add().
+  [[nodiscard]] std::optional<Pose2> predicted_at(RobotTime stamp) const;
   /// base_T_then: where the base was then, seen from where it is now. The same place before the first add().
   [[nodiscard]] Pose2 now_T_then(RobotTime stamp) const;
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/scan_motion.hpp"
+
 namespace seeker::app {
 namespace {
 
@@ -73,7 +75,16 @@ void Sensing::read() {
     history_.add(*odometry_);
   }
   fresh_scan_ = read(devices_.lidar.get(), "lidar", "scan", timeouts_.lidar, scan_, last_.scan);
+  if (fresh_scan_) {
+    correct_for_motion(*scan_);
+  }
   fresh_sonar_ = read(devices_.sonar.get(), "sonar", "echoes", timeouts_.sonar, sonar_, last_.sonar);
+}
+
+void Sensing::correct_for_motion(LaserScan& scan) const {
+  if (scan.sweep != Duration::zero() && history_.predicted_at(scan.stamp)) {
+    scan = corrected_for_motion(scan, [&](RobotTime at) { return *history_.predicted_at(at); });
+  }
 }
 
 void Sensing::mark_as_new() {

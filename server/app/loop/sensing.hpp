@@ -70,6 +70,8 @@ class Sensing {
   bool read(Driver* driver, const std::string& name, const char* port, Duration timeout, std::optional<Sample>& latest,
             RobotTime& last);
   void continue_odometry(drivers::OdometrySample& sample);
+  /// Takes the motion of the base out of a scan that took its time; without odometry the scan stays as it is.
+  void correct_for_motion(LaserScan& scan) const;
 
   struct Timeouts {
     Duration base;

@@ -53,6 +53,19 @@ TEST(LaserScan, NoReturnIsValidButNanNegativeAndMissingStepAreNot) {
   EXPECT_EQ(validate(still).error().code, Errc::kInvalidArgument);
 }
 
+TEST(LaserScan, BeamsOfASweepAreMeasuredEvenlyAroundTheStamp) {
+  LaserScan scan = scan_of({1.0F, 2.0F, 3.0F});
+  scan.stamp = robot_time_s(10.0);
+  EXPECT_EQ(scan.time_of(0), scan.stamp) << "all at once";
+  scan.sweep = -std::chrono::milliseconds(100);
+  EXPECT_EQ(scan.time_of(0), robot_time_s(10.05)) << "measured last";
+  EXPECT_EQ(scan.time_of(1), scan.stamp);
+  EXPECT_EQ(scan.time_of(2), robot_time_s(9.95));
+  EXPECT_TRUE(validate(scan));
+  scan.sweep = -kMaxSweep - Duration(1);
+  EXPECT_EQ(validate(scan).error().code, Errc::kInvalidArgument);
+}
+
 TEST(LaserScan, TooManyBeamsAndWrongNumberOfQualitiesAreRefused) {
   EXPECT_TRUE(validate(scan_of(std::vector<float>(kMaxScanBeams, 1.0F))));
   EXPECT_EQ(validate(scan_of(std::vector<float>(kMaxScanBeams + 1, 1.0F))).error().code, Errc::kTooLarge);

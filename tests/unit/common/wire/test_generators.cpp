@@ -5,6 +5,7 @@ namespace seeker::testing {
 LaserScan ValueMaker::scan() {
   LaserScan s;
   s.stamp = time();
+  s.sweep = flag() ? Duration(count(100'000'000) - 50'000'000) : Duration::zero();
   s.angle_min_rad = number();
   s.angle_step_rad = flag() ? 0.01 : -0.01;
   s.range_min_m = number();

@@ -45,6 +45,18 @@ TEST(OdometryHistory, StampsBeyondTheSamplesGetTheNearestOfThem) {
   EXPECT_THAT(history.at(robot_time_s(1.5))->odom_T_base, Pose2Near(Pose2{1.5, 0.0, 0.0}, 1e-9, 1e-9));
 }
 
+TEST(OdometryHistory, PredictsBeyondTheNewestSampleByItsVelocityForHalfASecond) {
+  OdometryHistory history;
+  EXPECT_FALSE(history.predicted_at(robot_time_s(1.0)));
+  history.add(sample(1.0, {2.0, 0.0, 0.0}));
+  drivers::OdometrySample newest = sample(1.1, {2.1, 0.0, 0.0});
+  newest.velocity = {1.0, 0.0};
+  history.add(newest);
+  EXPECT_THAT(*history.predicted_at(robot_time_s(1.05)), Pose2Near(Pose2{2.05, 0.0, 0.0}, 1e-9, 1e-9));
+  EXPECT_THAT(*history.predicted_at(robot_time_s(1.2)), Pose2Near(Pose2{2.2, 0.0, 0.0}, 1e-9, 1e-9));
+  EXPECT_THAT(*history.predicted_at(robot_time_s(9.0)), Pose2Near(Pose2{2.6, 0.0, 0.0}, 1e-9, 1e-9));
+}
+
 TEST(OdometryHistory, OdometryThatBeginsAnewForgetsWhatWasBefore) {
   OdometryHistory history;
   history.add(sample(1.0, {30.0, 4.0, 2.0}));

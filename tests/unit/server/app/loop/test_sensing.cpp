@@ -56,6 +56,40 @@ TEST_F(SensingTest, AReadingThatCannotBeIsAFaultAndIsNotTaken) {
   EXPECT_EQ(sensing.scan(), nullptr);
 }
 
+TEST_F(SensingTest, AScanThatTookItsTimeIsSeenAsIfMeasuredAtOnce) {
+  LaserScan scan = testing::sweep_at(clock->time + milliseconds(100), 2.0F);
+  scan.ranges_m[30] = 1.0F;  // the last beam, measured half a sweep before the stamp
+  scan.sweep = milliseconds(-200);
+  base->next = testing::odometry_at(clock->time, {}, {0.0, 1.0});
+  sensing.read();
+  base->next = testing::odometry_at(clock->time + milliseconds(200), {0.0, 0.0, 0.2}, {0.0, 1.0});
+  lidar->next = scan;
+  read_after(milliseconds(200));
+  ASSERT_NE(sensing.new_scan(), nullptr);
+  EXPECT_EQ(sensing.scan()->sweep, Duration::zero());
+  EXPECT_EQ(sensing.scan()->stamp, scan.stamp);
+  EXPECT_FLOAT_EQ(sensing.scan()->ranges_m[29], 1.0F) << "the base stood a step further to the right then";
+}
+
+TEST_F(SensingTest, AScanMeasuredAtOnceIsSeenAsItIs) {
+  base->next = testing::odometry_at(clock->time, {}, {0.0, 1.0});
+  read_after(milliseconds(100));
+  const LaserScan scan = testing::sweep_at(clock->time, 2.0F);
+  lidar->next = scan;
+  read_after(milliseconds(100));
+  ASSERT_NE(sensing.new_scan(), nullptr);
+  EXPECT_EQ(*sensing.scan(), scan);
+}
+
+TEST_F(SensingTest, WithoutOdometryASweepStaysAsItIs) {
+  LaserScan scan = testing::sweep_at(clock->time, 2.0F);
+  scan.sweep = milliseconds(-200);
+  lidar->next = scan;
+  read_after(milliseconds(100));
+  ASSERT_NE(sensing.new_scan(), nullptr);
+  EXPECT_EQ(*sensing.scan(), scan);
+}
+
 TEST_F(SensingTest, ReadingsOfAWorldThatIsAwayAreItsFaultAlone) {
   clock->link = fail(Errc::kNotReady, "the link is cut");
   base->ok = lidar->ok = fail(Errc::kIo, "no answer");
