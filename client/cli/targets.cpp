@@ -7,6 +7,7 @@
 
 #include "client/cli/names.hpp"
 #include "common/config/yaml.hpp"
+#include "common/files/config_folder.hpp"
 #include "common/image/pgm.hpp"
 
 namespace seeker::cli {
@@ -133,12 +134,7 @@ void take_sizes(const TargetDefaults& defaults, api::TargetSpec& spec) {
 
 std::vector<fs::path> target_folders(const std::vector<std::string>& given) {
   std::vector<fs::path> folders(given.begin(), given.end());
-  folders.emplace_back("config/targets");
-  std::error_code error;
-  if (const fs::path program = fs::read_symlink("/proc/self/exe", error); !error) {
-    folders.push_back(program.parent_path().parent_path() / "share/seeker/targets");
-  }
-  folders.emplace_back("/usr/share/seeker/targets");
+  folders.push_back(files::config_folder() / "targets");
   return folders;
 }
 

@@ -20,7 +20,7 @@ struct TargetDefaults {
   std::optional<double> depth_m;
 };
 
-/// The folders in which a target NAME is searched: `given`, ./config/targets, beside the program, /usr/share/seeker.
+/// The folders in which a target NAME is searched: `given`, then targets/ of files::config_folder().
 [[nodiscard]] std::vector<std::filesystem::path> target_folders(const std::vector<std::string>& given);
 
 /// Reads NAME, FILE.yaml (keys name, picture, width_m, height_m, depth_m, recogniser, solid) or FILE.png. Errors name

@@ -227,11 +227,16 @@ void to_json(Json& json, const ComponentPort& port) {
           {"rate_hz", port.rate_hz}, {"age_s", port.age ? Json(to_seconds(*port.age)) : Json()}};
 }
 
+void to_json(Json& json, const ComponentLink& link) {
+  json = {{"bytes_in", link.bytes_in},       {"bytes_out", link.bytes_out},         {"packets_in", link.packets_in},
+          {"packets_bad", link.packets_bad}, {"bytes_skipped", link.bytes_skipped}, {"connects", link.connects}};
+}
+
 void to_json(Json& json, const ComponentInfo& component) {
   json = {{"name", component.name},       {"kind", component.kind},
           {"type", component.type},       {"state", to_string(component.state)},
           {"rate_hz", component.rate_hz}, {"last_error", component.last_error},
-          {"ports", component.ports}};
+          {"ports", component.ports},     {"link", or_null(component.link)}};
 }
 
 void to_json(Json& json, const ComponentSetting& setting) {

@@ -31,6 +31,7 @@ void to_json(nlohmann::ordered_json& json, const MissionStatus& mission);
 void to_json(nlohmann::ordered_json& json, const Fault& fault);
 void to_json(nlohmann::ordered_json& json, const RobotStatus& status);
 void to_json(nlohmann::ordered_json& json, const ComponentPort& port);
+void to_json(nlohmann::ordered_json& json, const ComponentLink& link);
 void to_json(nlohmann::ordered_json& json, const ComponentInfo& component);
 void to_json(nlohmann::ordered_json& json, const ComponentSetting& setting);
 void to_json(nlohmann::ordered_json& json, const Event& event);

@@ -27,6 +27,18 @@ struct ComponentPort {
   friend bool operator==(const ComponentPort&, const ComponentPort&) = default;
 };
 
+/// What has gone over the line of a device since it was activated.
+struct ComponentLink {
+  std::uint64_t bytes_in = 0;
+  std::uint64_t bytes_out = 0;
+  std::uint64_t packets_in = 0;     ///< whole and valid
+  std::uint64_t packets_bad = 0;    ///< refused: wrong checksum, impossible length or content
+  std::uint64_t bytes_skipped = 0;  ///< outside any packet
+  std::uint64_t connects = 0;       ///< completed handshakes
+
+  friend bool operator==(const ComponentLink&, const ComponentLink&) = default;
+};
+
 /// A part of the robot: registered by name, with a lifecycle (spec S4.9).
 struct ComponentInfo {
   std::string name;
@@ -36,6 +48,7 @@ struct ComponentInfo {
   double rate_hz = 0.0;  ///< outputs per second of robot time, over the last seconds
   std::string last_error;
   std::vector<ComponentPort> ports;
+  std::optional<ComponentLink> link;  ///< of a driver whose device has a line
 
   friend bool operator==(const ComponentInfo&, const ComponentInfo&) = default;
 };

@@ -33,6 +33,20 @@ void read_port(const pb::ComponentPort& from, api::ComponentPort& to, Check& che
   }
 }
 
+void write_link(const api::ComponentLink& from, pb::ComponentLink* to) {
+  to->set_bytes_in(from.bytes_in);
+  to->set_bytes_out(from.bytes_out);
+  to->set_packets_in(from.packets_in);
+  to->set_packets_bad(from.packets_bad);
+  to->set_bytes_skipped(from.bytes_skipped);
+  to->set_connects(from.connects);
+}
+
+api::ComponentLink read_link(const pb::ComponentLink& from) {
+  return {from.bytes_in(),    from.bytes_out(),     from.packets_in(),
+          from.packets_bad(), from.bytes_skipped(), from.connects()};
+}
+
 }  // namespace
 
 void write(const api::ComponentInfo& from, pb::ComponentInfo* to) {
@@ -45,6 +59,9 @@ void write(const api::ComponentInfo& from, pb::ComponentInfo* to) {
   for (std::size_t k = 0; k < std::min(from.ports.size(), kMaxPorts); ++k) {
     write_port(from.ports[k], to->add_ports());
   }
+  if (from.link) {
+    write_link(*from.link, to->mutable_link());
+  }
 }
 
 void read(const pb::ComponentInfo& from, api::ComponentInfo& to, Check& check) {
@@ -54,6 +71,7 @@ void read(const pb::ComponentInfo& from, api::ComponentInfo& to, Check& check) {
   check.enumerator("state", from.state(), api::ComponentState::kError, to.state);
   to.rate_hz = check.finite("rate_hz", from.rate_hz());
   to.last_error = check.text("last_error", from.last_error());
+  to.link = from.has_link() ? std::optional(read_link(from.link())) : std::nullopt;
   const auto ports = static_cast<std::size_t>(from.ports_size());
   if (!check.count("ports", ports, kMaxPorts)) {
     return;

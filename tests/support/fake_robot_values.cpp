@@ -18,7 +18,8 @@ FakeRobotValues default_fake_values() {
                           10.0,
                           "",
                           {{"odometry", "Odometry", true, {"pose.odometry"}, 10.0, std::chrono::milliseconds(20)},
-                           {"velocity", "Twist2", false, {}, 0.0, std::nullopt}}});
+                           {"velocity", "Twist2", false, {}, 0.0, std::nullopt}},
+                          api::ComponentLink{48'211, 960, 1043, 3, 12, 2}});
   v.settings["base"] = {{"timeout_s", "0.5", "loop.base_timeout_s", api::SettingEffect::kNow},
                         {"period_s", "0.1", "loop.period_s", api::SettingEffect::kRestart}};
   v.tiles.revision = 4;

@@ -5,7 +5,9 @@
 #include "common/core/assert.hpp"
 #include "common/core/rng.hpp"
 #include "common/rpc/endpoint.hpp"
+#include "server/drivers/camera/cameras.hpp"
 #include "server/drivers/emulator/emulator_devices.hpp"
+#include "server/drivers/hardware/hardware_devices.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
@@ -152,11 +154,33 @@ Result<MadeDevices> make_replay(const RobotOptions& options) {
   return made;
 }
 
+Result<MadeDevices> make_real(const RobotOptions& options) {
+  const RealSettings& settings = options.hardware;
+  Result<drivers::HardwareDevices> devices = drivers::make_hardware(settings.devices);
+  if (!devices) {
+    return tl::unexpected<Error>(devices.error());
+  }
+  MadeDevices made;
+  Devices& out = made.devices;
+  out.type = "hardware";
+  out.clock = devices->clock;
+  out.base = std::move(devices->base);
+  out.lidar = std::move(devices->lidar);
+  out.sonar = std::move(devices->sonar);
+  if (settings.camera) {
+    out.camera = std::make_shared<drivers::CaptureCamera>(
+        drivers::make_capture_source(*settings.camera), [clock = devices->clock] { return clock->now(); },
+        settings.camera_reader);
+  }
+  return made;
+}
+
 Result<MadeDevices> make_driver(const RobotOptions& options) {
   switch (options.driver) {
     case DriverType::kSim: return make_sim(options);
     case DriverType::kReplay: return make_replay(options);
     case DriverType::kEmulator: return make_emulator(options);
+    case DriverType::kHardware: return make_real(options);
   }
   return fail(Errc::kInvalidArgument, "driver is not known");
 }

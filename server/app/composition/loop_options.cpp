@@ -54,6 +54,8 @@ void describe(config::Fields& f, MissionParams& params) {
   f.seconds("link_grace_s", params.link_grace);
   f.seconds("fault_grace_s", params.fault_grace);
   f.seconds("lost_grace_s", params.lost_grace);
+  f.angle_deg("look_round_deg_s", params.look_round_rad_s);
+  f.check("look_round_deg_s", params.look_round_rad_s >= 0.0, "must not be below 0");
   f.seconds("report_period_s", params.report_period);
 }
 

@@ -7,6 +7,7 @@
 #include "server/options/camera_options.hpp"
 #include "server/options/explore_options.hpp"
 #include "server/options/fleet_options.hpp"
+#include "server/options/hardware_options.hpp"
 #include "server/options/line_slam_options.hpp"
 #include "server/options/lines_options.hpp"
 #include "server/options/nav_options.hpp"
@@ -125,6 +126,12 @@ void describe(config::Fields& f, ReplaySettings& settings) {
   f.section("laser", settings.params);
 }
 
+void describe(config::Fields& f, RealSettings& settings) {
+  describe(f, settings.devices);
+  f.optional_section("camera", settings.camera);
+  f.section("camera_reader", settings.camera_reader);
+}
+
 void describe(config::Fields& f, FittedSensors& sensors) {
   f.field("lidar", sensors.lidar);
   f.field("sonar", sensors.sonar);
@@ -238,13 +245,16 @@ void describe(config::Fields& f, RobotOptions& options) {
   const Status id = api::validate_robot_id(options.robot_id);
   f.check("robot_id", id.has_value(), id ? "" : id.error().message);
   f.choice("driver", options.driver,
-           config::Choices<DriverType>{
-               {"sim", DriverType::kSim}, {"replay", DriverType::kReplay}, {"emulator", DriverType::kEmulator}});
+           config::Choices<DriverType>{{"sim", DriverType::kSim},
+                                       {"replay", DriverType::kReplay},
+                                       {"emulator", DriverType::kEmulator},
+                                       {"hardware", DriverType::kHardware}});
   describe_radius(f, options);
   f.section("sensors", options.sensors);
   f.section("sim", options.sim);
   f.section("emulator", options.emulator);
   f.section("replay", options.replay);
+  f.section("hardware", options.hardware);
   f.section("fleet", options.fleet);
   f.section("loop", options.loop);
   f.choice("estimator", options.estimator, estimator_names());

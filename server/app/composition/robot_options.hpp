@@ -17,6 +17,7 @@
 #include "server/app/missions/search_behaviour.hpp"
 #include "server/app/missions/survey_behaviour.hpp"
 #include "server/drivers/camera/cameras.hpp"
+#include "server/drivers/hardware/hardware_settings.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/drivers/sim/sim_devices.hpp"
 #include "server/explore/explore_params.hpp"
@@ -29,7 +30,7 @@
 
 namespace seeker::app {
 
-enum class DriverType : std::uint8_t { kSim, kReplay, kEmulator };
+enum class DriverType : std::uint8_t { kSim, kReplay, kEmulator, kHardware };
 
 struct SimSettings {
   std::string world = "../worlds/demo.yaml";  ///< relative to the robot file, else to the working directory
@@ -46,6 +47,14 @@ struct SimSettings {
 struct EmulatorSettings {
   std::string address = "127.0.0.1:7472";  ///< host:port
   std::uint64_t robot = 0;                 ///< which robot of the world, from 0
+};
+
+/// Real devices.
+struct RealSettings {
+  drivers::HardwareSettings devices;
+  /// The camera that looks for targets, with omnidirectional optics or not. Nothing: the robot has none.
+  std::optional<drivers::CaptureParams> camera;
+  drivers::PictureReaderParams camera_reader;
 };
 
 struct ReplaySettings {
@@ -94,6 +103,7 @@ struct RobotOptions {
   SimSettings sim;
   EmulatorSettings emulator;
   ReplaySettings replay;
+  RealSettings hardware;
   FleetSettings fleet;
   LoopParams loop;
   EstimatorType estimator = EstimatorType::kLineSlam;

@@ -28,7 +28,10 @@ void Localiser::give_odometry(const drivers::OdometrySample& sample) {
 /// In the order of the stamps: a sweep arrives later than it was taken.
 void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbours, RobotTime now) {
   const drivers::OdometrySample* odometry = sensing.new_odometry();
-  const LaserScan* scan = sensing.new_scan();
+  if (odometry != nullptr && odometry->discontinued) {
+    look_where_it_stood(now);
+  }
+  const LaserScan* scan = sensing.motion_known() ? sensing.new_scan() : nullptr;
   const bool late = odometry != nullptr && scan != nullptr && scan->stamp < odometry->stamp;
   if (odometry != nullptr) {
     const std::optional<drivers::OdometrySample> then = late ? sensing.history().at(scan->stamp) : *odometry;
@@ -95,9 +98,17 @@ std::optional<MapShift> Localiser::follow_map(const std::optional<Pose2>& old_ma
                   pose_.map_T_base * inverse(*old_map_T_base)};
 }
 
+void Localiser::look_where_it_stood(RobotTime now) {
+  const Status looking = map_.look_where_it_stood(pose_.map_T_base, now);
+  diagnostics_.log("moved-unseen",
+                   looking ? "the base may have moved while it was not heard; the robot looks for its place in the map"
+                           : "the base may have moved while it was not heard; the pose may be off by as much",
+                   api::Severity::kWarning);
+}
+
 void Localiser::map_readings(const Sensing& sensing) {
   Components& components = diagnostics_.components();
-  if (!is_placed(pose_.quality) || components.stopped("map")) {
+  if (!is_placed(pose_.quality) || components.stopped("map") || !sensing.motion_known()) {
     return;
   }
   const OdometryHistory& history = sensing.history();

@@ -2,6 +2,7 @@
 /// LoopHooks are callbacks by which the journal, the store of maps and tests follow the loop.
 #pragma once
 
+#include <chrono>
 #include <functional>
 
 #include "common/api/robot_api.hpp"
@@ -11,6 +12,8 @@ namespace seeker::app {
 
 /// All are called on the loop's thread; one that is empty is not called.
 struct LoopHooks {
+  /// Called after every pass of the loop, also of one that only waits for its world: a loop that is stuck is silent.
+  std::function<void(std::chrono::steady_clock::time_point)> on_pass;
   /// Called with every event, before it is published.
   std::function<void(const api::Event&)> on_event;
   /// Called with a request that has become the running mission.

@@ -21,10 +21,19 @@ constexpr const char* kVelocity = "Twist2";
 Port in(const char* name, const char* type) { return {name, type, false}; }
 Port out(const char* name, const char* type) { return {name, type, true}; }
 
+std::optional<api::ComponentLink> link_of(const drivers::Driver& device) {
+  const std::optional<drivers::LinkStatistics> counts = device.statistics();
+  return counts ? std::optional(api::ComponentLink{counts->bytes_in, counts->bytes_out, counts->packets_in,
+                                                   counts->packets_bad, counts->bytes_skipped, counts->connects})
+                : std::nullopt;
+}
+
 void add_driver(Components& components, const std::string& name, const std::string& type, drivers::Driver* device,
                 std::vector<Port> ports) {
   if (device != nullptr) {
-    components.add(name, "driver", type, {[device] { return device->activate(); }, [device] { device->deactivate(); }},
+    components.add(name, "driver", type,
+                   {[device] { return device->activate(); }, [device] { device->deactivate(); },
+                    [device] { return link_of(*device); }},
                    std::move(ports));
   }
 }
@@ -34,7 +43,7 @@ void add_parts(Components& components, const LoopParts& parts) {
                  {in("odometry", kOdometry), in("scan", kScan), in("pictures", kPictures), out("pose", kPose)});
   components.add("map", "map", "occupancy", {},
                  {in("pose", kPose), in("scan", kScan), in("echoes", kEchoes), out("map", kMap)});
-  components.add("recogniser", "recogniser", parts.recogniser_type, {parts.activate_recogniser, nullptr},
+  components.add("recogniser", "recogniser", parts.recogniser_type, {parts.activate_recogniser, nullptr, nullptr},
                  {in("picture", kPicture), out("sightings", kSightings)});
   components.add("mission", "behaviour", "executor", {}, {out("task", kTask)});
   components.add("planner", "planner", parts.planner_type, {},

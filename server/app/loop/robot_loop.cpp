@@ -154,6 +154,9 @@ bool RobotLoop::await(Duration limit, WallTime wall_now) {
   if (!there) {
     end_source(there.error());
   }
+  if (hooks_.on_pass) {
+    hooks_.on_pass(wall_now);
+  }
   return !there || *there;
 }
 

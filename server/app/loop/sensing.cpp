@@ -68,7 +68,27 @@ bool Sensing::read(Driver* driver, const std::string& name, const char* port, Du
   return fresh;
 }
 
+void Sensing::note_faults(const drivers::Driver* driver, const std::string& name) {
+  std::set<std::string>& raised = device_faults_[name];
+  std::set<std::string> gone = std::exchange(raised, {});
+  if (driver != nullptr && diagnostics_.components().active(name)) {
+    for (const drivers::DeviceFault& fault : driver->faults()) {
+      const std::string id = name + "-" + fault.id;
+      diagnostics_.raise(id, name, fault.message, fault.remedy,
+                         fault.blocking ? api::Severity::kError : api::Severity::kWarning);
+      raised.insert(id);
+      gone.erase(id);
+    }
+  }
+  for (const std::string& id : gone) {
+    diagnostics_.clear(id);
+  }
+}
+
 void Sensing::read() {
+  note_faults(devices_.base.get(), "base");
+  note_faults(devices_.lidar.get(), "lidar");
+  note_faults(devices_.sonar.get(), "sonar");
   fresh_odometry_ = read(devices_.base.get(), "base", "odometry", timeouts_.base, odometry_, last_.odometry);
   if (fresh_odometry_) {
     continue_odometry(*odometry_);
@@ -118,6 +138,12 @@ void Sensing::continue_odometry(drivers::OdometrySample& sample) {
   if (odom_T_counted_) {
     sample.odom_T_base = *odom_T_counted_ * sample.odom_T_base;
   }
+}
+
+bool Sensing::motion_known() const {
+  const auto faults = device_faults_.find("base");
+  const bool lost = faults != device_faults_.end() && faults->second.count("base-lost") > 0;
+  return !lost && (!odometry_ || world_.now() - last_.odometry <= timeouts_.base);
 }
 
 bool Sensing::moving() const {

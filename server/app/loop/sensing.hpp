@@ -3,8 +3,10 @@
 /// are silent or send what is impossible.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "common/core/scan.hpp"
@@ -23,7 +25,8 @@ class Sensing {
   /// `world` and `diagnostics` must outlive it.
   Sensing(const LoopParams& params, const Devices& devices, WorldLink& world, Diagnostics& diagnostics);
 
-  /// Reads each device that is active once. A reading with impossible numbers is rejected and raises a fault.
+  /// Reads each device that is active once. A reading with impossible numbers is rejected and raises a fault, as does
+  /// what a device says is wrong with it.
   void read();
   /// Marks all readings as used: none counts as new any more.
   void mark_as_used() { fresh_odometry_ = fresh_scan_ = fresh_sonar_ = false; }
@@ -64,12 +67,16 @@ class Sensing {
   /// Returns the pose of the base by dead reckoning; the origin before the first reading.
   [[nodiscard]] Pose2 odom_T_base() const { return odometry_ ? odometry_->odom_T_base : Pose2{}; }
   [[nodiscard]] bool moving() const;
+  /// False while the base cannot say how it moves: scans taken meanwhile lie nobody knows where.
+  [[nodiscard]] bool motion_known() const;
 
  private:
   template <class Driver, class Sample>
   bool read(Driver* driver, const std::string& name, const char* port, Duration timeout, std::optional<Sample>& latest,
             RobotTime& last);
   void continue_odometry(drivers::OdometrySample& sample);
+  /// Raises what is wrong with a device, and clears what no longer is.
+  void note_faults(const drivers::Driver* driver, const std::string& name);
   /// Takes the motion of the base out of a scan that took its time; without odometry the scan stays as it is.
   void correct_for_motion(LaserScan& scan) const;
 
@@ -96,6 +103,7 @@ class Sensing {
   bool fresh_scan_ = false;
   bool fresh_sonar_ = false;
   LastTimes last_;
+  std::map<std::string, std::set<std::string>> device_faults_;  ///< raised ones, by the device's name
   OdometryHistory history_;
   std::optional<Pose2> odom_T_restart_;  ///< where the base was restarted, until its next sample
   std::optional<Pose2> odom_T_counted_;  ///< the frame in which the base has counted since its restart

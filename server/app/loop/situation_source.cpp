@@ -17,6 +17,7 @@ Situation SituationSource::situation() const {
   s.sonar = sensing_.sonar_for(sensing_.connections().planner);
   s.map = &localiser_.map().occupancy();
   s.tracker = localiser_.tracker();
+  s.relocalising = localiser_.map().relocalising();
   s.map_is_read_only = localiser_.map().identity().use == api::MapUse::kLocalise;
   s.battery_v = sensing_.odometry() != nullptr ? sensing_.odometry()->battery_v : std::nullopt;
   s.odom_T_base = sensing_.odom_T_base();

@@ -32,6 +32,7 @@ struct Situation {
   const SonarScan* sonar = nullptr;
   const nav::OccupancyMap* map = nullptr;
   const slam::MapTracker* tracker = nullptr;  ///< keeper of the map of segments; null: the estimator keeps none
+  bool relocalising = false;                  ///< the robot is being looked for in the map, for a limited time
   bool map_is_read_only = false;              ///< the robot only localises in the map of segments
   std::optional<double> battery_v;
   Pose2 odom_T_base;                  ///< by dead reckoning: goes on where the pose is not known

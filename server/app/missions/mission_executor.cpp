@@ -164,7 +164,9 @@ bool MissionExecutor::hold_for_trouble(const Situation& situation, const api::Fa
       log(situation.now, "mission-held", "the robot does not know where it is: " + situation.pose.cause,
           api::Severity::kError);
     }
-    if (situation.now - *active_->unlocalised_since > params_.lost_grace) {
+    if (situation.relocalising) {
+      active_->unlocalised_since = situation.now;
+    } else if (situation.now - *active_->unlocalised_since > params_.lost_grace) {
       end(api::Outcome::kLost, situation.pose.cause, "drive the robot to a known place and start the mission again",
           situation.now);
     }
@@ -215,8 +217,12 @@ Decision MissionExecutor::step(const Situation& situation, const api::Fault* blo
     return {};
   }
   if (hold_for_trouble(situation, blocking)) {
-    return active_ ? held(situation, "waiting: " + (blocking != nullptr ? blocking->message : situation.pose.cause))
-                   : Decision{};
+    if (!active_) {
+      return {};
+    }
+    Decision decision = held(situation, "waiting: " + (blocking != nullptr ? blocking->message : situation.pose.cause));
+    decision.command.omega_rad_s = blocking == nullptr && situation.relocalising ? params_.look_round_rad_s : 0.0;
+    return decision;
   }
   active_->count_time(situation.now);
   active_->so_far.start_map = active_->so_far.start_map.value_or(situation.pose.map_T_base.translation());

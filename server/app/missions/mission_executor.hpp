@@ -19,9 +19,11 @@ namespace seeker::app {
 using WallTime = std::chrono::steady_clock::time_point;
 
 struct MissionParams {
-  Duration link_grace = std::chrono::seconds(5);     ///< wall time a lost client has to come back
-  Duration fault_grace = std::chrono::seconds(10);   ///< robot time a blocking fault may last
-  Duration lost_grace = std::chrono::seconds(10);    ///< robot time without localisation
+  Duration link_grace = std::chrono::seconds(5);    ///< wall time a lost client has to come back
+  Duration fault_grace = std::chrono::seconds(10);  ///< robot time a blocking fault may last
+  /// Robot time without localisation; the time in which the robot is looked for in its map does not count.
+  Duration lost_grace = std::chrono::seconds(10);
+  double look_round_rad_s = 0.4;                     ///< it rotates so fast on the spot while it is looked for
   Duration report_period = std::chrono::seconds(1);  ///< robot time between reports of an unchanged phase
 };
 

@@ -227,6 +227,7 @@ std::vector<api::ComponentInfo> Components::list(RobotTime now) const {
     for (api::ComponentPort& port : info.ports) {
       measure(entry, port, now);
     }
+    info.link = entry.hooks.link ? entry.hooks.link() : std::nullopt;
     infos.push_back(std::move(info));
   }
   return infos;

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,11 @@
 
 namespace seeker::app {
 
-/// How to start and stop one part of the robot. An empty hook does nothing.
+/// How to start and stop one part of the robot, and to ask for the counts of its line. An empty hook does nothing.
 struct ComponentHooks {
   std::function<Status()> activate;
   std::function<void()> deactivate;
+  std::function<std::optional<api::ComponentLink>()> link;
 };
 
 /// An input or an output of a component; `type` names its values.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/core/image.hpp"
 #include "common/core/pose2.hpp"
@@ -15,8 +16,20 @@
 #include "common/core/stereo.hpp"
 #include "common/core/tick_timing.hpp"
 #include "common/core/time.hpp"
+#include "server/drivers/interfaces/link_statistics.hpp"
 
 namespace seeker::drivers {
+
+/// Something that is wrong with a device while it lasts: its line is broken, a bumper is pressed, its window is dirty.
+struct DeviceFault {
+  std::string id;  ///< short and stable, such as "lost" or "bumper"
+  std::string message;
+  std::string remedy;
+  /// True: the robot can do nothing while it lasts. False: it goes on, and its user sees a warning.
+  bool blocking = true;
+
+  friend bool operator==(const DeviceFault&, const DeviceFault&) = default;
+};
 
 /// Common lifecycle of every device.
 class Driver {
@@ -34,6 +47,10 @@ class Driver {
   [[nodiscard]] virtual Status set_period(Duration /*period*/) {
     return fail(Errc::kRefused, "this driver delivers at the pace of its device, which it cannot change");
   }
+  /// Everything that is wrong with the device now; empty when it works.
+  [[nodiscard]] virtual std::vector<DeviceFault> faults() const { return {}; }
+  /// What has gone over the device's line. Nothing: it has none.
+  [[nodiscard]] virtual std::optional<LinkStatistics> statistics() const { return std::nullopt; }
 };
 
 /// The state that the base measured.
@@ -45,6 +62,9 @@ struct OdometrySample {
   bool motors_enabled = false;
   bool stalled = false;  ///< a wheel is blocked
   bool bumped = false;   ///< a bumper is pressed
+  /// The base may have moved unseen since the sample before, as when its line was cut: the poses of both say nothing of
+  /// how far it has come in between.
+  bool discontinued = false;
 
   friend bool operator==(const OdometrySample&, const OdometrySample&) = default;
 };

@@ -12,6 +12,7 @@
 
 #include "common/core/result.hpp"
 #include "common/core/time.hpp"
+#include "server/drivers/interfaces/link_statistics.hpp"
 
 namespace seeker::drivers {
 
@@ -32,18 +33,6 @@ struct DropInput {};
 
 /// What a session wants done to its line, in this order.
 using LineAction = std::variant<WriteBytes, SetBaud, SetDtr, DropInput>;
-
-/// Counts since the device was activated, for `seeker components` and for the cause of a fault.
-struct LinkStatistics {
-  std::uint64_t bytes_in = 0;
-  std::uint64_t bytes_out = 0;
-  std::uint64_t packets_in = 0;   ///< whole and valid
-  std::uint64_t packets_bad = 0;  ///< refused: wrong checksum, impossible length or content
-  std::uint64_t bytes_skipped = 0;  ///< outside any packet
-  std::uint64_t connects = 0;       ///< handshakes that were completed
-
-  friend bool operator==(const LinkStatistics&, const LinkStatistics&) = default;
-};
 
 /// One device's protocol on one line. Times are robot time and never run backwards. After each call the owner carries
 /// out take_actions() and calls pass() at wake() at the latest.
@@ -70,7 +59,7 @@ class DeviceSession {
   virtual void close(RobotTime now) = 0;
 
   /// Whether the device answers as it should and sends values. The error says what is wrong, with the remedy; while
-  /// the handshake goes on it is kNotReady and tells which step.
+  /// the handshake goes on it is kNotReady and names the step.
   [[nodiscard]] virtual Status state() const = 0;
   /// The session cannot go on with this line: it is to be closed, and opened again after a while.
   [[nodiscard]] virtual bool wants_reopen() const = 0;

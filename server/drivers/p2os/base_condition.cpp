@@ -60,11 +60,12 @@ Twist2 BaseCondition::allowed(const Twist2& wanted) const {
 
 std::optional<Error> BaseCondition::fault() const {
   const auto refused = [](const char* message) { return Error{Errc::kRefused, message}; };
+  const auto not_ready = [](const char* message) { return Error{Errc::kNotReady, message}; };
   if (e_stop_) {
-    return refused("the base's emergency stop is pressed; release it and switch the motors on again");
+    return not_ready("the base's emergency stop is pressed; release it and switch the motors on again");
   }
   if (e_stall_) {
-    return refused("the base's emergency circuit halted it; release the emergency stop, or press MOTORS on the base");
+    return not_ready("the base's emergency circuit halted it; release the emergency stop, or press MOTORS on the base");
   }
   if (front_ || rear_) {
     return refused(front_ && rear_ ? "bumpers in front and at the rear of the base are pressed; free it by hand"
@@ -75,7 +76,7 @@ std::optional<Error> BaseCondition::fault() const {
     return refused("a wheel of the base is blocked; free the wheel, or drive the other way");
   }
   if (charging_) {
-    return refused("the base is at its charger; take it off the charger before it drives");
+    return not_ready("the base is at its charger; take it off the charger before it drives");
   }
   return std::nullopt;
 }

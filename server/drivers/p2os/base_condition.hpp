@@ -20,13 +20,14 @@ class BaseCondition {
   /// A connection begins: nothing is known of the base.
   void connect();
   /// True: something keeps the base from moving that did not before, and it must be halted at once. `commanded` is the
-  /// motion that it was told.
+  /// motion that was commanded.
   [[nodiscard]] bool update(const p2os::Sip& sip, const Twist2& commanded);
 
   /// The part of a motion that is allowed now. Away from a pressed bumper, and against the direction in which the
   /// wheels stalled, the base may move.
   [[nodiscard]] Twist2 allowed(const Twist2& wanted) const;
-  /// What keeps the base from moving, and the remedy.
+  /// What keeps the base from moving, and the remedy: kNotReady where it may not move at all, kRefused where it may in
+  /// other directions.
   [[nodiscard]] std::optional<Error> fault() const;
 
   [[nodiscard]] bool bumped() const { return front_ || rear_; }

@@ -19,7 +19,7 @@ namespace seeker::drivers {
 /// Adds up the steps between the counters of successive information packets. The pose goes on over connections: the
 /// first packet of each is its zero. A step that no base can have made in the time is dropped: if the next packet fits
 /// the one before it, that packet was damaged, and nothing is lost; if it fits the dropped one, the base's counters
-/// were set anew.
+/// were set again.
 class BaseOdometry {
  public:
   /// `params` must outlive it.

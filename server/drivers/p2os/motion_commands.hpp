@@ -1,5 +1,5 @@
 /// \file
-/// The velocity that a base is told, in whole units of the wire (protocols 1.4).
+/// The velocity commanded to a base, in whole units of the wire (protocols 1.4).
 #pragma once
 
 #include <optional>
@@ -38,7 +38,7 @@ class MotionCommands {
   /// A connection begins, with the base at rest.
   void connect(const p2os::PioneerModel& model, const BaseLimits& limits);
   void want(const Twist2& velocity, RobotTime now);
-  /// Zero velocity is sent with the next pass(), whatever was sent before.
+  /// Zero velocity is sent with the next pass(), regardless of what was sent before.
   void halt();
   /// The base's information shows whether its wheels turn.
   void show(bool moving) { base_moves_ = moving; }
@@ -46,7 +46,7 @@ class MotionCommands {
   void pass(RobotTime now, const BaseCondition& condition, PacketLine& line);
   [[nodiscard]] RobotTime wake() const;
 
-  /// The motion that the base was told last.
+  /// The motion that was commanded last.
   [[nodiscard]] const Twist2& commanded() const { return commanded_; }
 
  private:

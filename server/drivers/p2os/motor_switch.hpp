@@ -15,7 +15,7 @@ namespace seeker::drivers {
 class MotorSwitch {
  public:
   void want(bool on, RobotTime now);
-  /// A connection begins with the motors off; the wanted state is commanded anew.
+  /// A connection begins with the motors off; the wanted state is commanded again.
   void connect(RobotTime now);
   /// The base's information shows whether its motors are on.
   void show(bool on);

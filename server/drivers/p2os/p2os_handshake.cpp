@@ -30,7 +30,7 @@ void P2osHandshake::begin(RobotTime now) {
     rates_.insert(rates_.begin(), baud_);
   }
   closes_ = 0;
-  search_anew_ = false;
+  search_again_ = false;
   identity_.reset();
   failure_.reset();
   bytes_before_ = line_.statistics().bytes_in;
@@ -89,7 +89,7 @@ void P2osHandshake::on_stream(RobotTime now) {
              "it, or press the base's reset button");
     return;
   }
-  search_anew_ = true;
+  search_again_ = true;
   tries_ = 0;
   close_old_connection(now);
 }
@@ -118,7 +118,7 @@ void P2osHandshake::try_again(Duration pause_before, RobotTime now) {
 }
 
 void P2osHandshake::next_rate(RobotTime now) {
-  const std::size_t next = std::exchange(search_anew_, false) ? 0 : rate_ + 1;
+  const std::size_t next = std::exchange(search_again_, false) ? 0 : rate_ + 1;
   if (next >= rates_.size()) {
     end_with(Errc::kTimeout, silence());
     return;

@@ -65,9 +65,9 @@ class P2osHandshake {
   std::vector<std::uint32_t> rates_;
   std::size_t rate_ = 0;
   std::uint32_t baud_ = 0;
-  int tries_ = 0;             ///< at this rate
-  int closes_ = 0;            ///< of connections of before
-  bool search_anew_ = false;  ///< a closed connection may have changed the base's rate
+  int tries_ = 0;              ///< at this rate
+  int closes_ = 0;             ///< of connections of before
+  bool search_again_ = false;  ///< a closed connection may have changed the base's rate
   std::uint64_t bytes_before_ = 0;
   std::optional<p2os::Identity> identity_;
   std::optional<Error> failure_;

@@ -19,7 +19,7 @@ struct P2osParams {
   std::vector<std::uint32_t> bauds{9600, 38400, 19200, 115200, 57600};
   /// Rate to switch to where the base allows it (protocols 1.1). Nothing: the rate at which it was found stays.
   std::optional<std::uint32_t> switch_to_baud;
-  /// Model to assume whatever subclass the base names, for a base with an unknown one.
+  /// Model to assume regardless of the subclass that the base names, for a base with an unknown one.
   std::optional<std::string> subclass;
 
   double v_max_m_s = 0.5;

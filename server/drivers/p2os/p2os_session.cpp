@@ -123,7 +123,7 @@ void P2osSession::on_identity(RobotTime now) {
 
 void P2osSession::begin_running(RobotTime now) {
   phase_ = Phase::kRunning;
-  ++connects_;
+  moved_unseen_ = ++connects_ > 1;
   handshake_.note_baud(setup_.baud());
   odometry_.connect(*model_, sip_cycle(setup_.config()));
   sonar_.connect(*model_);
@@ -178,6 +178,7 @@ void P2osSession::keep_sample(const p2os::Sip& sip, RobotTime stamp) {
   sample.motors_enabled = motors_.on();
   sample.stalled = condition_.stalled();
   sample.bumped = condition_.bumped();
+  sample.discontinued = std::exchange(moved_unseen_, false) || (sample_ && sample_->discontinued);
   sample_ = sample;
 }
 

@@ -24,8 +24,8 @@
 namespace seeker::drivers {
 
 /// One base. A pressed bumper, a stalled wheel, the emergency stop and the charger halt it in the call that brings the
-/// news, and it stays halted towards the obstacle whatever is commanded. Without a newer velocity for command_timeout
-/// it is stopped; without a living control loop it gets no PULSE, so that its own watchdog halts it.
+/// news, and it stays halted towards the obstacle regardless of what is commanded. Without a newer velocity for
+/// command_timeout it is stopped; without a living control loop it gets no PULSE, so that its own watchdog halts it.
 class P2osSession final : public DeviceSession {
  public:
   /// `params` are valid, see validate().
@@ -98,6 +98,7 @@ class P2osSession final : public DeviceSession {
   Duration pulse_period_{0};
   RobotTime last_stamp_ = RobotTime::min();
   std::optional<OdometrySample> sample_;
+  bool moved_unseen_ = false;  ///< there was a connection before, and no sample since
   std::uint64_t connects_ = 0;
 };
 

@@ -26,8 +26,8 @@ bool obey_motion(const p2os::Command& command, const p2os::PioneerModel& model, 
     case CommandId::kVel: motion.set_velocity(value * p2os::kMetre); return true;
     case CommandId::kRotate:
     case CommandId::kRotVel: motion.set_rotation(deg_to_rad(value)); return true;
-    case CommandId::kHead: motion.turn_to(deg_to_rad(value)); return true;
-    case CommandId::kDeltaHead: motion.turn_to(odom_T_base.theta_rad + deg_to_rad(value)); return true;
+    case CommandId::kHead: motion.rotate_to(deg_to_rad(value)); return true;
+    case CommandId::kDeltaHead: motion.rotate_to(odom_T_base.theta_rad + deg_to_rad(value)); return true;
     case CommandId::kVel2: motion.set_both(twist_of(p2os::vel2_speeds(value), model)); return true;
     case CommandId::kStop: motion.stop(); return true;
     case CommandId::kEStop: motion.halt(); return true;

@@ -238,7 +238,7 @@ void P2osDevice::add_sonars(p2os::Sip& sip, RobotTime now) {
 
 void P2osDevice::send_encoders() {
   p2os::FieldWriter out;
-  for (const double way_m : {counters_.left_way_m(), counters_.right_way_m()}) {
+  for (const double way_m : {counters_.left_distance_m(), counters_.right_distance_m()}) {
     out.u32(static_cast<std::uint32_t>(std::llround(way_m / p2os::kMetre * kTicksPerMm)));
   }
   send({static_cast<std::uint8_t>(PacketId::kEncoder), out.take()});

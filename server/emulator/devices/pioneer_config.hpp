@@ -1,5 +1,5 @@
 /// \file
-/// The configuration that an emulated base tells (protocols 1.7).
+/// The configuration that an emulated base reports (protocols 1.7).
 #pragma once
 
 #include "server/emulator/devices/p2os_device_params.hpp"

@@ -15,7 +15,7 @@ std::uint16_t counter(double value_m, double unit_m) {
 
 void PioneerCounters::power_on(const Pose2& world_T_base) {
   set_zero(world_T_base);
-  left_way_m_ = right_way_m_ = 0.0;
+  left_distance_m_ = right_distance_m_ = 0.0;
 }
 
 void PioneerCounters::set_zero(const Pose2& world_T_base) {
@@ -29,8 +29,8 @@ void PioneerCounters::follow(const Pose2& world_T_base) {
   const Pose2 step = inverse(odom_T_base_) * odom_T_now;
   const double way_m = std::copysign(std::hypot(step.x_m, step.y_m), step.x_m);
   const double half_difference_m = step.theta_rad / model_.rotation_rad_per_m;
-  left_way_m_ += way_m - half_difference_m;
-  right_way_m_ += way_m + half_difference_m;
+  left_distance_m_ += way_m - half_difference_m;
+  right_distance_m_ += way_m + half_difference_m;
   odom_T_base_ = odom_T_now;
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// The counters of an emulated base: position and heading since the last zero, and the ways of the wheels.
+/// The counters of an emulated base: position and heading since the last zero, and the distances of the wheels.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class PioneerCounters {
   /// `model` must outlive it.
   explicit PioneerCounters(const p2os::PioneerModel& model) : model_(model) {}
 
-  /// All counters begin anew here.
+  /// All counters begin at zero here.
   void power_on(const Pose2& world_T_base);
   /// Here is zero from now on; the next packet shows it at once.
   void set_zero(const Pose2& world_T_base);
@@ -27,16 +27,16 @@ class PioneerCounters {
 
   /// Pose since the last zero.
   [[nodiscard]] const Pose2& odom_T_base() const { return odom_T_base_; }
-  [[nodiscard]] double left_way_m() const { return left_way_m_; }
-  [[nodiscard]] double right_way_m() const { return right_way_m_; }
+  [[nodiscard]] double left_distance_m() const { return left_distance_m_; }
+  [[nodiscard]] double right_distance_m() const { return right_distance_m_; }
 
  private:
   const p2os::PioneerModel& model_;
   Pose2 world_T_odom_;
   Pose2 odom_T_base_;
   Point2 shown_m_ = Point2::Zero();
-  double left_way_m_ = 0.0;
-  double right_way_m_ = 0.0;
+  double left_distance_m_ = 0.0;
+  double right_distance_m_ = 0.0;
 };
 
 }  // namespace seeker::emulator

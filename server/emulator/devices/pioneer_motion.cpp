@@ -60,7 +60,7 @@ void PioneerMotion::move(double distance_m) {
   moving_ = true;
 }
 
-void PioneerMotion::turn_to(double theta_rad) {
+void PioneerMotion::rotate_to(double theta_rad) {
   leave_wheels();
   wanted_.omega_rad_s = 0.0;
   aim_rad_ = wrap_angle(theta_rad);

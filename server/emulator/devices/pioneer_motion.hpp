@@ -39,8 +39,8 @@ class PioneerMotion {
   void set_both(const Twist2& velocity);
   /// Drives this far from here, backwards if negative.
   void move(double distance_m);
-  /// Turns to a heading of the odometry, the shorter way round.
-  void turn_to(double theta_rad);
+  /// Turns to a heading of the odometry, in the shorter direction.
+  void rotate_to(double theta_rad);
   /// Brakes to a halt; an aim is given up.
   void stop();
   /// Halts without the deceleration; an aim is given up.

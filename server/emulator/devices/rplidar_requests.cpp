@@ -26,7 +26,10 @@ constexpr double kSecondsPerMinute = 60.0;
 }  // namespace
 
 void RplidarDevice::handle(const rplidar::Request& request, RobotTime now) {
-  end_scan();
+  // Programs change the speed of the motor while they scan; other requests end the scan.
+  if (request.command != Command::kSetMotorPwm) {
+    end_scan();
+  }
   switch (request.command) {
     case Command::kReset: return boot(now);
     case Command::kScan: return start(Stream::kLegacy, false, now);

@@ -68,8 +68,10 @@ std::vector<std::uint8_t> encode(std::span<const DeviceError> errors, std::uint8
 }
 
 std::vector<std::uint8_t> encode_text(std::uint8_t code, const std::string& text, std::uint8_t status) {
-  std::vector<std::uint8_t> bytes{code};
   const std::size_t length = std::min(text.size(), kMaxPayloadBytes - kCodeAndStatus);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(kCodeAndStatus + length);
+  bytes.push_back(code);
   bytes.insert(bytes.end(), text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length));
   bytes.push_back(status);
   return bytes;

@@ -1,5 +1,5 @@
 /// \file
-/// The packet in which a base tells its configuration (protocols 1.7), in the units of the wire.
+/// The packet in which a base reports its configuration (protocols 1.7), in the units of the wire.
 #pragma once
 
 #include <cstdint>

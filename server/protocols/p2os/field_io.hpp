@@ -1,5 +1,6 @@
 /// \file
-/// Reads and writes a packet's field by its type, for lists of fields that are written once and used both ways.
+/// Reads and writes a packet's field by its type, for lists of fields that are written once and used in both
+/// directions.
 #pragma once
 
 #include <cstdint>

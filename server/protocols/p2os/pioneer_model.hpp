@@ -24,7 +24,7 @@ struct PioneerModel {
   double distance_unit_m = 0.0;       ///< of the counters of the position
   double velocity_unit_m_s = kMetre;  ///< of velocities
   double range_unit_m = kMetre;       ///< of sonar ranges
-  double rotation_rad_per_m = 0.0;    ///< rotation by half the difference of the wheels' ways
+  double rotation_rad_per_m = 0.0;    ///< rotation by half the difference of the wheels' distances
   double vel2_divisor_mm_s = 20.0;    ///< unit of VEL2
   double gyro_scaler = 1.626;         ///< see gyro_rad_s_per_count()
   double v_max_m_s = 0.0;             ///< no base of this model is faster

@@ -58,6 +58,9 @@ void AnswerReader::expect(AnswerType type) {
 std::vector<Answer> AnswerReader::read(std::span<const std::uint8_t> bytes) {
   buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
   std::vector<Answer> answers;
+  if (stage_ == Stage::kStream) {
+    answers.reserve(bytes.size() / length_);
+  }
   bool more = true;
   while (more) {
     switch (stage_) {

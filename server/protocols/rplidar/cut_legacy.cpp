@@ -24,10 +24,10 @@ bool follows(const LegacySample& before, const LegacySample& after) {
   return ahead_q6 <= kMaxAheadQ6 || ahead_q6 >= kRevolutionQ6 - kMaxBackQ6;
 }
 
-/// How many samples stand in a row from `at`, each a continuation of the one before; at most kLongest are counted.
-std::size_t row_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+/// How many samples stand in a row from `at`, each a continuation of the one before; at most `most` are counted.
+std::size_t row_at(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t most) {
   std::optional<LegacySample> before;
-  for (std::size_t k = 0; k < kLongest; ++k) {
+  for (std::size_t k = 0; k < most; ++k) {
     const std::size_t next = at + k * kLegacyBytes;
     const auto sample = next < bytes.size() ? decode_legacy(bytes.subspan(next)) : std::nullopt;
     if (!sample || (before && !follows(*before, *sample))) {
@@ -35,14 +35,14 @@ std::size_t row_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     }
     before = sample;
   }
-  return kLongest;
+  return most;
 }
 
 /// The first place behind the front from which at least `enough` samples stand in a row, of the places that are a whole
 /// number of samples behind it or of the others.
 std::optional<std::size_t> find_row(std::span<const std::uint8_t> bytes, bool aligned, std::size_t enough) {
   for (std::size_t at = 1; at <= kSearch; ++at) {
-    if ((at % kLegacyBytes == 0) == aligned && row_at(bytes, at) >= enough) {
+    if ((at % kLegacyBytes == 0) == aligned && row_at(bytes, at, enough) == enough) {
       return at;
     }
   }
@@ -56,7 +56,7 @@ std::optional<std::size_t> find_stream(std::span<const std::uint8_t> bytes) {
   if (!aligned || !shifted) {
     return aligned ? aligned : shifted;
   }
-  return row_at(bytes, *shifted) > row_at(bytes, *aligned) ? shifted : aligned;
+  return row_at(bytes, *shifted, kLongest) > row_at(bytes, *aligned, kLongest) ? shifted : aligned;
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ std::optional<StreamCut> cut_legacy(std::span<const std::uint8_t> bytes, const s
   }
   const std::optional<LegacySample> sample = decode_legacy(bytes);
   const bool continues = sample && (!last || follows(*last, *sample));
-  const bool row = row_at(bytes, 0) >= kRow;
+  const bool row = row_at(bytes, 0, kRow) == kRow;
   if (continues && row) {
     return StreamCut{0, true};
   }

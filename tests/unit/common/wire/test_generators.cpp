@@ -345,7 +345,7 @@ std::vector<api::StampedPose> ValueMaker::trajectory() {
 api::RobotInfo ValueMaker::info() { return {"r2", text(), 1, 7, {"search", "goto"}, rng_.uniform(), flag()}; }
 
 api::ComponentInfo ValueMaker::component() {
-  api::ComponentInfo component{text(), text(), text(), one_of(api::ComponentState::kError), number(), text(), {}};
+  api::ComponentInfo component{text(), text(), text(), one_of(api::ComponentState::kError), number(), text(), {}, {}};
   component.ports.resize(static_cast<std::size_t>(count(4)));
   for (api::ComponentPort& port : component.ports) {
     port = {text(), text(), flag(), {}, number(), std::nullopt};

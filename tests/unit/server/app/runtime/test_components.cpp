@@ -13,7 +13,7 @@ class ComponentsTest : public ::testing::Test {
  protected:
   ComponentsTest() {
     components.add("lidar", "driver", "fake", {}, {{"scan", "LaserScan", true}});
-    components.add("camera", "driver", "fake", {[this] { return camera; }, [this] { ++stops; }},
+    components.add("camera", "driver", "fake", {[this] { return camera; }, [this] { ++stops; }, nullptr},
                    {{"picture", "CameraFrame", true}});
     components.add("pose", "estimator", "fake", {}, {{"scan", "LaserScan", false}, {"pose", "PoseEstimate", true}});
     components.connect("lidar.scan", "pose.scan");
