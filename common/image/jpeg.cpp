@@ -4,11 +4,13 @@
 #include <array>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include <jpeglib.h>
 
+#include "common/core/assert.hpp"
 #include "common/files/files.hpp"
 #include "common/image/png.hpp"
 
@@ -66,6 +68,26 @@ bool read_pixels(Decoder& decoder, Image& image) {
   return true;
 }
 
+/// libjpeg's own error exit ends the program, which only a bug can reach: everything that it is given is valid.
+struct Encoder {
+  jpeg_compress_struct raw{};
+  jpeg_error_mgr errors{};
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+
+  Encoder() {
+    raw.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&raw);
+    jpeg_mem_dest(&raw, &bytes, &size);
+  }
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+  ~Encoder() {
+    jpeg_destroy_compress(&raw);
+    std::free(bytes);  // NOLINT: libjpeg allocates by malloc
+  }
+};
+
 tl::unexpected<Error> corrupt(const Decoder& decoder) {
   return fail(Errc::kCorrupt, "not a readable JPEG (" + std::string(decoder.message.data()) + ")");
 }
@@ -88,6 +110,26 @@ Result<Image> decode_jpeg(std::span<const std::uint8_t> bytes) {
     return corrupt(decoder);
   }
   return image;
+}
+
+std::vector<std::uint8_t> encode_jpeg(const Image& image, int quality) {
+  constexpr int kBest = 100;
+  SEEKER_ASSERT(!image.empty() && quality >= 1 && quality <= kBest);
+  Encoder encoder;
+  encoder.raw.image_width = static_cast<JDIMENSION>(image.width_px());
+  encoder.raw.image_height = static_cast<JDIMENSION>(image.height_px());
+  encoder.raw.input_components = image.channels();
+  encoder.raw.in_color_space = image.channels() == 1 ? JCS_GRAYSCALE : JCS_RGB;
+  jpeg_set_defaults(&encoder.raw);
+  jpeg_set_quality(&encoder.raw, quality, TRUE);
+  jpeg_start_compress(&encoder.raw, TRUE);
+  while (encoder.raw.next_scanline < encoder.raw.image_height) {
+    // libjpeg takes rows as writable and does not write to them.
+    JSAMPROW row = const_cast<JSAMPROW>(image.at(0, static_cast<int>(encoder.raw.next_scanline)));
+    jpeg_write_scanlines(&encoder.raw, &row, 1);
+  }
+  jpeg_finish_compress(&encoder.raw);
+  return {encoder.bytes, encoder.bytes + encoder.size};
 }
 
 Result<Image> read_picture(const std::filesystem::path& path) {

@@ -12,15 +12,18 @@ namespace seeker::emulator {
 
 /// The parsed command line.
 struct EmulatorArguments {
-  std::filesystem::path world;                              ///< a file of config/worlds
-  std::filesystem::path config = "config/robots/sim.yaml";  ///< robot file: its `sim` section is that of every robot
-  std::vector<std::string> overrides;                       ///< key.path=value, over the values of the robot file
+  std::string world;           ///< world file, or the name of one in worlds/ of files::config_folder()
+  std::string config = "sim";  ///< robot file, or the name of one in robots/: its `sim` section is that of every robot
+  std::vector<std::string> overrides;  ///< key.path=value, over the values of the robot file
   std::size_t robots = 2;
-  std::vector<std::size_t> starts;    ///< index of each robot's start pose; empty: 0, 1, ...
-  std::optional<std::uint16_t> port;  ///< 0: any free one
-  std::string address = "127.0.0.1";  ///< of the interface to listen on
-  std::filesystem::path port_file;    ///< the port is written here once the world can be reached
-  std::filesystem::path truth_file;   ///< the true poses of the robots are written here; empty: nowhere
+  std::vector<std::size_t> starts;     ///< index of each robot's start pose; empty: 0, 1, ...
+  std::optional<std::uint16_t> port;   ///< 0: any free one
+  std::string address = "127.0.0.1";   ///< of the interface to listen on
+  std::filesystem::path port_file;     ///< the port is written here once the world can be reached
+  std::vector<std::string> devices;    ///< as parse_device_spec() reads them
+  std::vector<std::string> faults;     ///< as parse_fault_command() reads them
+  std::filesystem::path devices_file;  ///< names and addresses of the devices are written here
+  std::filesystem::path truth_file;    ///< the true poses of the robots are written here; empty: nowhere
   bool lockstep = false;
   std::string log_level = "info";
 };

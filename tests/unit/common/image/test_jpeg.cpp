@@ -109,5 +109,22 @@ TEST(ReadPicture, GoesByTheBytesNotTheName) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Jpeg, ReadsBackWhatIsWrittenUpToItsQuality) {
+  for (const int channels : {1, 3}) {
+    Image image(40, 30, channels);
+    for (int v = 0; v < image.height_px(); ++v) {
+      for (int u = 0; u < image.width_px(); ++u) {
+        std::fill_n(image.at(u, v), channels, static_cast<std::uint8_t>(3 * u + 4 * v));
+      }
+    }
+    const Result<Image> read = decode_jpeg(encode_jpeg(image, 95));
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->data().size(), image.data().size());
+    for (std::size_t k = 0; k < image.data().size(); ++k) {
+      EXPECT_NEAR(read->data()[k], image.data()[k], 6) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seeker::image

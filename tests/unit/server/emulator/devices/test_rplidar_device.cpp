@@ -187,6 +187,15 @@ TEST(RplidarDevice, CapsulesShowTheWallsWhereSamplesDo) {
   }
 }
 
+TEST(RplidarDevice, AMotorThatStartsAfterTheScanWasRequestedMeasuresAllTheSame) {
+  Bench bench(rplidar_a2());
+  bench.send(rplidar::express_scan(0));
+  EXPECT_TRUE(bench.wait(std::chrono::seconds(1)).empty()) << "the rotor stands";
+  bench.send(rplidar::set_motor_pwm(660));
+  EXPECT_TRUE(bench.device.scanning());
+  EXPECT_GT(bench.wait(std::chrono::seconds(3)).size(), 10'000U);
+}
+
 TEST(RplidarDevice, CompensationsStayWhereAllProgramsAgree) {
   RplidarDevice device(rplidar_a1(), [](double, RobotTime) { return 0.05; });
   RobotTime now = robot_time_s(1.0);

@@ -1,0 +1,41 @@
+// seekerd as the service that a package makes of it.
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include "common/rpc/wait.hpp"
+#include "tests/integration/processes/daemon.hpp"
+#include "tests/support/service_manager.hpp"
+
+namespace seeker::testing {
+namespace {
+
+TEST(ServiceProcesses, SystemdHearsOfTheStartOfTheLoopAndOfTheEnd) {
+  const ServiceManager systemd(seconds(1));
+  const Daemon daemon;
+  EXPECT_TRUE(systemd.hears("READY=1", kStart));
+  EXPECT_TRUE(systemd.hears("WATCHDOG=1", kStart)) << "while no mission runs";
+  EXPECT_EQ(seeker(daemon, {"goto", "0.5,0", "--detach"}), 0);
+  EXPECT_TRUE(systemd.hears("STATUS=armed, mission ", kStart));
+  EXPECT_TRUE(systemd.hears("WATCHDOG=1", kStart));
+  daemon.process->send(SIGTERM);
+  EXPECT_TRUE(systemd.hears("STOPPING=1", kStart));
+}
+
+TEST(ServiceProcesses, ARobotStartsDisarmedWhateverItsBase) {
+  for (const std::string speed : {"0", "1"}) {
+    const ServiceManager systemd;
+    const Daemon daemon({"--set", "sim.speed=" + speed});
+    EXPECT_TRUE(systemd.hears("STATUS=disarmed, no mission", kStart));
+    const auto client = connect(daemon, "operator");
+    const Result<api::RobotStatus> status =
+        rpc::wait<api::RobotStatus>([&](auto reply) { client->get_status(std::move(reply)); }, kCall);
+    ASSERT_TRUE(status) << status.error().message;
+    EXPECT_FALSE(status->motors_armed);
+    EXPECT_EQ(status->velocity, Twist2{});
+  }
+}
+
+}  // namespace
+}  // namespace seeker::testing
