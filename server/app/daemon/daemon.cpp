@@ -3,10 +3,12 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "common/files/config_folder.hpp"
 #include "common/files/files.hpp"
 #include "common/log/log.hpp"
 #include "server/app/composition/robot_assembly.hpp"
 #include "server/app/composition/robot_options.hpp"
+#include "server/app/daemon/service_notifier.hpp"
 #include "server/app/fleet/fleet_part.hpp"
 #include "server/app/robot/robot.hpp"
 #include "server/app/runtime/termination_signals.hpp"
@@ -23,6 +25,54 @@ int config_error(const Error& error) {
   return kExitConfig;
 }
 
+void warn_of_cut_off(const Journal& journal) {
+  if (const auto& mission = journal.unfinished()) {
+    log::warning(kPart, "mission '" + mission->id +
+                            "' was cut off when the program ended; 'seeker resume' starts it again, the robot stays "
+                            "disarmed until then");
+  }
+}
+
+Status announce(const DaemonArguments& arguments, const RobotOptions& options, std::uint16_t port) {
+  log::info(kPart, options.robot_id + " listens on " + options.server.address + ":" + std::to_string(port));
+  return arguments.port_file.empty() ? Status() : files::write_file(arguments.port_file, std::to_string(port) + "\n");
+}
+
+/// Returns when a signal asks for the end, or at the end of a replay that ends the program.
+void wait_for_end(const TerminationSignals& signals, const RobotOptions& options, const Robot& robot) {
+  constexpr std::chrono::milliseconds kPoll{200};
+  while (!signals.wait(kPoll)) {
+    if (options.replay.exit_at_end && robot.ended()) {
+      log::info(kPart, "the log has ended");
+      return;
+    }
+  }
+}
+
+/// Runs the robot and its server to their orderly end.
+Status run(const DaemonArguments& arguments, const RobotOptions& options, const TerminationSignals& signals,
+           Robot& robot, const ServiceNotifier& service) {
+  server_net::ServerParams params = options.server;
+  params.port = arguments.port.value_or(params.port);
+  params.robot_now = [&robot] { return robot.now(); };
+  server_net::Server server(robot, params);
+  robot.start(options.driver == DriverType::kReplay && options.replay.wait_for_client);
+  const Result<std::uint16_t> port = server.start();
+  if (!port) {
+    return tl::unexpected<Error>(port.error());
+  }
+  if (Status announced = announce(arguments, options, *port); !announced) {
+    return announced;
+  }
+  service.ready();
+  wait_for_end(signals, options, robot);
+  log::info(kPart, "stopping: motion first, then the sessions");
+  service.stopping();
+  robot.stop();
+  server.stop();
+  return {};
+}
+
 int serve(const DaemonArguments& arguments, const RobotOptions& options, const std::filesystem::path& state,
           const TerminationSignals& signals, Assembly assembly) {
   Result<std::unique_ptr<Journal>> journal = Journal::open(state / options.robot_id);
@@ -30,47 +80,23 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
     log::error(kPart, journal.error().message);
     return EXIT_FAILURE;
   }
-  if ((*journal)->unfinished()) {
-    log::warning(kPart,
-                 "mission '" + (*journal)->unfinished()->id +
-                     "' was cut off when the program ended; 'seeker resume' starts it again, the robot stays disarmed "
-                     "until then");
-  }
+  warn_of_cut_off(**journal);
+  ServiceNotifier service;  // before the robot, whose loop speaks to it until the end
   Robot robot(
       {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
       options.loop, std::move(assembly.parts), std::move(*journal), state / "maps", std::move(assembly.landmarks));
-  server_net::ServerParams params = options.server;
-  params.port = arguments.port.value_or(params.port);
-  params.robot_now = [&robot] { return robot.now(); };
-  server_net::Server server(robot, params);
+  robot.loop().hooks().on_pass = [&robot, &service](WallTime now) {
+    service.passed(now, [&robot] { return service_state(robot.loop().status()); });
+  };
   const Result<FleetPart> fleet = start_fleet(options.fleet, options.robot_id, SEEKER_VERSION,
                                               state / options.robot_id / "fleet", robot.fleet_host());
   if (!fleet) {
     return config_error(fleet.error());
   }
-  robot.start(options.driver == DriverType::kReplay && options.replay.wait_for_client);
-  const Result<std::uint16_t> port = server.start();
-  if (!port) {
-    log::error(kPart, port.error().message);
+  if (const Status ran = run(arguments, options, signals, robot, service); !ran) {
+    log::error(kPart, ran.error().message);
     return EXIT_FAILURE;
   }
-  log::info(kPart, options.robot_id + " listens on " + params.address + ":" + std::to_string(*port));
-  if (!arguments.port_file.empty()) {
-    if (const Status written = files::write_file(arguments.port_file, std::to_string(*port) + "\n"); !written) {
-      log::error(kPart, written.error().message);
-      return EXIT_FAILURE;
-    }
-  }
-  constexpr std::chrono::milliseconds kPoll{200};
-  while (!signals.wait(kPoll)) {
-    if (options.replay.exit_at_end && robot.ended()) {
-      log::info(kPart, "the log has ended");
-      break;
-    }
-  }
-  log::info(kPart, "stopping: motion first, then the sessions");
-  robot.stop();
-  server.stop();
   return EXIT_SUCCESS;
 }
 
@@ -89,7 +115,8 @@ std::filesystem::path default_state_folder() {
 
 int run_daemon(const DaemonArguments& arguments) {
   log::set_level(log::parse_level(arguments.log_level).value_or(log::Level::kInfo));
-  const Result<RobotOptions> options = load_robot_options(arguments.config, arguments.overrides);
+  const Result<RobotOptions> options =
+      load_robot_options(files::named_file(arguments.config, files::config_folder() / "robots"), arguments.overrides);
   if (!options) {
     return config_error(options.error());
   }

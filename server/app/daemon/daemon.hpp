@@ -13,7 +13,7 @@ namespace seeker::app {
 
 /// What the command line says.
 struct DaemonArguments {
-  std::filesystem::path config = "config/robots/sim.yaml";
+  std::string config = "sim";          ///< robot file, or the name of one in robots/ of files::config_folder()
   std::vector<std::string> overrides;  ///< key.path=value
   std::optional<std::uint16_t> port;   ///< 0: any free one
   std::filesystem::path port_file;     ///< the port is written here once the robot can be reached

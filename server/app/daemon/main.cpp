@@ -11,9 +11,10 @@ int main(int argc, char** argv) {
   std::uint16_t port = 0;
   CLI::App app{
       "seekerd: the onboard server of a Seeker robot.\n"
-      "Example: seekerd --config config/robots/sim.yaml --set sim.world=../worlds/office.yaml"};
+      "Example: seekerd --config sim --set sim.world=../worlds/office.yaml"};
   app.set_version_flag("--version", std::string("seekerd ") + SEEKER_VERSION);
-  app.add_option("--config", arguments.config, "Robot file")->capture_default_str();
+  app.add_option("--config", arguments.config, "Robot file, or the name of one in robots/ of the configuration")
+      ->capture_default_str();
   app.add_option("--set", arguments.overrides, "Override a field: key.path=value (repeatable)");
   auto* port_option = app.add_option("--port", port, "TCP port; 0 takes any free one (default: the robot file's)");
   app.add_option("--port-file", arguments.port_file, "Write the port to this file once the robot can be reached");

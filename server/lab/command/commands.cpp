@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/config_folder.hpp"
 #include "server/lab/command/verbs.hpp"
-#include "server/lab/experiments/child_process.hpp"
 
 namespace seeker::lab {
 
@@ -18,32 +18,20 @@ void add_common(CLI::App& verb, CommonOptions& options) {
   verb.add_option("--jobs", options.jobs, "Runs at the same time")->check(CLI::Range(1, 256))->capture_default_str();
   verb.add_option("--set", options.overrides, "Override a field of the robot file: key.path=value (repeatable)");
   verb.add_option("--config", options.config, "Folder with robots/, worlds/, targets/, missions/");
-  verb.add_option("--robot", options.robot, "Robot file (default: robots/sim.yaml of the configuration)");
+  verb.add_option("--robot", options.robot, "Robot file, or the name of one in robots/ (default: sim)");
   verb.add_flag("--json", options.json, "Print JSON");
 }
 
 std::filesystem::path config_folder(const CommonOptions& options) {
-  if (!options.config.empty()) {
-    return options.config;
-  }
-  // build/release/bin/seeker-lab finds the tree it was built from.
-  for (std::filesystem::path folder : {std::filesystem::current_path(), own_folder()}) {
-    for (; folder.has_relative_path(); folder = folder.parent_path()) {
-      if (std::filesystem::exists(folder / "config" / "worlds")) {
-        return folder / "config";
-      }
-    }
-  }
-  return "config";
+  return options.config.empty() ? files::config_folder() : std::filesystem::path(options.config);
 }
 
 std::filesystem::path robot_file(const CommonOptions& options) {
-  return options.robot.empty() ? config_folder(options) / "robots" / "sim.yaml" : std::filesystem::path(options.robot);
+  return files::named_file(options.robot.empty() ? "sim" : options.robot, config_folder(options) / "robots");
 }
 
 std::filesystem::path world_file(const CommonOptions& options, const std::string& name) {
-  return std::filesystem::is_regular_file(name) ? std::filesystem::path(name)
-                                                : config_folder(options) / "worlds" / (name + ".yaml");
+  return files::named_file(name, config_folder(options) / "worlds");
 }
 
 bool show_progress() { return isatty(STDERR_FILENO) != 0; }

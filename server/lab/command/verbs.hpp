@@ -21,8 +21,8 @@ struct CommonOptions {
   std::filesystem::path out;
   std::string seeds = "1-20";
   std::vector<std::string> overrides;
-  std::string config;  ///< folder of the configuration; empty: ./config, otherwise near the program
-  std::string robot;   ///< robot file; empty: config/robots/sim.yaml
+  std::string config;  ///< folder of the configuration; empty: files::config_folder()
+  std::string robot;   ///< robot file, or the name of one in robots/; empty: sim
   int jobs = 1;
   bool json = false;
 };

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "common/files/config_folder.hpp"
 #include "server/app/composition/robot_options.hpp"
 #include "server/lab/slam/log_geometry.hpp"
 #include "server/lab/slam/slam_estimators.hpp"
@@ -31,11 +32,7 @@ Result<std::filesystem::path> find_robot_file(const std::filesystem::path& robot
     }
     return config / "robots" / *name;
   }
-  std::error_code error;
-  if (std::filesystem::exists(robot, error)) {
-    return robot;
-  }
-  return config / "robots" / (robot.string() + (robot.has_extension() ? "" : ".yaml"));
+  return files::named_file(robot.string(), config / "robots");
 }
 
 Status run_slam_command(const SlamOptions& o, std::ostream& out) {
