@@ -9,8 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kTop = {"client/", "cmake/",  "common/", "config/", "docs/",
-                                                  "proto/",  "server/", "tests/",  ".ci/"};
+constexpr std::array<std::string_view, 10> kTop = {"client/",    "cmake/", "common/", "config/", "docs/",
+                                                   "packaging/", "proto/", "server/", "tests/",  ".ci/"};
 
 bool matches_part_of(const fs::path& folder, fs::path::const_iterator part, fs::path::const_iterator end);
 

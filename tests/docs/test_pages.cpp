@@ -99,8 +99,9 @@ std::string check_run(const Command& command) {
   }
   const std::string& verb = command.words.front();
   std::vector<std::string> path{verb};
-  if (verb == "bench" && command.words.size() > 1 && command.words[1] == "peers") {
-    path.emplace_back("peers");
+  const std::set<std::string> with_help_of_their_own{"peers", "hardware"};
+  if (verb == "bench" && command.words.size() > 1 && with_help_of_their_own.contains(command.words[1])) {
+    path.push_back(command.words[1]);
   }
   if (verb == "reproduce") {  // what is not its own goes to seeker-lab
     std::vector<std::string> words{"reproduce"};
