@@ -113,6 +113,9 @@ struct MergeParams {
   double max_rival_denied_piece_m = 2.0;
 };
 
+/// Length of a wall of one map that the other may have looked through in a certain merge: the more both have seen, the
+/// longer is the longest piece that was moved in the meantime.
+[[nodiscard]] double allowed_piece_m(const MergeHypothesis& best, const MergeParams& params);
 [[nodiscard]] double confidence_of(const MergeHypothesis& hypothesis, const MergeParams& params);
 /// Sets verdict and reason by the hypotheses, best first.
 void judge(MergeAnswer& answer, const MergeParams& params);

@@ -208,7 +208,7 @@ TEST(P2osSession, TheEmergencyStopRefusesAllMotionAndSaysSo) {
     talk.session.set_velocity({-0.25, 0.3}, talk.now);
     EXPECT_THAT(talk.heard(), IsEmpty());
     ASSERT_TRUE(talk.session.base_fault());
-    EXPECT_EQ(talk.session.base_fault()->code, Errc::kRefused);
+    EXPECT_EQ(talk.session.base_fault()->code, Errc::kNotReady);
   }
 }
 
