@@ -66,10 +66,15 @@ class ServiceManager {
     return all;
   }
 
-  /// True when this is reported; what comes before it is passed over. False when nothing comes for `limit`.
+  /// True when this is reported within `limit`; what comes before it is passed over.
   [[nodiscard]] bool hears(const std::string& report, std::chrono::milliseconds limit) const {
-    while (const std::optional<std::string> one = next(limit)) {
-      if (one->find(report) != std::string::npos) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    const auto left = [&] {
+      return std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+    };
+    for (std::chrono::milliseconds rest = limit; rest.count() > 0; rest = left()) {
+      const std::optional<std::string> one = next(rest);
+      if (one && one->find(report) != std::string::npos) {
         return true;
       }
     }

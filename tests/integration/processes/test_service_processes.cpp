@@ -13,10 +13,10 @@ namespace {
 
 TEST(ServiceProcesses, SystemdHearsOfTheStartOfTheLoopAndOfTheEnd) {
   const ServiceManager systemd(seconds(1));
-  const Daemon daemon;
+  const Daemon daemon({"--set", "sim.speed=1"});  // so that the mission lasts for seconds
   EXPECT_TRUE(systemd.hears("READY=1", kStart));
   EXPECT_TRUE(systemd.hears("WATCHDOG=1", kStart)) << "while no mission runs";
-  EXPECT_EQ(seeker(daemon, {"goto", "0.5,0", "--detach"}), 0);
+  EXPECT_EQ(seeker(daemon, {"goto", "1,0", "--detach"}), 0);
   EXPECT_TRUE(systemd.hears("STATUS=armed, mission ", kStart));
   EXPECT_TRUE(systemd.hears("WATCHDOG=1", kStart));
   daemon.process->send(SIGTERM);
