@@ -4,7 +4,10 @@
 namespace seeker::rplidar {
 namespace {
 
-static_assert(3 * kCapsuleBytes <= kMaxStreamLook);
+/// How many capsules after the last whole one are looked for where they are without a loss, the damaged ones included:
+/// among the bytes of two damaged ones other bytes pass for a capsule once in 400 times.
+constexpr std::size_t kGridCapsules = 3;
+static_assert(kGridCapsules * kCapsuleBytes <= kMaxStreamLook);
 
 bool whole_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return at <= bytes.size() && decode_capsule(bytes.subspan(at)).has_value();
@@ -47,17 +50,24 @@ std::optional<StreamCut> cut_capsule(std::span<const std::uint8_t> bytes, bool a
     return choose(bytes, 0);
   }
   if (aligned) {
-    // Damage without a loss is the usual case: then the next capsule begins where it should.
-    if (bytes.size() < 2 * kCapsuleBytes) {
-      return std::nullopt;
-    }
-    if (whole_at(bytes, kCapsuleBytes)) {
-      return StreamCut{kCapsuleBytes, true};
+    // Damage without a loss is the usual case: then one of the next capsules begins where it should.
+    for (std::size_t at = kCapsuleBytes; at < kGridCapsules * kCapsuleBytes; at += kCapsuleBytes) {
+      if (bytes.size() < at + kCapsuleBytes) {
+        return std::nullopt;
+      }
+      if (whole_at(bytes, at)) {
+        return StreamCut{at, true};
+      }
     }
   }
   const std::size_t last = bytes.size() - kCapsuleBytes;
   const std::optional<std::size_t> first = find_whole(bytes, 0, last);
-  return first ? choose(bytes, *first) : std::optional(StreamCut{last + 1, false});
+  if (!first) {
+    return StreamCut{last + 1, false};
+  }
+  std::optional<StreamCut> chosen = choose(bytes, *first);
+  // What lies before the first one is of no use while the decision waits for more bytes.
+  return chosen || *first == 0 ? chosen : StreamCut{*first, false};
 }
 
 }  // namespace seeker::rplidar

@@ -14,7 +14,7 @@ constexpr float kMetresPerQ2 = 0.00025F;
 std::array<std::uint8_t, kLegacyBytes> encode(const LegacySample& sample) {
   SEEKER_ASSERT(sample.quality <= kMaxLegacyQuality && sample.angle_q6 <= kMaxAngleQ6);
   const unsigned turn_bits = sample.begins_revolution ? 0b01U : 0b10U;
-  return {static_cast<std::uint8_t>((sample.quality << 2U) | turn_bits),
+  return {static_cast<std::uint8_t>((unsigned{sample.quality} << 2U) | turn_bits),
           static_cast<std::uint8_t>(((sample.angle_q6 & 0x7FU) << 1U) | 1U),
           static_cast<std::uint8_t>(sample.angle_q6 >> 7U), static_cast<std::uint8_t>(sample.distance_q2 & 0xFFU),
           static_cast<std::uint8_t>(sample.distance_q2 >> 8U)};
