@@ -19,6 +19,16 @@ void describe_whole(config::Fields& f, std::string_view key, Whole& value) {
 }
 
 }  // namespace
+
+void describe(config::Fields& f, WheelCalibration& calibration) {
+  f.field("track_m", calibration.track_m);
+  f.field("left_scale", calibration.left_scale);
+  f.field("right_scale", calibration.right_scale);
+  f.field("track_scale", calibration.track_scale);
+  const Status ok = validate(calibration);
+  f.check("track_m", ok.has_value(), ok ? "" : ok.error().message);
+}
+
 }  // namespace seeker
 
 namespace seeker::lms200 {
@@ -179,6 +189,7 @@ void describe(config::Fields& f, LidarSettings& settings) {
 void describe(config::Fields& f, HardwareSettings& settings) {
   f.section("base", settings.base);
   f.optional_section("lidar", settings.lidar);
+  f.optional_section("second_lidar", settings.second_lidar);
   f.seconds("first_reopen_s", settings.first_reopen);
   f.check("first_reopen_s", settings.first_reopen > Duration::zero(), "must be above 0");
   f.seconds("longest_reopen_s", settings.longest_reopen);

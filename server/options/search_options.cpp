@@ -2,6 +2,11 @@
 
 namespace seeker::search {
 
+void describe(config::Fields& f, ControlTableParams& params) {
+  f.field("distances_m", params.distances_m);
+  f.field("target_step_deg", params.target_step_deg);
+}
+
 void describe(config::Fields& f, PaperParams& params) {
   f.field("cell_m", params.cell_m);
   f.field("sonar_limit_m", params.sonar_limit_m);

@@ -5,9 +5,11 @@
 #include "common/core/assert.hpp"
 #include "common/core/rng.hpp"
 #include "common/rpc/endpoint.hpp"
+#include "server/app/composition/watched_base.hpp"
 #include "server/drivers/camera/cameras.hpp"
 #include "server/drivers/emulator/emulator_devices.hpp"
 #include "server/drivers/hardware/hardware_devices.hpp"
+#include "server/drivers/merged/merged_lidar.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
@@ -154,6 +156,15 @@ Result<MadeDevices> make_replay(const RobotOptions& options) {
   return made;
 }
 
+/// Both scanners as one, in the frame of the base.
+void merge_lidars(std::shared_ptr<drivers::LidarDriver> second, Devices& devices) {
+  auto history = std::make_shared<OdometryHistory>();
+  devices.base = std::make_shared<WatchedBase>(std::move(devices.base), history);
+  devices.lidar =
+      std::make_shared<drivers::MergedLidar>(std::vector{std::move(devices.lidar), std::move(second)},
+                                             [history](RobotTime stamp) { return history->predicted_at(stamp); });
+}
+
 Result<MadeDevices> make_real(const RobotOptions& options) {
   const RealSettings& settings = options.hardware;
   Result<drivers::HardwareDevices> devices = drivers::make_hardware(settings.devices);
@@ -167,6 +178,9 @@ Result<MadeDevices> make_real(const RobotOptions& options) {
   out.base = std::move(devices->base);
   out.lidar = std::move(devices->lidar);
   out.sonar = std::move(devices->sonar);
+  if (devices->second_lidar) {
+    merge_lidars(std::move(devices->second_lidar), out);
+  }
   if (settings.camera) {
     out.camera = std::make_shared<drivers::CaptureCamera>(
         drivers::make_capture_source(*settings.camera), [clock = devices->clock] { return clock->now(); },

@@ -41,14 +41,6 @@ void describe(config::Fields& f, ReplayParams& params) {
 
 }  // namespace seeker::drivers
 
-namespace seeker::search {
-void describe(config::Fields& f, ControlTableParams& params) {
-  f.field("distances_m", params.distances_m);
-  f.field("target_step_deg", params.target_step_deg);
-}
-
-}  // namespace seeker::search
-
 namespace seeker {
 namespace {
 
@@ -261,6 +253,8 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.choice("recogniser", options.recogniser, recogniser_names());
   f.choice("planner", options.search.strategy, planner_names());
   f.section("connections", options.loop.connections);
+  f.section("odometry_calibration", options.loop.odometry_calibration);
+  f.field("record", options.record);
   f.section("tracking", options.tracking);
   f.section("lines", options.lines);
   f.section("slam", options.slam);

@@ -95,6 +95,7 @@ struct StereoSettings {
 struct RobotOptions {
   std::string base;  ///< the robot file that a file builds on; empty once both are read
   std::string robot_id = "seeker-1";
+  std::string record;  ///< file of a CARMEN log that the drive is recorded into, plain or .gz; empty: none
   DriverType driver = DriverType::kSim;
   /// Of its body. A file that names another value means all radii that plans and checks go by, too, unless it says
   /// them.

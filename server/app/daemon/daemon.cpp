@@ -1,5 +1,6 @@
 #include "server/app/daemon/daemon.hpp"
 
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 
@@ -49,6 +50,25 @@ void wait_for_end(const TerminationSignals& signals, const RobotOptions& options
   }
 }
 
+/// Without a file there is nothing to record, which is no error.
+Status record(const DaemonArguments& arguments, const RobotOptions& options, Robot& robot) {
+  const std::string& file = arguments.record.empty() ? options.record : arguments.record;
+  if (file.empty()) {
+    return {};
+  }
+  // In lockstep robot time has nothing to do with that of the world.
+  using Seconds = std::chrono::duration<double>;
+  const double wall_s = Seconds(std::chrono::system_clock::now().time_since_epoch()).count();
+  const double epoch_s = robot.loop().world().realtime() ? wall_s - to_seconds(robot.loop().now()) : 0.0;
+  Result<std::unique_ptr<DriveRecorder>> recorder = DriveRecorder::create(file, options.robot_id, epoch_s);
+  if (!recorder) {
+    return tl::unexpected<Error>(recorder.error());
+  }
+  log::info(kPart, "recording into " + (*recorder)->path().string());
+  robot.record(std::move(*recorder));
+  return {};
+}
+
 /// Runs the robot and its server to their orderly end.
 Status run(const DaemonArguments& arguments, const RobotOptions& options, const TerminationSignals& signals,
            Robot& robot, const ServiceNotifier& service) {
@@ -88,6 +108,9 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
   robot.loop().hooks().on_pass = [&robot, &service](WallTime now) {
     service.passed(now, [&robot] { return service_state(robot.loop().status()); });
   };
+  if (const Status recording = record(arguments, options, robot); !recording) {
+    return config_error(recording.error());
+  }
   const Result<FleetPart> fleet = start_fleet(options.fleet, options.robot_id, SEEKER_VERSION,
                                               state / options.robot_id / "fleet", robot.fleet_host());
   if (!fleet) {

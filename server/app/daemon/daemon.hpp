@@ -18,6 +18,7 @@ struct DaemonArguments {
   std::optional<std::uint16_t> port;   ///< 0: any free one
   std::filesystem::path port_file;     ///< the port is written here once the robot can be reached
   std::filesystem::path state;         ///< empty: $STATE_DIRECTORY, $XDG_STATE_HOME/seeker, ~/.local/state/seeker
+  std::string record;                  ///< file that the drive is recorded into; empty: as the robot file says
   std::string log_level = "info";
   bool print_config = false;
 };

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   auto* port_option = app.add_option("--port", port, "TCP port; 0 takes any free one (default: the robot file's)");
   app.add_option("--port-file", arguments.port_file, "Write the port to this file once the robot can be reached");
   app.add_option("--state", arguments.state, "Folder for maps, missions and detections");
+  app.add_option("--record", arguments.record, "Record odometry and scans: CARMEN log, plain or .gz");
   app.add_option("--log-level", arguments.log_level, "What is logged")
       ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
       ->capture_default_str();

@@ -1,12 +1,14 @@
 /// \file
-/// LoopHooks are callbacks by which the journal, the store of maps and tests follow the loop.
+/// LoopHooks are callbacks by which the journal, the store of maps, the recorder of drives and tests follow the loop.
 #pragma once
 
 #include <chrono>
 #include <functional>
 
 #include "common/api/robot_api.hpp"
+#include "common/core/scan.hpp"
 #include "server/app/state/checkpoint.hpp"
+#include "server/drivers/interfaces/drivers.hpp"
 
 namespace seeker::app {
 
@@ -14,6 +16,10 @@ namespace seeker::app {
 struct LoopHooks {
   /// Called after every pass of the loop, also of one that only waits for its world: a loop that is stuck is silent.
   std::function<void(std::chrono::steady_clock::time_point)> on_pass;
+  /// Called with every new odometry as the base measured it, without the calibration of its wheels.
+  std::function<void(const drivers::OdometrySample&)> on_odometry;
+  /// Called with every new scan, after the odometry of the same tick; the motion of the base is taken out of it.
+  std::function<void(const LaserScan&)> on_scan;
   /// Called with every event, before it is published.
   std::function<void(const api::Event&)> on_event;
   /// Called with a request that has become the running mission.

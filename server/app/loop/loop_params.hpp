@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/core/wheel_calibration.hpp"
 #include "server/app/estimators/estimator.hpp"
 #include "server/app/loop/configuration.hpp"
 #include "server/app/maps/robot_map.hpp"
@@ -91,6 +92,7 @@ struct LoopParams {
   FleetMotionParams fleet;
   Connections connections;
   NodePictureParams pictures;
+  WheelCalibration odometry_calibration;  ///< taken out of all odometry before anything goes by it
 };
 
 /// What the loop is put together from.

@@ -4,10 +4,11 @@
 
 namespace seeker::app {
 
-MotionControl::MotionControl(const SafetyParams& params, std::shared_ptr<drivers::BaseDriver> base,
-                             const Sensing& sensing, const SituationSource& situation, WorldLink& world,
-                             Diagnostics& diagnostics)
+MotionControl::MotionControl(const SafetyParams& params, const WheelCalibration& calibration,
+                             std::shared_ptr<drivers::BaseDriver> base, const Sensing& sensing,
+                             const SituationSource& situation, WorldLink& world, Diagnostics& diagnostics)
     : params_(params),
+      calibration_(calibration),
       base_(std::move(base)),
       sensing_(sensing),
       situation_(situation),
@@ -34,6 +35,11 @@ SafetyVerdict MotionControl::verdict_on(const Twist2& wanted) const {
                    params_);
 }
 
+Twist2 MotionControl::commanded(const Twist2& velocity) const {
+  // Without errors to correct the command is passed on bit by bit.
+  return is_identity(calibration_) ? velocity : reported(velocity, calibration_);
+}
+
 void MotionControl::act(const Twist2& wanted) {
   const bool arm = authority_.armed() && diagnostics_.faults().blocking() == nullptr;
   const SafetyVerdict verdict = verdict_on(wanted);
@@ -52,7 +58,7 @@ void MotionControl::act(const Twist2& wanted) {
   if (!motors_on_ && verdict.allowed == Twist2{}) {
     return;
   }
-  if (const Status ok = base_->set_velocity(verdict.allowed, world_.now()); !ok) {
+  if (const Status ok = base_->set_velocity(commanded(verdict.allowed), world_.now()); !ok) {
     refused(ok.error());
   }
 }

@@ -8,6 +8,7 @@
 
 #include "common/core/pose2.hpp"
 #include "common/core/result.hpp"
+#include "common/core/wheel_calibration.hpp"
 #include "server/app/loop/diagnostics.hpp"
 #include "server/app/loop/sensing.hpp"
 #include "server/app/loop/situation_source.hpp"
@@ -21,9 +22,11 @@ namespace seeker::app {
 /// No other class commands the base. Lives on the loop's thread.
 class MotionControl {
  public:
-  /// The references must outlive it.
-  MotionControl(const SafetyParams& params, std::shared_ptr<drivers::BaseDriver> base, const Sensing& sensing,
-                const SituationSource& situation, WorldLink& world, Diagnostics& diagnostics);
+  /// The references must outlive it. The base is commanded by its own measure of its wheels, which `calibration`
+  /// corrects in its odometry.
+  MotionControl(const SafetyParams& params, const WheelCalibration& calibration,
+                std::shared_ptr<drivers::BaseDriver> base, const Sensing& sensing, const SituationSource& situation,
+                WorldLink& world, Diagnostics& diagnostics);
 
   /// Powers the motors where that is allowed, and commands what the supervisor allows of `wanted`.
   void act(const Twist2& wanted);
@@ -49,9 +52,11 @@ class MotionControl {
 
  private:
   [[nodiscard]] SafetyVerdict verdict_on(const Twist2& wanted) const;
+  [[nodiscard]] Twist2 commanded(const Twist2& velocity) const;
   void refused(const Error& error);
 
   SafetyParams params_;
+  WheelCalibration calibration_;
   std::shared_ptr<drivers::BaseDriver> base_;
   const Sensing& sensing_;
   const SituationSource& situation_;

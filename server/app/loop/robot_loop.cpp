@@ -15,7 +15,7 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
       neighbours_(params.fleet, params.robot_id),
       localiser_(params, parts.occupancy, std::move(parts.estimator), diagnostics_),
       situation_(world_, sensing_, localiser_, neighbours_, devices_.stereo != nullptr && parts.stereo != nullptr),
-      motion_(params.safety, devices_.base, sensing_, situation_, world_, diagnostics_),
+      motion_(params.safety, params.odometry_calibration, devices_.base, sensing_, situation_, world_, diagnostics_),
       executor_(params.mission, parts.behaviours, mission_outputs(hub)),
       perception_({devices_, parts.stereo, parts.pictures, world_, diagnostics_, hub}, params.pictures, sensing_,
                   localiser_, executor_),
@@ -92,6 +92,12 @@ void RobotLoop::sense() {
   sensing_.read();
   // A recording cannot be slowed, and is to give the map that it gives offline.
   const LaserScan* scan = sensing_.new_scan();
+  if (hooks_.on_odometry && sensing_.new_measured_odometry() != nullptr) {
+    hooks_.on_odometry(*sensing_.new_measured_odometry());
+  }
+  if (hooks_.on_scan && scan != nullptr) {
+    hooks_.on_scan(*scan);
+  }
   if (scan != nullptr && sensing_.odometry() != nullptr && !devices_.runs_without_mission) {
     neighbours_.observe(*scan, sensing_.history().at(scan->stamp)->odom_T_base, now());
   }

@@ -32,7 +32,8 @@ Sensing::Sensing(const LoopParams& params, const Devices& devices, WorldLink& wo
       connections_(params.connections),
       devices_(devices),
       world_(world),
-      diagnostics_(diagnostics) {}
+      diagnostics_(diagnostics),
+      calibrator_(params.odometry_calibration) {}
 
 template <class Driver, class Sample>
 bool Sensing::read(Driver* driver, const std::string& name, const char* port, Duration timeout,
@@ -89,9 +90,10 @@ void Sensing::read() {
   note_faults(devices_.base.get(), "base");
   note_faults(devices_.lidar.get(), "lidar");
   note_faults(devices_.sonar.get(), "sonar");
-  fresh_odometry_ = read(devices_.base.get(), "base", "odometry", timeouts_.base, odometry_, last_.odometry);
+  fresh_odometry_ = read(devices_.base.get(), "base", "odometry", timeouts_.base, measured_odometry_, last_.odometry);
   if (fresh_odometry_) {
-    continue_odometry(*odometry_);
+    continue_odometry(*measured_odometry_);
+    odometry_ = calibrator_.apply(*measured_odometry_);
     history_.add(*odometry_);
   }
   fresh_scan_ = read(devices_.lidar.get(), "lidar", "scan", timeouts_.lidar, scan_, last_.scan);
@@ -128,7 +130,9 @@ void Sensing::restart_patience() {
   last_ = {now, now, now};
 }
 
-void Sensing::base_restarted() { odom_T_restart_ = odometry_ ? std::optional(odometry_->odom_T_base) : std::nullopt; }
+void Sensing::base_restarted() {
+  odom_T_restart_ = measured_odometry_ ? std::optional(measured_odometry_->odom_T_base) : std::nullopt;
+}
 
 void Sensing::continue_odometry(drivers::OdometrySample& sample) {
   if (odom_T_restart_) {

@@ -16,6 +16,7 @@
 #include "server/app/loop/loop_params.hpp"
 #include "server/app/loop/world_link.hpp"
 #include "server/app/runtime/devices.hpp"
+#include "server/drivers/interfaces/odometry_calibrator.hpp"
 
 namespace seeker::app {
 
@@ -49,6 +50,10 @@ class Sensing {
   [[nodiscard]] const drivers::OdometrySample* new_odometry() const { return fresh_odometry_ ? odometry() : nullptr; }
   [[nodiscard]] const LaserScan* new_scan() const { return fresh_scan_ ? scan() : nullptr; }
   [[nodiscard]] const SonarScan* new_sonar() const { return fresh_sonar_ ? sonar() : nullptr; }
+  /// Returns the new odometry as the base measured it, without the calibration of its wheels; null as above.
+  [[nodiscard]] const drivers::OdometrySample* new_measured_odometry() const {
+    return fresh_odometry_ ? &*measured_odometry_ : nullptr;
+  }
 
   /// Which sensors feed which parts of the robot.
   [[nodiscard]] const Connections& connections() const { return connections_; }
@@ -96,6 +101,8 @@ class Sensing {
   Devices devices_;
   WorldLink& world_;
   Diagnostics& diagnostics_;
+  std::optional<drivers::OdometrySample> measured_odometry_;  ///< as it came in, on through restarts of the base
+  drivers::OdometryCalibrator calibrator_;
   std::optional<drivers::OdometrySample> odometry_;
   std::optional<LaserScan> scan_;
   std::optional<SonarScan> sonar_;
@@ -105,7 +112,7 @@ class Sensing {
   LastTimes last_;
   std::map<std::string, std::set<std::string>> device_faults_;  ///< raised ones, by the device's name
   OdometryHistory history_;
-  std::optional<Pose2> odom_T_restart_;  ///< where the base was restarted, until its next sample
+  std::optional<Pose2> odom_T_restart_;  ///< where the base was restarted, until its next sample; as measured
   std::optional<Pose2> odom_T_counted_;  ///< the frame in which the base has counted since its restart
 };
 

@@ -319,6 +319,18 @@ void Robot::keep_journal() {
   });
 }
 
+void Robot::record(std::unique_ptr<DriveRecorder> recorder) {
+  recorder_ = std::move(recorder);
+  recorder_->set_on_error([this](const Error& error) {
+    static_cast<void>(mailbox_.post([this, error] {
+      const std::size_t remedy = error.message.rfind("; ");
+      loop_.diagnostics().raise("recording-failed", "recorder", error.message.substr(0, remedy),
+                                error.message.substr(remedy + 2), api::Severity::kWarning);
+    }));
+  });
+  recorder_->follow(loop_.hooks());
+}
+
 void Robot::start(bool wait_for_client) {
   loop_.start();
   now_ns_ = loop_.now().time_since_epoch().count();

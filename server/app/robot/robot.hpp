@@ -12,6 +12,7 @@
 #include "server/app/landmarks/landmark_service.hpp"
 #include "server/app/loop/robot_loop.hpp"
 #include "server/app/robot/checkpoint_service.hpp"
+#include "server/app/robot/drive_recorder.hpp"
 #include "server/app/robot/map_service.hpp"
 #include "server/app/runtime/mailbox.hpp"
 #include "server/app/state/journal.hpp"
@@ -33,6 +34,8 @@ class Robot final : public api::RobotHost {
         std::shared_ptr<LandmarkLibrary> landmarks = std::make_shared<LandmarkLibrary>(LandmarkStorage{}));
   ~Robot() override;
 
+  /// Records what the robot drives on from its start, which comes later. A recording that fails is a warning.
+  void record(std::unique_ptr<DriveRecorder> recorder);
   /// Starts the components, then the thread. With `wait_for_client` a replay begins with the first session.
   void start(bool wait_for_client = false);
   /// Halts the robot, answers what was asked, joins the thread. Harmless when repeated.
@@ -65,6 +68,7 @@ class Robot final : public api::RobotHost {
   RobotLoop loop_;
   Mailbox mailbox_;
   std::unique_ptr<Journal> journal_;
+  std::unique_ptr<DriveRecorder> recorder_;
   MapStore map_store_;
   MapService maps_;
   CheckpointService checkpoints_;

@@ -44,26 +44,39 @@ Status make_base(const HardwareSettings& settings, HardwareDevices& made) {
   return {};
 }
 
-Status make_lidar(const HardwareSettings& settings, HardwareDevices& made) {
-  const LidarSettings& lidar = *settings.lidar;
+/// `field` is the section of the settings.
+Result<std::shared_ptr<LidarDriver>> make_lidar(const HardwareSettings& settings, const LidarSettings& lidar,
+                                                const std::string& field, const std::shared_ptr<const Clock>& clock) {
   Result<DeviceThreadParams> line = line_of(settings, lidar.port, 0);
   if (!line) {
-    return fail_with_context("hardware.lidar.port", line.error());
+    return fail_with_context(field + ".port", line.error());
   }
   switch (lidar.driver) {
     case LidarKind::kLms200:
       if (const Status ok = validate(lidar.lms200); !ok) {
-        return fail_with_context("hardware.lidar.lms200", ok.error());
+        return fail_with_context(field + ".lms200", ok.error());
       }
-      made.lidar = std::make_shared<LaserDriver<LmsSession>>(lidar.lms200, std::move(*line), made.clock);
-      break;
+      return std::make_shared<LaserDriver<LmsSession>>(lidar.lms200, std::move(*line), clock);
     case LidarKind::kRplidar:
       if (const Status ok = validate(lidar.rplidar); !ok) {
-        return fail_with_context("hardware.lidar.rplidar", ok.error());
+        return fail_with_context(field + ".rplidar", ok.error());
       }
-      made.lidar = std::make_shared<LaserDriver<RplidarSession>>(lidar.rplidar, std::move(*line), made.clock);
-      break;
+      return std::make_shared<LaserDriver<RplidarSession>>(lidar.rplidar, std::move(*line), clock);
   }
+  return fail(Errc::kInvalidArgument, field + ".driver is not known");
+}
+
+/// The scanner of an optional section; null where there is none.
+Status make_lidar(const HardwareSettings& settings, const std::optional<LidarSettings>& lidar, const std::string& field,
+                  const std::shared_ptr<const Clock>& clock, std::shared_ptr<LidarDriver>& made) {
+  if (!lidar) {
+    return {};
+  }
+  Result<std::shared_ptr<LidarDriver>> driver = make_lidar(settings, *lidar, field, clock);
+  if (!driver) {
+    return tl::unexpected<Error>(driver.error());
+  }
+  made = std::move(*driver);
   return {};
 }
 
@@ -90,7 +103,16 @@ Result<HardwareDevices> make_hardware(const HardwareSettings& settings) {
   if (const Status ok = make_base(settings, made); !ok) {
     return tl::unexpected<Error>(ok.error());
   }
-  if (const Status ok = settings.lidar ? make_lidar(settings, made) : Status(); !ok) {
+  if (settings.second_lidar && !settings.lidar) {
+    return fail(Errc::kInvalidArgument,
+                "hardware.second_lidar: there is no first one; call a single scanner hardware.lidar");
+  }
+  if (const Status ok = make_lidar(settings, settings.lidar, "hardware.lidar", made.clock, made.lidar); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  if (const Status ok =
+          make_lidar(settings, settings.second_lidar, "hardware.second_lidar", made.clock, made.second_lidar);
+      !ok) {
     return tl::unexpected<Error>(ok.error());
   }
   return made;

@@ -16,6 +16,7 @@ struct HardwareDevices {
   std::shared_ptr<BaseDriver> base;
   std::shared_ptr<SonarDriver> sonar;
   std::shared_ptr<LidarDriver> lidar;
+  std::shared_ptr<LidarDriver> second_lidar;
 };
 
 /// Makes the drivers; nothing is opened before they are activated. Errors name the field that is wrong.

@@ -40,6 +40,8 @@ struct LidarSettings {
 struct HardwareSettings {
   BaseSettings base;
   std::optional<LidarSettings> lidar;
+  /// Another scanner, whose scans are merged with those of `lidar`.
+  std::optional<LidarSettings> second_lidar;
   /// Delays between attempts to open a port that is lost: they double from the first to the longest.
   Duration first_reopen = std::chrono::milliseconds(250);
   Duration longest_reopen = std::chrono::seconds(4);

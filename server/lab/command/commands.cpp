@@ -59,6 +59,8 @@ int run_lab(int argc, char** argv) {
   verbs["survey"] = add_survey(app);
   verbs["train-solids"] = add_train_solids(app);
   verbs["slam"] = add_slam(app);
+  verbs["odometry-calibrate"] = add_odometry_calibrate(app);
+  verbs["extrinsics"] = add_extrinsics(app);
   verbs["merge"] = add_merge(app);
   verbs["lines"] = add_lines(app);
   verbs["plot"] = add_plot(app);

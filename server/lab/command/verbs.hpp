@@ -53,6 +53,8 @@ using Verb = std::function<int()>;
 [[nodiscard]] Verb add_survey(CLI::App& app);
 [[nodiscard]] Verb add_train_solids(CLI::App& app);
 [[nodiscard]] Verb add_slam(CLI::App& app);
+[[nodiscard]] Verb add_odometry_calibrate(CLI::App& app);
+[[nodiscard]] Verb add_extrinsics(CLI::App& app);
 [[nodiscard]] Verb add_merge(CLI::App& app);
 [[nodiscard]] Verb add_lines(CLI::App& app);
 [[nodiscard]] Verb add_plot(CLI::App& app);

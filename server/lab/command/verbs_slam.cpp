@@ -6,6 +6,7 @@
 
 #include "common/config/number_text.hpp"
 #include "common/core/angle.hpp"
+#include "server/lab/calibration/calibration_command.hpp"
 #include "server/lab/command/verbs.hpp"
 #include "server/lab/line_detection/lines_command.hpp"
 #include "server/lab/map_merging/merge_command.hpp"
@@ -35,6 +36,21 @@ std::filesystem::path found_config(const std::filesystem::path& named) {
   return config_folder(common);
 }
 
+/// Both calibrations of a recorded drive.
+Verb add_calibration(CLI::App& verb, slam::CalibrationSubject subject) {
+  auto o = std::make_shared<CalibrationOptions>();
+  verb.add_option("log", o->log, "Log of a drive with straight legs and turns, e.g. of seekerd --record")->required();
+  verb.add_option("--out", o->out, "YAML file for the section of the robot file (default: none is written)");
+  verb.add_option("--estimator", o->estimator, "Which estimator follows the laser (default: the robot file's)")
+      ->check(CLI::IsMember(estimator_names()));
+  add_geometry(verb, *o);
+  verb.add_flag("--json", o->json, "Print JSON");
+  return [o, subject] {
+    o->config = found_config(o->config);
+    return exit_code_of(run_calibration(*o, subject, std::cout));
+  };
+}
+
 }  // namespace
 
 Verb add_slam(CLI::App& app) {
@@ -53,6 +69,17 @@ Verb add_slam(CLI::App& app) {
     o->show_progress = show_progress();
     return exit_code_of(run_slam_command(*o, std::cout));
   };
+}
+
+Verb add_odometry_calibrate(CLI::App& app) {
+  return add_calibration(
+      *app.add_subcommand("odometry-calibrate", "Scales of the wheels and their track, from a recorded drive"),
+      slam::CalibrationSubject::kWheels);
+}
+
+Verb add_extrinsics(CLI::App& app) {
+  return add_calibration(*app.add_subcommand("extrinsics", "Pose of the laser on the base, from a recorded drive"),
+                         slam::CalibrationSubject::kMount);
 }
 
 Verb add_merge(CLI::App& app) {

@@ -49,8 +49,8 @@ Result<SlamRun> run_log(const MergeOptions& o, const std::filesystem::path& log,
   if (!tracker) {
     return tl::unexpected<Error>(tracker.error());
   }
-  Result<SlamRun> run =
-      run_slam(log, options->replay.params, **tracker, progress_line(o, log.filename().string()), span);
+  Result<SlamRun> run = run_slam(log, options->replay.params, **tracker, progress_line(o, log.filename().string()),
+                                 span, options->loop.odometry_calibration);
   if (run && run->map.nodes.empty()) {
     return fail(Errc::kInvalidArgument, "the estimator of " + robot_file->string() +
                                             " keeps no map that could be merged; choose line SLAM there");

@@ -54,7 +54,8 @@ Status run_slam_command(const SlamOptions& o, std::ostream& out) {
   if (!tracker) {
     return tl::unexpected<Error>(tracker.error());
   }
-  const Result<SlamRun> run = run_slam(o.log, source.geometry, **tracker, progress_line(o.show_progress));
+  const Result<SlamRun> run = run_slam(o.log, source.geometry, **tracker, progress_line(o.show_progress), {},
+                                       options->loop.odometry_calibration);
   if (o.show_progress) {
     std::fprintf(stderr, "\n");
   }

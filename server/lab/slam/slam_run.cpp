@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "server/drivers/interfaces/odometry_calibrator.hpp"
 #include "server/lab/slam/slam_final_poses.hpp"
 #include "server/slam/map_tracker.hpp"
 
@@ -22,14 +23,18 @@ double log_stamp_s(const drivers::ReplaySource& source, RobotTime stamp) {
 /// One log through one estimator.
 class Player {
  public:
-  Player(drivers::ReplaySource& source, slam::PoseTracker& tracker) : source_(source), tracker_(tracker) {}
+  Player(drivers::ReplaySource& source, slam::PoseTracker& tracker, const WheelCalibration& calibration)
+      : source_(source), tracker_(tracker), calibrator_(calibration) {}
 
   /// Takes one record; false at the end of the log or after `to_s` of it. Records before `from_s` pass unseen.
   bool step(double from_s, double to_s) {
     if (!source_.advance_one() || to_seconds(source_.now()) > to_s) {
       return false;
     }
-    const std::optional<drivers::OdometrySample> odometry = source_.take_odometry();
+    std::optional<drivers::OdometrySample> odometry = source_.take_odometry();
+    if (odometry) {
+      odometry = calibrator_.apply(*odometry);
+    }
     const std::optional<LaserScan> scan = source_.take_scan();
     if (to_seconds(source_.now()) < from_s) {
       return true;
@@ -63,6 +68,7 @@ class Player {
 
   drivers::ReplaySource& source_;
   slam::PoseTracker& tracker_;
+  drivers::OdometryCalibrator calibrator_;
   std::vector<OnlinePose> poses_;
 };
 
@@ -121,7 +127,8 @@ Result<double> duration_of(const std::filesystem::path& log, const drivers::Repl
 }  // namespace
 
 Result<SlamRun> run_slam(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
-                         slam::PoseTracker& tracker, const SlamProgress& progress, const LogSpan& span) {
+                         slam::PoseTracker& tracker, const SlamProgress& progress, const LogSpan& span,
+                         const WheelCalibration& calibration) {
   constexpr std::uint64_t kProgressScans = 50;
   const Result<std::shared_ptr<drivers::ReplaySource>> source = drivers::ReplaySource::open(log, geometry);
   if (!source) {
@@ -134,7 +141,7 @@ Result<SlamRun> run_slam(const std::filesystem::path& log, const drivers::Replay
   }
   const double from_s = span.from > 0.0 ? span.from * *duration_s : 0.0;
   const double to_s = span.to * *duration_s;
-  Player player(**source, tracker);
+  Player player(**source, tracker, calibration);
   player.run.cost.memory_empty_mb = peak_memory_mb();
   const auto start = std::chrono::steady_clock::now();
   const double processor_start_s = process_seconds();

@@ -12,6 +12,7 @@
 #include "common/core/pose_estimate.hpp"
 #include "common/core/result.hpp"
 #include "common/core/scan.hpp"
+#include "common/core/wheel_calibration.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/lab/experiments/log_stopwatch.hpp"
 #include "server/lab/scoring/trajectory.hpp"
@@ -65,11 +66,11 @@ using SlamProgress = std::function<void(std::uint64_t scans, double time_s)>;
 
 /// Plays the log through the estimator, odometry before the scan it belongs to. The estimator is given odometry and
 /// scans only: poses that a log holds for scoring are not passed on by the replay driver, and records outside the span
-/// are never given to the estimator. Errors of ReplaySource::open(); kParse when the log, or this part of it, has no
-/// scan.
+/// are never given to the estimator. Odometry is corrected by `calibration` first. Errors of ReplaySource::open();
+/// kParse when the log, or this part of it, has no scan.
 [[nodiscard]] Result<SlamRun> run_slam(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
                                        slam::PoseTracker& tracker, const SlamProgress& progress = {},
-                                       const LogSpan& span = {});
+                                       const LogSpan& span = {}, const WheelCalibration& calibration = {});
 
 /// Number of scans and seconds with that quality; a scan lasts until the next one.
 struct QualityShare {

@@ -70,7 +70,7 @@ struct FakeDeck {
   FakeEstimator* estimator = new FakeEstimator;  ///< owned by the localiser
   Localiser localiser{params, nav::OccupancyParams{}, std::unique_ptr<Estimator>(estimator), diagnostics};
   SituationSource situation{world, sensing, localiser, neighbours, false};
-  MotionControl motion{params.safety, base, sensing, situation, world, diagnostics};
+  MotionControl motion{params.safety, params.odometry_calibration, base, sensing, situation, world, diagnostics};
   MissionExecutor executor{params.mission, &FakeDeck::stand_still, outputs()};
   MapCommands maps{{world, sensing, motion, localiser, neighbours, executor, diagnostics}, nullptr};
   MissionControl missions{params.map,

@@ -48,6 +48,16 @@ TEST_F(MotionControlTest, ARestartedComponentLeavesTheRobotDisarmed) {
   EXPECT_FALSE(motion.authority().armed());
 }
 
+TEST_F(MotionControlTest, ABaseWhoseWheelsAreLargerThanItReckonsIsToldToDriveSlower) {
+  MotionControl calibrated{params.safety, {.left_scale = 1.25, .right_scale = 1.25}, base, sensing, situation, world,
+                           diagnostics};
+  calibrated.authority().arm();
+  calibrated.act({0.1, 0.2});
+  ASSERT_FALSE(base->commanded.empty());
+  EXPECT_DOUBLE_EQ(base->commanded.back().v_m_s, 0.08);
+  EXPECT_DOUBLE_EQ(base->commanded.back().omega_rad_s, 0.16);
+}
+
 TEST_F(MotionControlTest, HaltStandsStillAndPowersOff) {
   motion.authority().arm();
   motion.act({0.1, 0.0});

@@ -115,5 +115,42 @@ TEST_F(SensingTest, OdometryGoesOnWhereTheBaseWasRestarted) {
   EXPECT_NEAR(sensing.odom_T_base().x_m, 2.5, 1e-12);
 }
 
+TEST_F(SensingTest, OdometryIsCalibratedForAllButTheOneWhoAsksForItAsMeasured) {
+  LoopParams with_calibration = params;
+  with_calibration.odometry_calibration = {.left_scale = 1.02, .right_scale = 1.02};
+  Sensing calibrated(with_calibration, devices(), world, diagnostics);
+  base->next = testing::odometry_at(clock->time, Pose2{1.0, 0.0, 0.0}, {0.2, 0.0});
+  calibrated.read();
+  base->next = testing::odometry_at(clock->time + milliseconds(100), Pose2{2.0, 0.0, 0.0}, {0.2, 0.0});
+  calibrated.read();
+  EXPECT_DOUBLE_EQ(calibrated.odom_T_base().x_m, 2.02);
+  EXPECT_DOUBLE_EQ(calibrated.velocity().v_m_s, 0.204);
+  EXPECT_DOUBLE_EQ(calibrated.history().at(clock->time + milliseconds(100))->odom_T_base.x_m, 2.02);
+  ASSERT_NE(calibrated.new_measured_odometry(), nullptr);
+  EXPECT_EQ(calibrated.new_measured_odometry()->odom_T_base.x_m, 2.0);
+}
+
+TEST_F(SensingTest, CalibratedOdometryGoesOnWhenTheBaseCountsFromZeroAgain) {
+  LoopParams with_calibration = params;
+  with_calibration.odometry_calibration = {.left_scale = 1.02, .right_scale = 1.02};
+  Sensing calibrated(with_calibration, devices(), world, diagnostics);
+  base->next = testing::odometry_at(clock->time, Pose2{});
+  calibrated.read();
+  base->next = testing::odometry_at(clock->time + milliseconds(100), Pose2{1.0, 0.0, 0.0});
+  calibrated.read();
+  calibrated.base_restarted();
+  base->next = testing::odometry_at(clock->time + milliseconds(200), Pose2{});
+  calibrated.read();
+  EXPECT_DOUBLE_EQ(calibrated.odom_T_base().x_m, 1.02);
+  EXPECT_DOUBLE_EQ(calibrated.new_measured_odometry()->odom_T_base.x_m, 1.0);
+}
+
+TEST_F(SensingTest, OdometryWithoutCalibrationIsTheVerySame) {
+  const drivers::OdometrySample sample = testing::odometry_at(clock->time, Pose2{0.1, 0.2, 0.3}, {0.2, 0.7});
+  base->next = sample;
+  sensing.read();
+  EXPECT_EQ(*sensing.odometry(), sample);
+}
+
 }  // namespace
 }  // namespace seeker::app
