@@ -29,7 +29,7 @@ void Localiser::give_odometry(const drivers::OdometrySample& sample) {
 void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbours, RobotTime now) {
   const drivers::OdometrySample* odometry = sensing.new_odometry();
   if (odometry != nullptr && odometry->discontinued) {
-    look_where_it_stood(now);
+    look_where_it_stood(odometry->odom_T_base, now);
   }
   const LaserScan* scan = sensing.motion_known() ? sensing.new_scan() : nullptr;
   const bool late = odometry != nullptr && scan != nullptr && scan->stamp < odometry->stamp;
@@ -98,8 +98,9 @@ std::optional<MapShift> Localiser::follow_map(const std::optional<Pose2>& old_ma
                   pose_.map_T_base * inverse(*old_map_T_base)};
 }
 
-void Localiser::look_where_it_stood(RobotTime now) {
-  const Status looking = map_.look_where_it_stood(pose_.map_T_base, now);
+void Localiser::look_where_it_stood(const Pose2& odom_T_base, RobotTime now) {
+  const Pose2 unseen = odom_T_base_at_pose_ ? inverse(*odom_T_base_at_pose_) * odom_T_base : Pose2{};
+  const Status looking = map_.look_where_it_stood(pose_.map_T_base * unseen, now);
   diagnostics_.log("moved-unseen",
                    looking ? "the base may have moved while it was not heard; the robot looks for its place in the map"
                            : "the base may have moved while it was not heard; the pose may be off by as much",

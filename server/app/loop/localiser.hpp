@@ -63,8 +63,8 @@ class Localiser {
  private:
   void give_readings(const Sensing& sensing, const Neighbours& neighbours, RobotTime now);
   void give_odometry(const drivers::OdometrySample& sample);
-  /// The base has moved, nobody knows how far: the robot is looked for near its last place.
-  void look_where_it_stood(RobotTime now);
+  /// The base has moved, nobody knows how far: the robot is looked for about where its driver supposes it to be.
+  void look_where_it_stood(const Pose2& odom_T_base, RobotTime now);
   [[nodiscard]] std::optional<MapShift> follow_map(const std::optional<Pose2>& old_map_T_base, RobotTime now);
 
   std::unique_ptr<Estimator> estimator_;

@@ -62,8 +62,8 @@ struct OdometrySample {
   bool motors_enabled = false;
   bool stalled = false;  ///< a wheel is blocked
   bool bumped = false;   ///< a bumper is pressed
-  /// The base may have moved unseen since the sample before, as when its line was cut: the poses of both say nothing of
-  /// how far it has come in between.
+  /// The base may have moved unseen since the sample before, as when its line was cut: how the pose goes on from there
+  /// is a guess, as near to every place where the base can be as the driver knows.
   bool discontinued = false;
 
   friend bool operator==(const OdometrySample&, const OdometrySample&) = default;

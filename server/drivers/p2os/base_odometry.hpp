@@ -31,6 +31,9 @@ class BaseOdometry {
   /// `stamp`: when the base composed the packet. False: the step was dropped.
   bool add(const p2os::Sip& sip, RobotTime stamp);
 
+  /// The base has made this motion, in its own frame, without a report.
+  void go_unseen(const Pose2& motion) { odom_T_base_ = odom_T_base_ * motion; }
+
   [[nodiscard]] const Pose2& odom_T_base() const { return odom_T_base_; }
   [[nodiscard]] const Twist2& velocity() const { return velocity_; }
   /// Steps that were dropped since the first connection.

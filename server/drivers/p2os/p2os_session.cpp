@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/core/assert.hpp"
+#include "server/drivers/p2os/unseen_motion.hpp"
 #include "server/protocols/p2os/command.hpp"
 #include "server/protocols/p2os/gyro_packet.hpp"
 #include "server/protocols/p2os/sip.hpp"
@@ -16,6 +17,8 @@ using p2os::CommandId;
 
 /// Time from one information packet to the next of a base that does not state it.
 constexpr Duration kSipCycle = std::chrono::milliseconds(100);
+/// Time without a command after which a base that does not state it halts.
+constexpr Duration kWatchdog = std::chrono::seconds(2);
 /// PULSE comes so often within the base's watchdog interval that two may be lost.
 constexpr int kPulsesPerWatchdog = 3;
 /// Start bit, data, stop bit.
@@ -24,6 +27,10 @@ constexpr double kBitsPerByte = 10.0;
 /// Without a stated cycle or watchdog the defaults stand.
 Duration sip_cycle(const std::optional<p2os::ConfigPacket>& config) {
   return config && config->sip_cycle_ms > 0 ? std::chrono::milliseconds(config->sip_cycle_ms) : kSipCycle;
+}
+
+Duration watchdog(const std::optional<p2os::ConfigPacket>& config) {
+  return config && config->watchdog_ms > 0 ? std::chrono::milliseconds(config->watchdog_ms) : kWatchdog;
 }
 
 Duration pulse_period(const P2osParams& params, const std::optional<p2os::ConfigPacket>& config) {
@@ -123,7 +130,7 @@ void P2osSession::on_identity(RobotTime now) {
 
 void P2osSession::begin_running(RobotTime now) {
   phase_ = Phase::kRunning;
-  moved_unseen_ = ++connects_ > 1;
+  unheard_since_ = ++connects_ > 1 ? std::optional(last_information_) : std::nullopt;
   handshake_.note_baud(setup_.baud());
   odometry_.connect(*model_, sip_cycle(setup_.config()));
   sonar_.connect(*model_);
@@ -140,7 +147,9 @@ void P2osSession::on_information(const p2os::Packet& packet, RobotTime now) {
     line_.count_bad_content();
     return;
   }
+  note_unseen_motion(now);
   last_information_ = now;
+  driving_ = motion_.commanded();
   last_stamp_ = std::max(last_stamp_, sent_at(packet, now));
   odometry_.add(*sip, last_stamp_);
   sonar_.add(*sip, last_stamp_);
@@ -150,6 +159,12 @@ void P2osSession::on_information(const p2os::Packet& packet, RobotTime now) {
     motion_.halt();
   }
   keep_sample(*sip, last_stamp_);
+}
+
+void P2osSession::note_unseen_motion(RobotTime now) {
+  if (unheard_since_) {
+    odometry_.go_unseen(halfway_unseen(driving_, now - *unheard_since_, watchdog(setup_.config()), setup_.limits()));
+  }
 }
 
 void P2osSession::on_gyro(const p2os::Packet& packet) {
@@ -178,7 +193,7 @@ void P2osSession::keep_sample(const p2os::Sip& sip, RobotTime stamp) {
   sample.motors_enabled = motors_.on();
   sample.stalled = condition_.stalled();
   sample.bumped = condition_.bumped();
-  sample.discontinued = std::exchange(moved_unseen_, false) || (sample_ && sample_->discontinued);
+  sample.discontinued = std::exchange(unheard_since_, std::nullopt).has_value() || (sample_ && sample_->discontinued);
   sample_ = sample;
 }
 

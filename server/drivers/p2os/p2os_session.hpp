@@ -53,6 +53,7 @@ class P2osSession final : public DeviceSession {
   void loop_alive(RobotTime now);
 
   /// The newest sample since the last call. Its pose goes on over connections.
+  /// After another connection it goes on where the base is most likely found (halfway_unseen()).
   [[nodiscard]] std::optional<OdometrySample> take_odometry();
   /// The ring with the newest reading of each transducer, if one is new since the last call.
   [[nodiscard]] std::optional<SonarScan> take_sonar() { return sonar_.take(); }
@@ -72,6 +73,7 @@ class P2osSession final : public DeviceSession {
   void on_identity(RobotTime now);
   void begin_running(RobotTime now);
   void on_information(const p2os::Packet& packet, RobotTime now);
+  void note_unseen_motion(RobotTime now);
   void on_gyro(const p2os::Packet& packet);
   void keep_sample(const p2os::Sip& sip, RobotTime stamp);
   /// When the base began to send what has arrived in full now.
@@ -94,11 +96,12 @@ class P2osSession final : public DeviceSession {
   std::optional<Error> failure_;
   const p2os::PioneerModel* model_ = nullptr;
   RobotTime last_information_;
+  Twist2 driving_;  ///< what was commanded when the last information came
   RobotTime last_pulse_ = RobotTime::min();
   Duration pulse_period_{0};
   RobotTime last_stamp_ = RobotTime::min();
   std::optional<OdometrySample> sample_;
-  bool moved_unseen_ = false;  ///< there was a connection before, and no sample since
+  std::optional<RobotTime> unheard_since_;  ///< there was a connection before, and no sample since
   std::uint64_t connects_ = 0;
 };
 

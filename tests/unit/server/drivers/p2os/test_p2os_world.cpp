@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,6 +77,24 @@ TEST_F(P2osWorldTest, AWallAtTheRearIsLeftForwards) {
   loop.drive({0.2, 0.0}, seconds(4));
   EXPECT_GT(robot.truth().world_T_base.x_m, -kSide_m / 2.0 + robot.model().radius_m + 0.2);
   EXPECT_FALSE(loop.session.base_fault());
+}
+
+TEST_F(P2osWorldTest, ABaseThatDroveOnUnheardIsLookedForHalfwayAlongItsArc) {
+  ASSERT_TRUE(loop.connect());
+  loop.pass(seconds(1));
+  loop.drive({0.35, 0.3}, seconds(3));
+  loop.cut = true;
+  const Pose2 cut_at = loop.bench.reading.odom_T_base;
+  loop.pass(seconds(4));
+  loop.wanted = {};
+  loop.cut = false;
+  ASSERT_TRUE(loop.connect());
+  loop.pass(seconds(1));
+  const Pose2 unseen = inverse(cut_at) * loop.bench.reading.odom_T_base;
+  const Pose2 error = inverse(loop.bench.reading.odom_T_base) * loop.newest.odom_T_base;
+  EXPECT_GT(unseen.translation().norm(), 0.7) << "two seconds and its braking";
+  EXPECT_LT(error.translation().norm(), 0.55 * unseen.translation().norm());
+  EXPECT_LT(std::abs(error.theta_rad), 0.6 * unseen.theta_rad);
 }
 
 }  // namespace
