@@ -168,7 +168,7 @@ TEXT
 delivered_file_works() {
   local config
   config=$(in_tree seekerd --config /etc/seeker/robot.yaml --print-config)
-  grep 'robot_id: robot-1' <<<"$config" && grep 'driver: sim' <<<"$config"
+  grep '^robot_id: "robot-1"' <<<"$config" && grep '^driver: "sim"' <<<"$config"
 }
 
 # Nothing is left but the state, and the user who owns it.
