@@ -7,6 +7,7 @@ set(SEEKER_ALONE
     common/wire/convert_stream.cpp
     server/app/state/journal.cpp
     server/app/robot/map_service.cpp
+    server/drivers/link/any_baud.cpp
     server/emulator/emulator_server.cpp
     server/explore/horizon_views.cpp server/explore/segment_sight.cpp server/explore/wall_faces.cpp
     server/explore/wall_follower.cpp

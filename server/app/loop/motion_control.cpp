@@ -49,6 +49,11 @@ void MotionControl::act(const Twist2& wanted) {
     return;
   }
   if (arm != motors_on_) {
+    // The base holds its velocity: one that misses the command to power off is to stand, too.
+    if (const Status ok = arm ? Status() : base_->set_velocity({}, world_.now()); !ok) {
+      refused(ok.error());
+      return;
+    }
     if (const Status ok = base_->set_motors(arm); !ok) {
       refused(ok.error());
       return;

@@ -46,6 +46,9 @@ class DeviceSession {
   /// The line was opened, for the first time or again: the handshake begins. What must outlive a lost line (the pose by
   /// odometry, the statistics) is kept.
   virtual void open(RobotTime now) = 0;
+  /// The line was lost: what was still to be sent would come too late. Until open() the session gets neither bytes nor
+  /// time.
+  virtual void line_lost() { static_cast<void>(take_actions()); }
   /// The device sent these bytes, any number of them, cut anywhere.
   virtual void receive(std::span<const std::uint8_t> bytes, RobotTime now) = 0;
   /// Time has passed: timers are served.

@@ -111,6 +111,7 @@ void DeviceThread::lose(const Error& why) {
     const std::lock_guard lock(mutex_);
     first = !lost_ || lost_->message != why.message;
     lost_ = why;
+    session_->line_lost();
   }
   line_.reset();
   actions_.clear();

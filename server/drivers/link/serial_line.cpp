@@ -3,6 +3,8 @@
 #include <sys/ioctl.h>
 #include <termios.h>
 
+#include "server/drivers/link/any_baud.hpp"
+
 namespace seeker::drivers {
 namespace {
 
@@ -73,6 +75,10 @@ Status SerialLine::set_baud(std::uint32_t baud) {
   ::tcdrain(stream().native_handle());
   error_code error;
   stream().set_option(asio::serial_port::baud_rate(baud), error);
+  if (error) {
+    // Asio knows the rates of POSIX only; 256000 of an RPLIDAR A3 is none of them.
+    error = set_any_baud(stream().native_handle(), baud);
+  }
   return error ? fail(Errc::kLinkLost, name() + " does not know " + std::to_string(baud) + " baud: " + error.message() +
                                            "; choose another rate")
                : Status();

@@ -230,6 +230,11 @@ void P2osSession::lose(Error why) {
   phase_ = Phase::kClosed;
 }
 
+void P2osSession::line_lost() {
+  static_cast<void>(line_.take_actions());
+  phase_ = Phase::kClosed;
+}
+
 void P2osSession::close(RobotTime /*now*/) {
   if (phase_ == Phase::kRunning) {
     const auto send = [&](CommandId id, int argument) { line_.write(p2os::encode_command(id, argument)); };
@@ -278,6 +283,12 @@ void P2osSession::set_velocity(const Twist2& velocity, RobotTime now) {
 
 void P2osSession::set_motors(bool enabled, RobotTime now) {
   motors_.want(enabled, now);
+  if (phase_ == Phase::kRunning && !enabled) {
+    // Before ENABLE, which may be lost on its way.
+    line_.write(p2os::encode_command(CommandId::kStop));
+    motion_.halt();
+    motion_.pass(now, condition_, line_);
+  }
   if (phase_ == Phase::kRunning) {
     motors_.pass(now, line_);
   }

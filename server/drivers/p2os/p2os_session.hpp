@@ -36,6 +36,8 @@ class P2osSession final : public DeviceSession {
   void pass(RobotTime now) override;
   [[nodiscard]] RobotTime wake() const override;
   [[nodiscard]] std::vector<LineAction> take_actions() override { return line_.take_actions(); }
+  /// Nothing more is sent, nor kept to be sent, until open().
+  void line_lost() override;
   /// Stops the base, switches its motors and sonar off, takes the line back to the rate at which the base was found,
   /// and closes the connection.
   void close(RobotTime now) override;
@@ -47,7 +49,7 @@ class P2osSession final : public DeviceSession {
   /// Holds a finite velocity within the limits of the base for command_timeout at most. It is dropped while there is no
   /// connection: nothing moves when a connection comes about.
   void set_velocity(const Twist2& velocity, RobotTime now);
-  /// Switches the motors on or off, also after each later connection.
+  /// Switches the motors on or off, also after each later connection. Before they go off the base is stopped.
   void set_motors(bool enabled, RobotTime now);
   /// The control loop runs: called whenever it reads, much more often than pulse_period.
   void loop_alive(RobotTime now);

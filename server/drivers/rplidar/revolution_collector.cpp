@@ -11,6 +11,10 @@ namespace {
 constexpr double kMaxBack_rad = deg_to_rad(15.0);
 /// Between samples that follow each other nothing was lost; slow devices with fast rotors turn a few degrees.
 constexpr double kMaxStep_rad = deg_to_rad(5.0);
+/// Two successive returns come from one surface if it is seen at less than this angle from its normal, or if their
+/// ranges differ by no more than they are in error.
+constexpr double kMaxIncidence_rad = deg_to_rad(70.0);
+constexpr double kRangeErrorShare = 0.02;
 /// A turn that took so much longer than the one before has a whole turn missing in it.
 constexpr double kTooLong = 1.5;
 
@@ -57,21 +61,51 @@ void RevolutionCollector::begin(const Moment& first) {
   first_ = first;
   last_ = first;
   seen_rad_ = std::min(first.turned_rad, kMaxStep_rad);
+  last_return_.reset();
   std::fill(cells_.begin(), cells_.end(), Cell{});
 }
 
 void RevolutionCollector::put(const rplidar::PolarSample& sample, double turned_rad) {
-  // Beam 0 looks back, just left of the seam, and the beams go counter-clockwise; so does a scanner that hangs.
-  const double along_rad = params_.upside_down ? turned_rad : kTwoPi - turned_rad;
-  const double place = along_rad / step_rad_;
-  const auto at = std::min(static_cast<std::size_t>(place), cells_.size() - 1);
-  const double off_centre_rad = std::abs(place - static_cast<double>(at) - 0.5) * step_rad_;
-  if (off_centre_rad >= cells_[at].off_centre_rad) {
-    return;
-  }
   const bool echo = static_cast<double>(sample.range_m) >= params_.range_min_m &&
                     static_cast<double>(sample.range_m) <= params_.range_max_m;
-  cells_[at] = {echo ? sample.range_m : kNoReturn, echo ? sample.quality : std::uint8_t{0}, off_centre_rad};
+  // Beam 0 looks back, just left of the seam, and the beams go counter-clockwise; so does a scanner that hangs.
+  const Seen seen{params_.upside_down ? turned_rad : kTwoPi - turned_rad, echo ? sample.range_m : kNoReturn,
+                  echo ? sample.quality : std::uint8_t{0}};
+  put_nearest(seen);
+  if (echo && last_return_) {
+    join(*last_return_, seen);
+  }
+  last_return_ = echo ? std::optional(seen) : std::nullopt;
+}
+
+void RevolutionCollector::put_nearest(const Seen& seen) {
+  const double place = seen.along_rad / step_rad_;
+  const auto at = std::min(static_cast<std::size_t>(place), cells_.size() - 1);
+  const double off_centre_rad = std::abs(place - static_cast<double>(at) - 0.5) * step_rad_;
+  if (off_centre_rad < cells_[at].off_centre_rad) {
+    cells_[at] = {seen.range_m, seen.quality, off_centre_rad};
+  }
+}
+
+void RevolutionCollector::join(const Seen& one, const Seen& other) {
+  const auto& [right, left] =
+      std::minmax(one, other, [](const Seen& a, const Seen& b) { return a.along_rad < b.along_rad; });
+  const double gap_rad = left.along_rad - right.along_rad;
+  const double nearer_m = std::min(right.range_m, left.range_m);
+  const double most_m = nearer_m * std::max(kRangeErrorShare, std::tan(kMaxIncidence_rad) * gap_rad);
+  if (gap_rad <= 0.0 || gap_rad > kMaxStep_rad || std::abs(left.range_m - right.range_m) > most_m) {
+    return;
+  }
+  const double first = std::ceil(right.along_rad / step_rad_ - 0.5);
+  const double last = std::floor(left.along_rad / step_rad_ - 0.5);
+  for (double beam = first; beam <= last; ++beam) {
+    const double from_right_rad = (beam + 0.5) * step_rad_ - right.along_rad;
+    // Where the ray meets the straight line through both returns.
+    const double range_m =
+        right.range_m * left.range_m * std::sin(gap_rad) /
+        (right.range_m * std::sin(from_right_rad) + left.range_m * std::sin(gap_rad - from_right_rad));
+    cells_[static_cast<std::size_t>(beam)] = {static_cast<float>(range_m), std::min(right.quality, left.quality), 0.0};
+  }
 }
 
 std::optional<LaserScan> RevolutionCollector::finish() {

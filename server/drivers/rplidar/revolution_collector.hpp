@@ -14,8 +14,9 @@
 namespace seeker::drivers {
 
 /// Puts samples onto an even grid of beams over the whole circle, counter-clockwise in the frame `laser`. A turn ends
-/// where the scanner looks straight back, so that the seam lies behind. Turns may have any number of samples; what was
-/// lost of one leaves beams without a return.
+/// where the scanner looks straight back, so that the seam lies behind. Turns may have any number of samples: a beam
+/// between two successive returns from one surface has the range of the straight line through both, another one that
+/// of the sample nearest to its middle. What was lost of a turn leaves beams without a return.
 class RevolutionCollector {
  public:
   /// `params` are valid.
@@ -39,7 +40,17 @@ class RevolutionCollector {
   };
 
   void begin(const Moment& first);
+  /// A sample on the grid.
+  struct Seen {
+    double along_rad = 0.0;  ///< from the first beam's edge, counter-clockwise
+    float range_m = kNoReturn;
+    std::uint8_t quality = 0;
+  };
+
   void put(const rplidar::PolarSample& sample, double turned_rad);
+  void put_nearest(const Seen& seen);
+  /// Fills the beams between two returns that follow each other.
+  void join(const Seen& one, const Seen& other);
   [[nodiscard]] std::optional<LaserScan> finish();
   [[nodiscard]] LaserScan to_scan() const;
 
@@ -48,7 +59,8 @@ class RevolutionCollector {
   std::vector<Cell> cells_;
   std::optional<Moment> first_;  ///< of this turn
   Moment last_;
-  double seen_rad_ = 0.0;  ///< how much of the turn was received
+  std::optional<Seen> last_return_;  ///< of the sample before
+  double seen_rad_ = 0.0;            ///< how much of the turn was received
   std::optional<Duration> usual_revolution_;
 };
 

@@ -17,6 +17,9 @@ using rplidar::ConfType;
 constexpr rplidar::Firmware kFirstWithConf{1, 24};
 /// From this series on an accessory board may switch the motor by request.
 constexpr unsigned kFirstSeriesWithBoard = 2;
+/// Of devices with a firmware before 1.17, which are not able to say it (protocols 3; the value of the maker's
+/// library).
+constexpr rplidar::SampleRate kFirstRate{476, 476};
 /// Start bit, eight data bits, stop bit.
 constexpr double kBitsPerByte = 10.0;
 /// Other times from sample to sample than these are damage.
@@ -45,10 +48,10 @@ void RplidarSession::unanswered(RobotTime now) {
   switch (step_) {
     case Step::kInfo: return try_next_baud(now);
     case Step::kHealth:
-    case Step::kSampleRate:
       return give_up(Errc::kLinkLost,
-                     "the RPLIDAR told what it is but not how it fares or how fast it measures; check "
-                     "its cable and that no other program uses the port");
+                     "the RPLIDAR told what it is but not how it fares; check its cable and that no other program uses "
+                     "the port");
+    case Step::kSampleRate: found_.rate = kFirstRate; return choose_motor(now);
     case Step::kAccBoard: return choose_mode(now);
     case Step::kTypicalMode:
     case Step::kModeAnswer:

@@ -25,6 +25,16 @@ TEST_F(MotionControlTest, AFaultThatForbidsMotionPowersTheMotorsOff) {
   EXPECT_FALSE(motion.safety_reason().empty());
 }
 
+TEST_F(MotionControlTest, ARobotThatMayNotMoveAnyMoreIsCommandedToStandBeforeItsMotorsArePoweredOff) {
+  motion.authority().arm();
+  motion.act({0.1, 0.0});
+  ASSERT_EQ(base->commanded.back(), (Twist2{0.1, 0.0}));
+  EXPECT_TRUE(motion.set_estop(true));
+  motion.act({0.1, 0.0});
+  EXPECT_FALSE(base->motors);
+  EXPECT_EQ(base->commanded.back(), Twist2{});
+}
+
 TEST_F(MotionControlTest, ABaseThatRefusesIsAFault) {
   motion.authority().arm();
   base->accepts = fail(Errc::kRefused, "not today");

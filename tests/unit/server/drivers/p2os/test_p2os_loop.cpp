@@ -116,6 +116,29 @@ TEST_F(P2osLoopTest, ACutLineIsNoticedWithinHalfASecondAndTheBaseComesBackHalfwa
   EXPECT_NEAR(loop.newest.odom_T_base.x_m - before_m, loop.bench.reading.odom_T_base.x_m - base_m, 0.003);
 }
 
+TEST_F(P2osLoopTest, NothingThatWasSaidWhileTheLineWasGoneIsSentWhenItIsThereAgain) {
+  connect();
+  loop.drive({0.3, 0.0}, seconds(1));
+  static_cast<void>(loop.session.take_actions());
+  loop.session.line_lost();
+  for (int tick = 0; tick < 100; ++tick) {
+    loop.bench.now += milliseconds(100);
+    loop.session.loop_alive(loop.bench.now);
+    loop.session.set_velocity({0.3, 0.0}, loop.bench.now);
+    loop.session.set_motors(tick % 2 == 0, loop.bench.now);
+  }
+  EXPECT_TRUE(loop.session.take_actions().empty());
+  loop.session.open(loop.bench.now);
+  loop.session.pass(loop.bench.now);
+  std::vector<std::uint8_t> first;
+  for (const LineAction& action : loop.session.take_actions()) {
+    if (const auto* write = std::get_if<WriteBytes>(&action); write != nullptr && first.empty()) {
+      first = write->bytes;
+    }
+  }
+  EXPECT_EQ(first, p2os::encode_command(p2os::CommandId::kPulse)) << "SYNC0 is written as command 0";
+}
+
 TEST_F(P2osLoopTest, ABaseWhosePowerWasCutIsConnectedAnew) {
   connect();
   loop.drive({0.3, 0.2}, seconds(3));

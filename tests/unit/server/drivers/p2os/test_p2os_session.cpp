@@ -245,6 +245,17 @@ TEST(P2osSession, MotorsAreCommandedUntilTheBaseShowsThem) {
   EXPECT_FALSE(talk.session.base_fault());
 }
 
+TEST(P2osSession, TheBaseIsStoppedBeforeItsMotorsAreSwitchedOff) {
+  Talk talk;
+  talk.connect();
+  talk.session.set_motors(true, talk.now);
+  talk.session.set_velocity({0.3, 0.2}, talk.now);
+  talk.heard();
+  talk.session.set_motors(false, talk.now);
+  EXPECT_THAT(talk.heard(), ElementsAre(command(CommandId::kStop), command(CommandId::kVel, 0),
+                                        command(CommandId::kRotVel, 0), command(CommandId::kEnable, 0)));
+}
+
 TEST(P2osSession, MotorsThatAreSwitchedOffAtTheBaseStayOffAndAreReported) {
   Talk talk;
   talk.connect();

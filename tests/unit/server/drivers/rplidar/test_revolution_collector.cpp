@@ -1,6 +1,8 @@
 #include "server/drivers/rplidar/revolution_collector.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +80,46 @@ TEST(RevolutionCollector, AScannerThatHangsTurnsTheOtherWay) {
   for (std::size_t i = 0; i < 360; ++i) {
     const double ccw_deg = std::fmod(360.0 + rad_to_deg(scans[0].angle_rad(i)), 360.0);
     EXPECT_NEAR(scans[0].ranges_m[i], 1.0 + ccw_deg / 360.0, 0.3 / 360.0) << "beam " << i;
+  }
+}
+
+/// Samples of a wall 2 m ahead, as a scanner sees it that measures every `step_deg`, the first at `first_deg`.
+LaserScan scan_of_wall(double beam_deg, double step_deg, double first_deg) {
+  RevolutionCollector collector(params_of(beam_deg));
+  std::optional<LaserScan> scan;
+  for (int k = 0; !scan; ++k) {
+    const double cw_deg = first_deg + k * step_deg;
+    const double cosine = std::cos(deg_to_rad(cw_deg));
+    const auto range_m = static_cast<float>(cosine > 0.5 ? 2.0 / cosine : 0.0);
+    scan = collector.add({deg_to_rad(std::fmod(cw_deg, 360.0)), range_m, 40}, robot_time_s(k * kSamplePeriod_s));
+  }
+  return *scan;
+}
+
+TEST(RevolutionCollector, GivesTheRangeInTheMiddleOfABeamWhereverTheSamplesLie) {
+  for (const double step_deg : {0.4, 0.9, 1.0, 1.7, 3.6}) {
+    for (const double off_deg : {0.0, 0.5, 0.99}) {
+      const LaserScan scan = scan_of_wall(1.0, step_deg, 180.0 + off_deg * step_deg);
+      for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+        const double angle_rad = scan.angle_rad(i);
+        if (std::abs(angle_rad) < deg_to_rad(50.0)) {
+          EXPECT_NEAR(scan.ranges_m[i], 2.0 / std::cos(angle_rad), 2e-3) << "beam " << i << ", step " << step_deg;
+        }
+      }
+    }
+  }
+}
+
+TEST(RevolutionCollector, PutsNothingBetweenTwoSurfaces) {
+  RevolutionCollector collector(params_of(0.25));
+  std::optional<LaserScan> scan;
+  for (double cw_deg = 180.0; !scan; cw_deg += 1.0) {
+    const float range_m = std::fmod(cw_deg, 360.0) < 90.0 ? 2.0F : 3.0F;
+    scan = collector.add({deg_to_rad(std::fmod(cw_deg, 360.0)), range_m, 40}, robot_time_s(cw_deg * kSamplePeriod_s));
+  }
+  for (const float range_m : scan->ranges_m) {
+    EXPECT_TRUE(range_m == kNoReturn || std::abs(range_m - 2.0F) < 1e-3F || std::abs(range_m - 3.0F) < 1e-3F)
+        << range_m;
   }
 }
 

@@ -212,6 +212,19 @@ TEST(RplidarSession, FallsBackToSingleSamplesWhereCapsulesAreNotKnown) {
   EXPECT_EQ(desk.next_timer(), request(Command::kScan));
 }
 
+TEST(RplidarSession, ADeviceThatCannotSayHowFastItMeasuresIsTakenForOneOfTheFirst) {
+  Desk desk;
+  desk.next_timer();
+  desk.answer(rplidar::encode(kA1));
+  EXPECT_EQ(desk.answer(rplidar::encode(rplidar::Health{})), request(Command::kGetSampleRate));
+  Bytes sent = desk.next_timer();
+  for (int again = 0; again < 5 && sent == request(Command::kGetSampleRate); ++again) {
+    sent = desk.next_timer();
+  }
+  EXPECT_EQ(sent, rplidar::encode(rplidar::express_scan(0)));
+  EXPECT_EQ(desk.session.state().error().code, Errc::kNotReady);
+}
+
 TEST(RplidarSession, ARotorThatDoesNotTurnIsReportedInTheEnd) {
   RplidarParams params;
   params.restarts = 1;
