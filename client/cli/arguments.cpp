@@ -93,13 +93,16 @@ Result<Duration> parse_duration(const std::string& text) {
   return fail(Errc::kInvalidArgument, "'" + text + "' is no duration; write 300s, 5min, 1h or 200ms");
 }
 
-api::LinkPolicy parse_link_policy(const std::string& name) {
-  for (const auto policy : {api::LinkPolicy::kFinishStep, api::LinkPolicy::kContinue, api::LinkPolicy::kReturn}) {
-    if (name == to_string(policy)) {
-      return policy;
+Result<LinkChoice> parse_link_policy(const std::string& text) {
+  for (const auto policy :
+       {api::LinkPolicy::kStop, api::LinkPolicy::kFinishStep, api::LinkPolicy::kContinue, api::LinkPolicy::kReturn}) {
+    if (text == to_string(policy)) {
+      return LinkChoice{policy, {}};
     }
   }
-  return api::LinkPolicy::kStop;
+  Result<api::LinkSteps> steps = api::parse_link_steps(text);
+  return steps ? Result<LinkChoice>(LinkChoice{api::LinkPolicy::kStop, std::move(*steps)})
+               : tl::unexpected<Error>(steps.error());
 }
 
 api::OnFound parse_on_found(const std::string& name) {

@@ -15,6 +15,7 @@ namespace seeker::cli {
 
 struct GlobalOptions {
   std::string robot = "127.0.0.1:7471";
+  std::string client_name;  ///< given to the robot; empty: of program, host and process
   bool json = false;
   bool quiet = false;
   bool verbose = false;
@@ -84,6 +85,12 @@ struct DriveVerb {
   std::optional<double> omega_rad_s;
   double for_s = 1.0;
   bool take_over = false;
+};
+enum class LeaseVerbAction : std::uint8_t { kShow, kAcquire, kRequest, kTakeOver, kGrant, kDeny, kRelease };
+struct LeaseVerb {
+  LeaseVerbAction action = LeaseVerbAction::kShow;
+  bool yes = false;             ///< a person wants to take it over
+  std::optional<double> for_s;  ///< time to hold it; absent: until Ctrl-C
 };
 struct StopVerb {};
 struct EstopVerb {
@@ -194,12 +201,12 @@ struct CompletionVerb {
 struct VersionVerb {};
 
 using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb,
-                          RecogniseVerb, DriveVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb,
-                          MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb,
-                          MapUploadVerb, RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb,
-                          LandmarksRevertVerb, LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb,
-                          FleetMapVerb, GridVerb, TopologyVerb, DetectionsVerb, LinesVerb, CameraGrabVerb,
-                          ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+                          RecogniseVerb, DriveVerb, LeaseVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb,
+                          MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb,
+                          MapDownloadVerb, MapUploadVerb, RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb,
+                          LandmarksPruneVerb, LandmarksRevertVerb, LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb,
+                          FleetSplitVerb, FleetMapVerb, GridVerb, TopologyVerb, DetectionsVerb, LinesVerb,
+                          CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

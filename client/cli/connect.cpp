@@ -72,7 +72,7 @@ Result<Connection> connect_robot(const ConnectRequest& request) {
   }
   auto watch = std::make_shared<LinkWatch>();
   rpc::ClientParams params;
-  params.client_name = client_name();
+  params.client_name = request.client_name.empty() ? client_name() : request.client_name;
   params.reconnect.enabled = request.reconnect;
   params.on_link = [watch](const rpc::LinkEvent& event) { watch->note(event); };
   if (request.timeout) {

@@ -16,7 +16,6 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr double kSpeed_m_s = 0.3;
 constexpr double kTurn_rad_s = 0.6;
-constexpr Duration kCommandLife = std::chrono::milliseconds(300);
 constexpr Duration kTick = std::chrono::milliseconds(50);
 /// A held key repeats; a terminal waits this long before it does.
 constexpr Duration kFirstRepeat = std::chrono::milliseconds(550);
@@ -121,7 +120,7 @@ Key read_key(Duration wait) {
 
 }  // namespace
 
-Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch) {
+Status drive_by_keyboard(const Context& context, HeldLease& lease) {
   if (::isatty(STDIN_FILENO) == 0) {
     return fail(Errc::kInvalidArgument,
                 "driving by keyboard needs a terminal; give a velocity, as in seeker drive 0.2 0");
@@ -148,9 +147,8 @@ Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch) {
     Context calm = context;
     calm.interrupted = [] { return false; };
     const Twist2 velocity = quit ? Twist2{} : velocity_of(held);
-    const Status sent = ask<void>(calm, [&](api::Reply<void> reply) {
-      context.robot->drive({velocity, kCommandLife, lease_epoch}, std::move(reply));
-    });
+    const Status sent = ask<void>(
+        calm, [&](api::Reply<void> reply) { context.robot->drive(lease.command(velocity), std::move(reply)); });
     if (sent && interrupted) {
       return fail(Errc::kCancelled, "interrupted; the robot was commanded to stop");
     }

@@ -62,12 +62,14 @@ Result<MissionRun> MissionRun::start(const Context& context, const api::MissionR
   }
   run.stream_ = std::move(*stream);
   run.started_ = SteadyClock::now();
-  const Result<api::MissionId> id = ask<api::MissionId>(
-      context, [&](api::Reply<api::MissionId> reply) { context.robot->start_mission(request, std::move(reply)); });
-  if (!id) {
-    return tl::unexpected<Error>(id.error());
+  Result<api::MissionAccepted> accepted = ask<api::MissionAccepted>(
+      context,
+      [&](api::Reply<api::MissionAccepted> reply) { context.robot->start_mission(request, std::move(reply)); });
+  if (!accepted) {
+    return tl::unexpected<Error>(accepted.error());
   }
-  run.report_.status.id = *id;
+  run.report_.status.id = accepted->id;
+  run.link_steps_ = std::move(accepted->link_steps);
   return run;
 }
 
@@ -165,8 +167,7 @@ Status MissionRun::poll(const Context& context) {
 
 Error MissionRun::stop_because(const Context& context, Error why) const {
   if (why.code == Errc::kLinkLost) {
-    why.message +=
-        "; the robot follows the mission's link policy '" + std::string(to_string(request_.link_policy)) + "'";
+    why.message += "; the robot follows the mission's link policy: " + text_of(link_steps_, request_.link_policy);
     return why;
   }
   say(context, "asking the robot to stop mission '" + report_.status.id + "'");

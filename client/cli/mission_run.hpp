@@ -32,6 +32,8 @@ class MissionRun {
   /// Starts a mission. Errors: the refusal of the robot, kTimeout, kLinkLost.
   [[nodiscard]] static Result<MissionRun> start(const Context& context, const api::MissionRequest& request);
 
+  /// The link policy that applies, as the robot says; empty by robots of older software.
+  [[nodiscard]] const api::LinkSteps& link_steps() const { return link_steps_; }
   /// Wall time since the start.
   [[nodiscard]] Duration elapsed() const { return std::chrono::steady_clock::now() - started_; }
 
@@ -50,6 +52,7 @@ class MissionRun {
   void show_decision(const Context& context);
 
   api::MissionRequest request_;
+  api::LinkSteps link_steps_;
   Stream stream_;
   std::chrono::steady_clock::time_point started_;
   MissionReport report_;

@@ -9,6 +9,7 @@
 #include "client/cli/command_line.hpp"
 #include "client/cli/names.hpp"
 #include "client/cli/parser_errors.hpp"
+#include "client/cli/targets.hpp"
 #include "common/config/number_text.hpp"
 
 namespace seeker::cli {
@@ -42,6 +43,9 @@ void add_globals(Parse& parse) {
   app.add_option("--robot", global.robot, "Robot to talk to, HOST[:PORT]")
       ->envname("SEEKER_ROBOT")
       ->capture_default_str();
+  app.add_option("--as", global.client_name,
+                 "Name of this client for the robot, which names the owner of the lease by it (default: made up)")
+      ->envname("SEEKER_CLIENT");
   app.add_flag("--json", global.json, "Print data as JSON");
   app.add_option("--timeout", global.timeout_s,
                  "Longest wall time in s: for an answer (default 5), or for the whole of a mission, watch and run")
@@ -56,13 +60,24 @@ void add_globals(Parse& parse) {
       "Example:\n  seeker --robot 10.0.0.5 search --target poster-a");
 }
 
+/// The short form, which completion offers, or a list.
+CLI::Validator is_link_policy() {
+  return {[](const std::string& text) {
+            const Result<LinkChoice> choice = parse_link_policy(text);
+            return choice ? std::string() : choice.error().message;
+          },
+          "{stop,finish-step,continue,return}"};
+}
+
 /// What every mission has; the option --detach.
 template <class Verb>
 CLI::Option* add_mission_options(CLI::App& sub, Verb& verb) {
   sub.add_option("--time-limit", verb.time_limit_s, "Longest robot time, s")
       ->check(config::number_above_zero, "above 0");
-  sub.add_option("--link-policy", verb.link_policy, "What the robot does when this client is gone")
-      ->check(CLI::IsMember({"stop", "finish-step", "continue", "return"}))
+  sub.add_option("--link-policy", verb.link_policy,
+                 "What the robot does when this client is gone, or a list by seconds of silence, as in "
+                 "2:event,5:pause,30:return")
+      ->check(is_link_policy())
       ->capture_default_str();
   sub.add_option("--id", verb.id, "Id of the mission, [a-z0-9-]; else one is made up");
   return sub.add_flag("--detach", verb.detach, "Print the mission's id and return; the mission goes on");
@@ -259,6 +274,37 @@ void add_fleet(Parse& parse) {
       ->check(CLI::IsMember({"png", "svg", "pgm"}));
 }
 
+/// One action on the lease; its options write to the struct of the whole verb.
+CLI::App* add_lease_action(CLI::App& lease, LeaseVerb& verb, LeaseVerbAction action, const std::string& name,
+                           const std::string& description) {
+  CLI::App* sub = lease.add_subcommand(name, description);
+  sub->fallthrough();
+  sub->footer("Example:\n  seeker --as anna lease " + name);
+  sub->callback([&verb, action] { verb.action = action; });
+  return sub;
+}
+
+void add_lease(Parse& parse) {
+  auto [lease, l] = add_verb<LeaseVerb>(parse, parse.app, "lease",
+                                        "Who holds the lease, the right to drive by hand; hold it, ask for it, answer",
+                                        "seeker lease\n  seeker --as anna lease acquire");
+  lease->require_subcommand(0, 1);
+  using Action = LeaseVerbAction;
+  CLI::App* acquire = add_lease_action(*lease, *l, Action::kAcquire, "acquire",
+                                       "Hold the lease until Ctrl-C, so that nobody else has the robot move");
+  CLI::App* request = add_lease_action(*lease, *l, Action::kRequest, "request",
+                                       "Ask the owner for the lease, and hold it until Ctrl-C when it is granted");
+  CLI::App* take_over = add_lease_action(*lease, *l, Action::kTakeOver, "take-over",
+                                         "Take the lease from its owner, and hold it until Ctrl-C");
+  take_over->add_flag("--yes", l->yes, "Really: its owner loses it at once");
+  for (CLI::App* holds : {acquire, request, take_over}) {
+    holds->add_option("--for", l->for_s, "Seconds to hold it")->check(config::number_above_zero, "above 0");
+  }
+  add_lease_action(*lease, *l, Action::kGrant, "grant", "As its owner: give the lease to the client that asks for it");
+  add_lease_action(*lease, *l, Action::kDeny, "deny", "As its owner: keep the lease");
+  add_lease_action(*lease, *l, Action::kRelease, "release", "As its owner: give the lease back");
+}
+
 void add_motion(Parse& parse) {
   auto [drive, d] = add_verb<DriveVerb>(
       parse, parse.app, "drive", "Drive by hand: a velocity for some seconds, or the keyboard while a key is held",
@@ -272,6 +318,7 @@ void add_motion(Parse& parse) {
       ->check(config::finite_number)
       ->capture_default_str();
   drive->add_flag("--take-over", d->take_over, "Take the lease from its present owner");
+  add_lease(parse);
   add_verb<StopVerb>(parse, parse.app, "stop", "End mission and motion", "seeker stop");
   auto [estop, e] = add_verb<EstopVerb>(parse, parse.app, "estop", "Emergency stop: latches until it is released",
                                         "seeker estop\n  seeker estop --release");

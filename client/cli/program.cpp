@@ -31,6 +31,7 @@ class Dispatch {
       context_.timeout = seconds(*global.timeout_s);
     }
     robot_ = global.robot;
+    client_name_ = global.client_name;
   }
 
   [[nodiscard]] const Context& context() const { return context_; }
@@ -49,6 +50,9 @@ class Dispatch {
   VerbResult operator()(const RecogniseVerb& verb) { return with_mission(verb, recognise); }
   VerbResult operator()(const DriveVerb& verb) {
     return with_robot([&] { return drive(context_, verb); });
+  }
+  VerbResult operator()(const LeaseVerb& verb) {
+    return with_robot([&] { return lease(context_, verb); }, true);
   }
   VerbResult operator()(const StopVerb&) {
     return with_robot([&] { return stop(context_); });
@@ -174,7 +178,7 @@ class Dispatch {
   VerbResult with_robot(Run run, bool reconnect = false) {
     // A long verb's --timeout is for its whole; connecting has the usual time then.
     Result<Connection> connection =
-        connect_({robot_, reconnect ? std::optional<Duration>() : context_.timeout, reconnect});
+        connect_({robot_, reconnect ? std::optional<Duration>() : context_.timeout, reconnect, client_name_});
     if (!connection) {
       return tl::unexpected<Error>(connection.error());
     }
@@ -187,6 +191,7 @@ class Dispatch {
   const Connector& connect_;
   Context context_;
   std::string robot_;
+  std::string client_name_;
 };
 
 ExitCode report(const Context& context, const Error& error) {

@@ -25,6 +25,7 @@ struct ConnectRequest {
   std::string robot;                ///< HOST[:PORT]
   std::optional<Duration> timeout;  ///< wall time for the connection
   bool reconnect = false;           ///< true: a broken connection is made again, for verbs that run long
+  std::string client_name = {};     ///< empty: of program, host and process
 };
 using Connector = std::function<Result<Connection>(const ConnectRequest&)>;
 

@@ -11,11 +11,6 @@ namespace {
 const config::Choices<api::SearchMode> kModes{{"paper", api::SearchMode::kPaper}, {"plan", api::SearchMode::kPlan}};
 const config::Choices<api::OnFound> kOnFound{
     {"stop", api::OnFound::kStop}, {"approach", api::OnFound::kApproach}, {"continue", api::OnFound::kContinue}};
-const config::Choices<api::LinkPolicy> kPolicies{{"stop", api::LinkPolicy::kStop},
-                                                 {"finish-step", api::LinkPolicy::kFinishStep},
-                                                 {"continue", api::LinkPolicy::kContinue},
-                                                 {"return", api::LinkPolicy::kReturn}};
-
 const config::Choices<api::ExploreStrategy> kStrategies = config::choices_of(api::kExploreStrategies);
 
 /// Outcomes and error codes as they may stand in an expectation.
@@ -96,10 +91,26 @@ void areas(config::Fields& f, std::vector<Polygon>& keep_out) {
   }
 }
 
+/// "return", or "2:event,5:pause,30:return".
+void link_policy(config::Fields& f, Step& step) {
+  constexpr std::string_view kKey = "link_policy";
+  std::string text;
+  f.field(kKey, text);
+  if (!f.has(kKey)) {
+    return;
+  }
+  const Result<LinkChoice> parsed = parse_link_policy(text);
+  f.check(kKey, parsed.has_value(), parsed ? "" : parsed.error().message);
+  if (parsed) {
+    step.link_policy = parsed->policy;
+    step.link_steps = parsed->steps;
+  }
+}
+
 /// What all missions of a script share.
 void describe_mission(config::Fields& f, Step& step) {
   f.field("background", step.background);
-  f.choice("link_policy", step.link_policy, kPolicies);
+  link_policy(f, step);
   duration(f, "time_limit", step.time_limit);
 }
 
@@ -266,6 +277,7 @@ void action(config::Fields& f, std::string_view key, Step& step, int& count, Tak
 void keep_mission(Step& step, const Step& read) {
   step.background = read.background;
   step.link_policy = read.link_policy;
+  step.link_steps = read.link_steps;
   step.time_limit = read.time_limit;
 }
 

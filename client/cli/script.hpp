@@ -96,6 +96,7 @@ struct Step {
   StepAction action;
   bool background = false;  ///< true, for a mission: the next step begins while it runs
   api::LinkPolicy link_policy = api::LinkPolicy::kStop;
+  api::LinkSteps link_steps;  ///< empty: link_policy
   std::optional<Duration> time_limit;
   Expectation expect;
 };

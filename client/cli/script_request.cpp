@@ -41,6 +41,7 @@ Result<api::MissionRequest> make_request(const Step& step, const fs::path& scrip
   api::MissionRequest request;
   request.id = make_mission_id(step.kind);
   request.link_policy = step.link_policy;
+  request.link_steps = step.link_steps;
   request.time_limit = step.time_limit;
   if (const auto* search = std::get_if<SearchStep>(&step.action)) {
     Result<std::vector<api::TargetSpec>> targets = targets_of(*search, script_folder, target_folders);

@@ -41,7 +41,13 @@ struct TargetDefaults {
 /// Reads "300s", "2.5min", "1h", "200ms" or a plain number of seconds; above 0 and at most 30 days.
 [[nodiscard]] Result<Duration> parse_duration(const std::string& text);
 
-[[nodiscard]] api::LinkPolicy parse_link_policy(const std::string& name);
+/// A link policy: its short form, or a list.
+struct LinkChoice {
+  api::LinkPolicy policy = api::LinkPolicy::kStop;
+  api::LinkSteps steps;  ///< empty: the short form
+};
+/// "return", or "2:event,5:pause,30:return".
+[[nodiscard]] Result<LinkChoice> parse_link_policy(const std::string& text);
 [[nodiscard]] api::OnFound parse_on_found(const std::string& name);
 [[nodiscard]] api::SearchMode parse_search_mode(const std::string& name);
 [[nodiscard]] api::ExploreStrategy parse_explore_strategy(const std::string& name);

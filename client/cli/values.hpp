@@ -21,6 +21,12 @@ namespace seeker::cli {
 /// A detection in one line: name, position with sigma, bearing, score, range source, sightings.
 [[nodiscard]] std::string text_of(const api::Detection& detection);
 [[nodiscard]] std::string text_of(const api::CoverageSummary& coverage);
+/// Who holds the lease and who asks for it, in one line.
+[[nodiscard]] std::string text_of(const api::LeaseState& lease);
+/// "event after 2 s, return after 30 s"; the short form where a robot of older software says no more.
+[[nodiscard]] std::string text_of(const api::LinkSteps& steps, api::LinkPolicy short_form);
+/// "silent for 3 s, return in 27 s".
+[[nodiscard]] std::string text_of(const api::LinkCountdown& countdown);
 /// The gaps of a search as marks of a picture.
 [[nodiscard]] std::vector<image::GapMark> marks_of(const std::vector<api::Gap>& gaps);
 /// The gaps of a search, one line each, numbered as in a picture (image::listed_gaps).

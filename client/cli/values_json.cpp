@@ -160,6 +160,7 @@ void to_json(Json& json, const MissionStatus& mission) {
           {"cells_searched", mission.cells_searched},
           {"cells_unsearched", mission.cells_unsearched},
           {"link_policy", to_string(mission.link_policy)},
+          {"link_steps", mission.link_steps},
           {"coverage", or_null(mission.coverage)},
           {"end", or_null(mission.end)},
           {"decision", or_null(mission.decision)}};
@@ -211,6 +212,7 @@ void to_json(Json& json, const RobotStatus& status) {
           {"estop", status.estop},
           {"motors_armed", status.motors_armed},
           {"lease_owner", status.lease.owner},
+          {"lease", status.lease},
           {"safety", status.safety},
           {"clock_speed", status.clock_speed},
           {"map_revision", status.map_revision},
@@ -218,6 +220,7 @@ void to_json(Json& json, const RobotStatus& status) {
           {"timing", timing_of(status)},
           {"mission", or_null(status.mission)},
           {"cut_off", cut_off_of(status)},
+          {"link_countdown", or_null(status.link_countdown)},
           {"faults", status.faults}};
 }
 

@@ -24,7 +24,8 @@ struct Describe {
   std::string operator()(const api::RobotStatus& s) const {
     return place_text(s.pose) + " " + std::string(to_string(s.pose.quality)) + fixed("  %.2f m/s", s.velocity.v_m_s) +
            (s.estop ? "  ESTOP" : "") + (s.faults.empty() ? "" : "  fault: " + s.faults.front().message) +
-           (s.mission && !s.mission->end ? "  " + text_of_mission(*s.mission) : "");
+           (s.mission && !s.mission->end ? "  " + text_of_mission(*s.mission) : "") +
+           (s.link_countdown ? "  its client is " + text_of(*s.link_countdown) : "");
   }
   std::string operator()(const LaserScan& scan) const {
     const auto returns =
@@ -168,6 +169,33 @@ std::string text_of(const api::Update& update) {
   name.resize(kColumn, ' ');
   return fixed("%9.2f s  ", to_seconds(update.stamp)) + name + std::visit(Describe{}, update.payload) +
          (update.dropped > 0 ? " (" + std::to_string(update.dropped) + " left out)" : "");
+}
+
+std::string text_of(const api::LeaseState& lease) {
+  if (lease.owner.empty()) {
+    return "nobody";
+  }
+  std::string text = lease.owner + (lease.stale ? ", not heard: others may acquire it" : "");
+  if (!lease.requested_by.empty()) {
+    text += "; '" + lease.requested_by + "' asks for it, " + fixed("%.0f s to answer", to_seconds(lease.request_left));
+  }
+  return text;
+}
+
+std::string text_of(const api::LinkSteps& steps, api::LinkPolicy short_form) {
+  std::string text;
+  for (const api::LinkStep& step : steps) {
+    text += (text.empty() ? "" : ", ") + std::string(to_string(step.action)) +
+            fixed(" after %.4g s", to_seconds(step.after));
+  }
+  return text.empty() ? std::string(to_string(short_form)) : text;
+}
+
+std::string text_of(const api::LinkCountdown& countdown) {
+  return fixed("silent for %.0f s", to_seconds(countdown.silent)) +
+         (countdown.next
+              ? ", " + std::string(to_string(countdown.next->action)) + fixed(" in %.0f s", to_seconds(countdown.left))
+              : "");
 }
 
 }  // namespace seeker::cli

@@ -8,6 +8,7 @@
 
 #include "client/cli/command_line.hpp"
 #include "client/cli/context.hpp"
+#include "client/cli/held_lease.hpp"
 #include "client/cli/mission_run.hpp"
 #include "common/api/fleet.hpp"
 
@@ -59,6 +60,8 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult stop(const Context& context);
 [[nodiscard]] VerbResult estop(const Context& context, const EstopVerb& verb);
 [[nodiscard]] VerbResult command_mission(const Context& context, api::MissionCommand command);
+/// Shows who holds the lease, answers a request for it, or holds it until Ctrl-C.
+[[nodiscard]] VerbResult lease(const Context& context, const LeaseVerb& verb);
 /// Sends velocity commands that are valid for 300 ms every 100 ms, under a lease that it acquires and releases. Without
 /// a velocity on the command line the keyboard gives it.
 [[nodiscard]] VerbResult drive(const Context& context, const DriveVerb& verb);
@@ -67,7 +70,7 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] Result<std::string> drive_for(const Context& context, const Twist2& velocity, Duration duration,
                                             bool take_over);
 /// Drives while a key is held (drive_keyboard.cpp); needs a terminal on stdin.
-[[nodiscard]] Status drive_by_keyboard(const Context& context, std::uint64_t lease_epoch);
+[[nodiscard]] Status drive_by_keyboard(const Context& context, HeldLease& lease);
 
 [[nodiscard]] VerbResult search(const Context& context, const api::MissionRequest& request, const SearchVerb& verb);
 [[nodiscard]] VerbResult explore(const Context& context, const api::MissionRequest& request, const ExploreVerb& verb);

@@ -86,11 +86,13 @@ VerbResult run_mission(const Context& context, const api::MissionRequest& reques
     return tl::unexpected<Error>(run.error());
   }
   if (detach) {
-    *context.out << (context.json ? json_line(Json{{"mission", request.id}}) : request.id) << '\n';
+    *context.out << (context.json ? json_line(Json{{"mission", request.id}, {"link_steps", run->link_steps()}})
+                                  : request.id)
+                 << '\n';
     return ExitCode::kOk;
   }
-  say(context, "mission " + request.id +
-                   " started; if this client is lost the robot does: " + std::string(to_string(request.link_policy)));
+  say(context, "mission " + request.id + " started; if this client is lost the robot does: " +
+                   text_of(run->link_steps(), request.link_policy));
   FollowOptions options;
   options.wall = context.timeout;
   options.decisions = true;
@@ -117,7 +119,10 @@ VerbResult run_mission(const Context& context, const api::MissionRequest& reques
 api::MissionRequest begin_request(const MissionOptions& options, const std::string& kind) {
   api::MissionRequest request;
   request.id = options.id.empty() ? make_mission_id(kind) : options.id;
-  request.link_policy = parse_link_policy(options.link_policy);
+  // The parser has refused what is none.
+  const LinkChoice link = parse_link_policy(options.link_policy).value_or(LinkChoice{});
+  request.link_policy = link.policy;
+  request.link_steps = link.steps;
   if (options.time_limit_s) {
     request.time_limit = seconds(*options.time_limit_s);
   }

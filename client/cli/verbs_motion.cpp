@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "client/cli/held_lease.hpp"
 #include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 
@@ -7,7 +8,6 @@ namespace seeker::cli {
 namespace {
 
 constexpr Duration kCommandPeriod = std::chrono::milliseconds(100);
-constexpr Duration kCommandLife = std::chrono::milliseconds(300);
 
 /// {"ok":true} or a sentence.
 ExitCode done(const Context& context, std::string_view sentence) {
@@ -26,43 +26,13 @@ VerbResult finish(const Context& context, const Status& status, std::string_view
   return done(context, sentence);
 }
 
-/// The lease while it lives; given back at the end, also after Ctrl-C.
-class Lease {
- public:
-  static Result<std::unique_ptr<Lease>> acquire(const Context& context, bool take_over) {
-    const auto action = take_over ? api::LeaseAction::kTakeOver : api::LeaseAction::kAcquire;
-    const Result<api::LeaseState> state = ask<api::LeaseState>(
-        context, [&](api::Reply<api::LeaseState> reply) { context.robot->command_lease(action, std::move(reply)); });
-    if (!state) {
-      return tl::unexpected<Error>(state.error());
-    }
-    return std::unique_ptr<Lease>(new Lease(context, state->epoch));
-  }
-  Lease(const Lease&) = delete;
-  Lease& operator=(const Lease&) = delete;
-  ~Lease() {
-    Context calm = context_;
-    calm.interrupted = [] { return false; };
-    const Result<api::LeaseState> released = ask<api::LeaseState>(calm, [&](api::Reply<api::LeaseState> reply) {
-      calm.robot->command_lease(api::LeaseAction::kRelease, std::move(reply));
-    });
-    if (!released) {
-      say(context_, "the lease could not be given back: " + released.error().message);
-    }
-  }
-  [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
+Result<std::unique_ptr<HeldLease>> take_lease(const Context& context, bool take_over) {
+  return HeldLease::take(context, {take_over ? api::LeaseAction::kTakeOver : api::LeaseAction::kAcquire, take_over});
+}
 
- private:
-  Lease(const Context& context, std::uint64_t epoch) : context_(context), epoch_(epoch) {}
-
-  const Context& context_;
-  std::uint64_t epoch_;
-};
-
-Status send_velocity(const Context& context, const Twist2& velocity, std::uint64_t epoch) {
-  return ask<void>(context, [&](api::Reply<void> reply) {
-    context.robot->drive({velocity, kCommandLife, epoch}, std::move(reply));
-  });
+Status send_velocity(const Context& context, const Twist2& velocity, HeldLease& lease) {
+  return ask<void>(context,
+                   [&](api::Reply<void> reply) { context.robot->drive(lease.command(velocity), std::move(reply)); });
 }
 
 }  // namespace
@@ -87,13 +57,13 @@ VerbResult command_mission(const Context& context, api::MissionCommand command) 
 }
 
 Result<std::string> drive_for(const Context& context, const Twist2& velocity, Duration duration, bool take_over) {
-  const auto lease = Lease::acquire(context, take_over);
+  const auto lease = take_lease(context, take_over);
   if (!lease) {
     return tl::unexpected<Error>(lease.error());
   }
   const auto start = std::chrono::steady_clock::now();
   for (auto next = start; next < start + duration; next += kCommandPeriod) {
-    if (const Status sent = send_velocity(context, velocity, (*lease)->epoch()); !sent) {
+    if (const Status sent = send_velocity(context, velocity, **lease); !sent) {
       return tl::unexpected<Error>(sent.error());
     }
     if (!sleep_for(context, next + kCommandPeriod - std::chrono::steady_clock::now())) {
@@ -105,7 +75,7 @@ Result<std::string> drive_for(const Context& context, const Twist2& velocity, Du
   Context calm = context;
   calm.interrupted = [] { return false; };
   // Standing still is commanded, not waited for.
-  const Status stopped = send_velocity(calm, {}, (*lease)->epoch());
+  const Status stopped = send_velocity(calm, {}, **lease);
   if (context.interrupted()) {
     return fail(Errc::kCancelled, "interrupted; the robot was commanded to stop");
   }
@@ -124,11 +94,11 @@ VerbResult drive(const Context& context, const DriveVerb& verb) {
     }
     return done(context, held_back->empty() ? "drove and stopped" : "drove and stopped; held back: " + *held_back);
   }
-  const auto lease = Lease::acquire(context, verb.take_over);
+  const auto lease = take_lease(context, verb.take_over);
   if (!lease) {
     return tl::unexpected<Error>(lease.error());
   }
-  return finish(context, drive_by_keyboard(context, (*lease)->epoch()), "the robot stands");
+  return finish(context, drive_by_keyboard(context, **lease), "the robot stands");
 }
 
 }  // namespace seeker::cli

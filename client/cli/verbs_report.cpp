@@ -59,7 +59,7 @@ void print_status(const Context& context, const api::RobotInfo& info, const api:
   row(context, "motors",
       s.estop ? alarm(context, "EMERGENCY STOP latched; seeker estop --release")
               : (s.motors_armed ? "armed" : "not armed"));
-  row(context, "lease", s.lease.owner.empty() ? "nobody" : s.lease.owner);
+  row(context, "lease", text_of(s.lease));
   if (!s.safety.empty()) {
     row(context, "safety", s.safety);
   }
@@ -69,7 +69,10 @@ void print_status(const Context& context, const api::RobotInfo& info, const api:
     row(context, "",
         m.end ? std::string(to_string(m.end->outcome)) + ": " + m.end->cause
               : fixed("%.0f %% ", 100.0 * m.progress) + m.phase + ": " + m.activity);
-    row(context, "if alone", std::string(to_string(m.link_policy)));
+    row(context, "if alone", text_of(m.link_steps, m.link_policy));
+    if (s.link_countdown) {
+      row(context, "alone", alarm(context, "the client of the mission is " + text_of(*s.link_countdown)));
+    }
   } else {
     row(context, "mission", "none");
   }

@@ -226,6 +226,9 @@ Status validate(const MissionRequest& request) {
   if (request.time_limit && *request.time_limit <= Duration::zero()) {
     return fail(Errc::kInvalidArgument, "the mission's time limit must be above zero");
   }
+  if (Status ok = validate(request.link_steps); !ok) {
+    return ok;
+  }
   return std::visit([](const auto& task) { return validate_task(task); }, request.task);
 }
 
@@ -258,16 +261,6 @@ std::string_view to_string(Outcome outcome) {
     case Outcome::kFault: return "FAULT";
   }
   return "FAULT";
-}
-
-std::string_view to_string(LinkPolicy policy) {
-  switch (policy) {
-    case LinkPolicy::kStop: return "stop";
-    case LinkPolicy::kFinishStep: return "finish-step";
-    case LinkPolicy::kContinue: return "continue";
-    case LinkPolicy::kReturn: return "return";
-  }
-  return "stop";
 }
 
 std::string_view to_string(RecogniserKind kind) {

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/api/link_policy.hpp"
 #include "common/api/perception.hpp"
 #include "common/core/explore_decision.hpp"
 #include "common/core/image.hpp"
@@ -24,9 +25,6 @@ namespace seeker::api {
 
 /// Chosen by the client so that repeating a start is harmless: [a-z0-9-]{1,64}.
 using MissionId = std::string;
-
-/// What the robot does on its own when the client that started the mission is gone.
-enum class LinkPolicy : std::uint8_t { kStop, kFinishStep, kContinue, kReturn };
 
 /// How a target is recognised in an image.
 enum class RecogniserKind : std::uint8_t {
@@ -114,8 +112,9 @@ struct GotoMission {
 
 /// Back to where the robot was started, over floor that it has seen.
 struct ReturnMission {
-  std::optional<Polygon> bound;   ///< stay inside
-  std::vector<Polygon> keep_out;  ///< never enter
+  std::optional<Polygon> bound;    ///< stay inside
+  std::vector<Polygon> keep_out;   ///< never enter
+  std::vector<Point2> along = {};  ///< in the frame `map`: pass here, in this order; clients cannot ask for it
 
   friend bool operator==(const ReturnMission&, const ReturnMission&) = default;
 };
@@ -157,8 +156,17 @@ struct MissionRequest {
   MissionTask task;
   LinkPolicy link_policy = LinkPolicy::kStop;
   std::optional<Duration> time_limit;  ///< robot time in which it runs: neither paused nor held by a fault
+  LinkSteps link_steps = {};           ///< what the robot does when its client is silent; empty: as link_policy says
 
   friend bool operator==(const MissionRequest&, const MissionRequest&) = default;
+};
+
+/// The answer to a mission that was started.
+struct MissionAccepted {
+  MissionId id;
+  LinkSteps link_steps;  ///< the link policy that applies
+
+  friend bool operator==(const MissionAccepted&, const MissionAccepted&) = default;
 };
 
 /// Checks everything that can be checked without a robot; the robot calls it too.
@@ -190,7 +198,6 @@ enum class Outcome : std::uint8_t {
 };
 
 [[nodiscard]] std::string_view to_string(Outcome outcome);
-[[nodiscard]] std::string_view to_string(LinkPolicy policy);
 [[nodiscard]] std::string_view to_string(RecogniserKind kind);
 [[nodiscard]] std::string_view to_string(SearchMode mode);
 [[nodiscard]] std::string_view to_string(OnFound on_found);
@@ -228,6 +235,7 @@ struct MissionStatus {
   /// The newest of an exploration. Reports of a running mission carry each decision once, RobotStatus none.
   std::optional<ExploreDecision> decision;
   LinkPolicy link_policy = LinkPolicy::kStop;
+  LinkSteps link_steps = {};      ///< the link policy that applies
   std::optional<MissionEnd> end;  ///< present exactly when state is kEnded
 
   friend bool operator==(const MissionStatus&, const MissionStatus&) = default;

@@ -113,16 +113,18 @@ class RobotApi {
 
   /// Answers at once; progress comes as Topic::kMission. Repeating a request with the id of the mission that runs
   /// is accepted and changes nothing; another one while one runs is kBusy.
-  virtual void start_mission(const MissionRequest& request, Reply<MissionId> reply) = 0;
+  virtual void start_mission(const MissionRequest& request, Reply<MissionAccepted> reply) = 0;
   virtual void command_mission(MissionCommand command, Reply<void> reply) = 0;
   /// The running mission or the last one.
   virtual void get_mission(Reply<MissionStatus> reply) = 0;
 
   /// Ends mission and motion. Needs no lease.
   virtual void stop(Reply<void> reply) = 0;
-  /// Latches until released on purpose. Needs no lease.
+  /// Latches until released on purpose, also over a restart of the robot's program: the reply comes when that is on the
+  /// disk. Needs no lease.
   virtual void set_estop(bool engaged, Reply<void> reply) = 0;
-  virtual void command_lease(LeaseAction action, Reply<LeaseState> reply) = 0;
+  /// kRefused names the owner of the lease and the remedy.
+  virtual void command_lease(const LeaseCommand& command, Reply<LeaseState> reply) = 0;
   virtual void drive(const DriveCommand& command, Reply<void> reply) = 0;
 
   /// Tiles changed since `revision` (0: all of them).
@@ -197,6 +199,11 @@ class RobotHost {
   virtual ~RobotHost() = default;
 
   [[nodiscard]] virtual std::shared_ptr<RobotApi> open(const Caller& caller) = 0;
+  /// Nothing has been received from the client for `silence` of wall time, more than it needs between two signs of
+  /// life; returned() or open() with the same name undoes it. By default nothing is done.
+  virtual void silent(const Caller& /*caller*/, Duration /*silence*/) {}
+  /// A silent client has sent something again.
+  virtual void returned(const Caller& /*caller*/) {}
   /// The client has ended its session on purpose.
   virtual void closed(const Caller& caller) = 0;
   /// The client is silent or its connection broke; link policies apply. A later open() with the same name undoes it.

@@ -20,7 +20,7 @@
 namespace seeker::api {
 
 inline constexpr std::uint32_t kProtocolMajor = 1;
-inline constexpr std::uint32_t kProtocolMinor = 4;
+inline constexpr std::uint32_t kProtocolMinor = 5;
 
 /// Identity and capabilities of a robot, as sent in the answer to hello.
 struct RobotInfo {
@@ -55,14 +55,26 @@ struct Fault {
 
 /// State of the lease, the right to command motion.
 struct LeaseState {
-  std::string owner;         ///< name of the client that holds it; empty: no client
-  std::uint64_t epoch = 0;   ///< rises with every change of owner
-  std::string requested_by;  ///< name of the client that asks the owner for the lease; empty: no client
+  std::string owner;           ///< name of the client that holds it; empty: no client
+  std::uint64_t epoch = 0;     ///< rises with every change of owner, with a stop and when the lease becomes stale
+  std::string requested_by;    ///< name of the client that asks the owner for the lease; empty: no client
+  bool stale = false;          ///< the owner is silent: others may acquire the lease, the owner refresh it
+  std::uint64_t sequence = 0;  ///< highest number of the commands that were taken under this epoch
+  Duration request_left{};     ///< wall time in which the owner may answer the request; zero without one
 
   friend bool operator==(const LeaseState&, const LeaseState&) = default;
 };
 
 enum class LeaseAction : std::uint8_t { kAcquire, kRequest, kGrant, kDeny, kTakeOver, kRelease };
+
+/// What a client wants of the lease.
+struct LeaseCommand {
+  LeaseAction action = LeaseAction::kAcquire;
+  bool intended =
+      false;  ///< a person knows of the owner and wants the lease; without it only an admin may take it over
+
+  friend bool operator==(const LeaseCommand&, const LeaseCommand&) = default;
+};
 
 /// A mission that was running when the robot program ended, and that can be resumed.
 struct CutOffMission {
@@ -83,12 +95,13 @@ struct RobotStatus {
   LeaseState lease;
   std::optional<MissionStatus> mission;  ///< the running or paused mission, or the last one
   std::vector<Fault> faults;
-  std::string safety;                     ///< why the last command was clamped or refused; empty when it was not
-  double clock_speed = 1.0;               ///< requested robot seconds per wall second; 0: as fast as possible
-  std::optional<TickTiming> timing;       ///< lateness of the loop; absent where no wall clock paces it
-  std::uint64_t map_revision = 0;         ///< revision of the occupancy map
-  std::optional<LineMapStatus> line_map;  ///< absent where the estimator keeps no map of segments
-  std::optional<CutOffMission> cut_off;   ///< until it is resumed or another mission is started
+  std::string safety;                           ///< why the last command was clamped or refused; empty when it was not
+  double clock_speed = 1.0;                     ///< requested robot seconds per wall second; 0: as fast as possible
+  std::optional<TickTiming> timing;             ///< lateness of the loop; absent where no wall clock paces it
+  std::uint64_t map_revision = 0;               ///< revision of the occupancy map
+  std::optional<LineMapStatus> line_map;        ///< absent where the estimator keeps no map of segments
+  std::optional<CutOffMission> cut_off;         ///< until it is resumed or another mission is started
+  std::optional<LinkCountdown> link_countdown;  ///< while the client that started the running mission is silent
 
   friend bool operator==(const RobotStatus&, const RobotStatus&) = default;
 };
@@ -127,11 +140,16 @@ struct DriveCommand {
   Twist2 velocity;
   Duration ttl = std::chrono::milliseconds(300);
   std::uint64_t lease_epoch = 0;
+  std::uint64_t sequence = 0;          ///< numbers the commands of one epoch from 1; 0: not numbered
+  std::optional<RobotTime> sent = {};  ///< when it was given, from where the ttl counts; nothing: when it arrives
 
   friend bool operator==(const DriveCommand&, const DriveCommand&) = default;
 };
 /// Largest DriveCommand::ttl, so that a robot without a link stops soon.
 inline constexpr Duration kMaxDriveTtl = std::chrono::seconds(1);
+
+/// How far a command may come from the future: an error of the comparison of clocks.
+inline constexpr Duration kMaxDriveClockError = std::chrono::milliseconds(250);
 
 /// Tiles that have changed since a revision.
 struct TileUpdate {

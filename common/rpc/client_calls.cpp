@@ -6,6 +6,7 @@
 #include <boost/asio/post.hpp>
 
 #include "common/log/log.hpp"
+#include "common/rpc/answers.hpp"
 #include "common/rpc/client_impl.hpp"
 #include "common/wire/convert.hpp"
 #include "common/wire/envelope.hpp"
@@ -18,6 +19,8 @@ namespace asio = boost::asio;
 namespace pb = ::seeker::v1;
 
 constexpr std::string_view kPart = "rpc";
+/// A comparison of clocks holds so long: clocks drift apart by less than a millisecond in it.
+constexpr Duration kSyncAge = std::chrono::minutes(1);
 
 /// Ends the subscription of a client that may be gone already.
 class RemoteSubscription final : public api::Subscription {
@@ -47,17 +50,21 @@ bool RobotClient::Impl::send(const pb::Envelope& envelope) {
   return true;
 }
 
-void RobotClient::Impl::call(pb::Request request, wire::ClientSession::Answer answer) {
+void RobotClient::Impl::on_thread(std::function<void()> work, const std::function<void()>& closed) {
   {
     const std::lock_guard lock(mutex_);
     if (!stopped_) {
-      asio::post(io_, [self = shared_from_this(), request = std::move(request), answer]() mutable {
-        self->call_now(std::move(request), std::move(answer));
-      });
+      asio::post(io_, std::move(work));
       return;
     }
   }
-  answer(fail(Errc::kCancelled, "the client was closed"));
+  closed();
+}
+
+void RobotClient::Impl::call(pb::Request request, wire::ClientSession::Answer answer) {
+  const auto shared = std::make_shared<pb::Request>(std::move(request));
+  on_thread([self = shared_from_this(), shared, answer] { self->call_now(std::move(*shared), answer); },
+            [answer] { answer(fail(Errc::kCancelled, "the client was closed")); });
 }
 
 void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answer answer) {
@@ -78,10 +85,15 @@ void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answe
 }
 
 void RobotClient::Impl::sync_time(api::Reply<TimeSync> reply) {
+  on_thread([self = shared_from_this(), reply] { self->sync_now(reply); },
+            [reply] { reply(fail(Errc::kCancelled, "the client was closed")); });
+}
+
+void RobotClient::Impl::sync_now(api::Reply<TimeSync> reply) {
   pb::Request request;
   request.mutable_time_sync();
-  call(std::move(request), [self = shared_from_this(),
-                            reply = std::move(reply)](Result<std::vector<pb::Response>> responses) {
+  call_now(std::move(request), [self = shared_from_this(),
+                                reply = std::move(reply)](Result<std::vector<pb::Response>> responses) {
     const Status ok = responses ? wire::outcome(responses->front()) : Status(tl::unexpected<Error>(responses.error()));
     if (!ok) {
       reply(tl::unexpected<Error>(ok.error()));
@@ -94,11 +106,41 @@ void RobotClient::Impl::sync_time(api::Reply<TimeSync> reply) {
     const Duration t3(header.robot_sent_time_ns());
     const Duration t4 = net::wall_now().time_since_epoch();
     const TimeSync now{((t2 - t1) + (t3 - t4)) / 2, (t4 - t1) - (t3 - t2), responses->front().time_sync().realtime()};
-    if (!self->best_sync_ || now.round_trip < self->best_sync_->round_trip || !now.realtime) {
+    const bool old = t4 - self->synced_at_ > kSyncAge;
+    if (!self->best_sync_ || old || now.round_trip < self->best_sync_->round_trip || !now.realtime) {
       self->best_sync_ = now;
+      self->synced_at_ = t4;
     }
     reply(*self->best_sync_);
   });
+}
+
+void RobotClient::Impl::drive(const api::DriveCommand& command, api::Reply<void> reply) {
+  const Duration given = net::wall_now().time_since_epoch();
+  on_thread([self = shared_from_this(), command, given, reply] { self->drive_now(command, given, reply); },
+            [reply] { reply(fail(Errc::kCancelled, "the client was closed")); });
+}
+
+void RobotClient::Impl::drive_now(const api::DriveCommand& command, Duration given, const api::Reply<void>& reply) {
+  const bool due = !best_sync_ || given - synced_at_ > kSyncAge;
+  if (!command.sent && due) {
+    const auto self = shared_from_this();
+    sync_now([self, command, given, reply](const Result<TimeSync>& sync) {
+      if (sync) {
+        self->drive_now(command, given, reply);
+      } else {
+        reply(tl::unexpected<Error>(sync.error()));
+      }
+    });
+    return;
+  }
+  api::DriveCommand stamped = command;
+  if (!stamped.sent) {
+    stamped.sent = RobotTime(given + best_sync_->robot_minus_local);
+  }
+  pb::Request request;
+  wire::write(stamped, request.mutable_drive()->mutable_command());
+  call_now(std::move(request), empty_answer(reply));
 }
 
 Result<std::unique_ptr<api::Subscription>> RobotClient::Impl::subscribe(const std::vector<api::TopicRequest>& topics,

@@ -189,6 +189,7 @@ void RobotClient::Impl::act(wire::ClientStep step) {
 
 void RobotClient::Impl::on_open() {
   backoff_.reset();
+  best_sync_.reset();  // another run of the robot has another clock
   {
     const std::lock_guard lock(mutex_);
     robot_ = session_->robot();

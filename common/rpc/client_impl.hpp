@@ -36,6 +36,7 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
 
   void call(seeker::v1::Request request, wire::ClientSession::Answer answer);
   void sync_time(api::Reply<TimeSync> reply);
+  void drive(const api::DriveCommand& command, api::Reply<void> reply);
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                        api::UpdateSink sink);
 
@@ -55,6 +56,10 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   void close_now();
   void set_link(LinkState state, std::string why, bool restarted = false);
   bool send(const seeker::v1::Envelope& envelope);
+  /// Runs `work` on the client's thread, or `closed` here when there is none any more.
+  void on_thread(std::function<void()> work, const std::function<void()>& closed);
+  void sync_now(api::Reply<TimeSync> reply);
+  void drive_now(const api::DriveCommand& command, Duration given, const api::Reply<void>& reply);
   void call_now(seeker::v1::Request request, wire::ClientSession::Answer answer);
   void send_subscription(const std::shared_ptr<ClientStream>& stream);
   void catch_up_segments(const std::shared_ptr<ClientStream>& stream, const seeker::v1::SubscribeResponse& response);
@@ -79,7 +84,8 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   bool was_open_ = false;
   bool closing_ = false;
   std::function<void(Status)> on_first_;
-  std::optional<TimeSync> best_sync_;
+  std::optional<TimeSync> best_sync_;      ///< of this connection
+  Duration synced_at_ = Duration::zero();  ///< local time of best_sync_
 
   mutable std::mutex mutex_;  ///< guards what follows: read from any thread
   api::RobotInfo robot_;

@@ -11,27 +11,55 @@ namespace {
 constexpr double kWatchRate_hz = 5.0;
 }  // namespace
 
-struct LeaseKeeper::State {
-  explicit State(LeaseKeeperParams p) : params(std::move(p)) {}
+struct LeaseKeeper::State : std::enable_shared_from_this<State> {
+  State(LeaseKeeperParams p, const std::shared_ptr<api::RobotApi>& r) : params(std::move(p)), robot(r) {}
 
   LeaseKeeperParams params;
+  std::weak_ptr<api::RobotApi> robot;
   std::mutex mutex;
   std::uint64_t epoch = 0;
   bool held = false;
+  bool refreshing = false;
 
   void on_status(const api::RobotStatus& status) {
     {
       const std::lock_guard lock(mutex);
-      const bool ours = status.lease.owner == params.client_name && status.lease.epoch == epoch;
+      const bool owns = status.lease.owner == params.client_name;
+      const bool ours = owns && status.lease.epoch == epoch && !status.lease.stale;
       // A status from before the acquisition does not count.
-      if (!held || ours || status.lease.epoch < epoch) {
+      if (!held || ours || refreshing || status.lease.epoch < epoch) {
         return;
       }
-      held = false;
+      refreshing = owns && status.lease.stale;
+      held = refreshing;
     }
-    if (params.on_lost) {
+    const auto alive = robot.lock();
+    if (held_still() && alive) {
+      alive->command_lease(
+          {api::LeaseAction::kAcquire, false},
+          [self = shared_from_this()](const Result<api::LeaseState>& lease) { self->refreshed(lease); });
+    } else if (params.on_lost) {
       params.on_lost(status.lease);
     }
+  }
+  /// The robot did not hear this client for a while, and nobody has taken the lease meanwhile.
+  void refreshed(const Result<api::LeaseState>& lease) {
+    {
+      const std::lock_guard lock(mutex);
+      refreshing = false;
+      held = held && lease && lease->owner == params.client_name;
+      if (held) {
+        epoch = lease->epoch;
+        return;
+      }
+    }
+    if (params.on_lost) {
+      params.on_lost(lease ? *lease : api::LeaseState{});
+    }
+  }
+  [[nodiscard]] bool held_still() {
+    const std::lock_guard lock(mutex);
+    return held;
   }
 };
 
@@ -41,13 +69,14 @@ LeaseKeeper::LeaseKeeper(std::shared_ptr<api::RobotApi> robot, std::shared_ptr<S
 Result<std::unique_ptr<LeaseKeeper>> LeaseKeeper::acquire(std::shared_ptr<api::RobotApi> robot,
                                                           LeaseKeeperParams params) {
   const Duration timeout = params.timeout;
-  const api::LeaseAction action = params.take_over ? api::LeaseAction::kTakeOver : api::LeaseAction::kAcquire;
+  const api::LeaseCommand command{params.take_over ? api::LeaseAction::kTakeOver : api::LeaseAction::kAcquire,
+                                  params.take_over};
   const Result<api::LeaseState> lease = wait<api::LeaseState>(
-      [&](api::Reply<api::LeaseState> reply) { robot->command_lease(action, std::move(reply)); }, timeout);
+      [&](api::Reply<api::LeaseState> reply) { robot->command_lease(command, std::move(reply)); }, timeout);
   if (!lease) {
     return tl::unexpected<Error>(lease.error());
   }
-  auto state = std::make_shared<State>(std::move(params));
+  auto state = std::make_shared<State>(std::move(params), robot);
   state->epoch = lease->epoch;
   state->held = true;
   std::unique_ptr<LeaseKeeper> keeper(new LeaseKeeper(std::move(robot), state));
@@ -86,7 +115,9 @@ Status LeaseKeeper::release() {
     }
   }
   const Result<api::LeaseState> lease = wait<api::LeaseState>(
-      [&](api::Reply<api::LeaseState> reply) { robot_->command_lease(api::LeaseAction::kRelease, std::move(reply)); },
+      [&](api::Reply<api::LeaseState> reply) {
+        robot_->command_lease({api::LeaseAction::kRelease, false}, std::move(reply));
+      },
       state_->params.timeout);
   return lease ? Status{} : Status(tl::unexpected<Error>(lease.error()));
 }

@@ -20,8 +20,9 @@ struct LeaseKeeperParams {
   std::function<void(const api::LeaseState&)> on_lost;
 };
 
-/// An acquired lease, which is released when this is destroyed. Watches the robot's status and reports when the lease
-/// is lost. Do not create or destroy it on the thread that delivers replies, since both wait for a reply.
+/// An acquired lease, which is released when this is destroyed. Watches the robot's status, refreshes a lease that has
+/// become stale and reports when it is lost. Do not create or destroy it on the thread that delivers replies, since
+/// both wait for a reply.
 class LeaseKeeper {
  public:
   /// Acquires the lease. kBusy names the present owner; other errors are those of the call.
@@ -31,7 +32,7 @@ class LeaseKeeper {
   LeaseKeeper& operator=(const LeaseKeeper&) = delete;
   ~LeaseKeeper();
 
-  /// Epoch of the lease, for DriveCommand::lease_epoch.
+  /// Epoch of the lease, for DriveCommand::lease_epoch; a new one after the lease was stale.
   [[nodiscard]] std::uint64_t epoch() const;
   [[nodiscard]] bool held() const;
   /// Releases the lease early. Further calls have no effect.

@@ -22,6 +22,13 @@ Result<api::TileUpdate> join_parts(const Responses& parts) {
   return all;
 }
 
+Result<api::MissionAccepted> accepted_in(const pb::StartMissionResponse& response) {
+  wire::Check check;
+  api::MissionAccepted accepted{response.mission_id(), {}};
+  wire::read(response.link_steps(), accepted.link_steps, check);
+  return check.ok() ? Result<api::MissionAccepted>(std::move(accepted)) : tl::unexpected<Error>(check.status().error());
+}
+
 }  // namespace
 
 RobotClient::RobotClient(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -59,11 +66,11 @@ void RobotClient::get_status(api::Reply<api::RobotStatus> reply) {
               }));
 }
 
-void RobotClient::start_mission(const api::MissionRequest& mission, api::Reply<api::MissionId> reply) {
+void RobotClient::start_mission(const api::MissionRequest& mission, api::Reply<api::MissionAccepted> reply) {
   pb::Request request;
   wire::write(mission, request.mutable_start_mission()->mutable_mission());
-  impl_->call(std::move(request), value_answer<api::MissionId>(std::move(reply), [](const Responses& r) {
-                return Result<api::MissionId>(r.front().start_mission().mission_id());
+  impl_->call(std::move(request), value_answer<api::MissionAccepted>(std::move(reply), [](const Responses& r) {
+                return accepted_in(r.front().start_mission());
               }));
 }
 
@@ -90,21 +97,21 @@ void RobotClient::stop(api::Reply<void> reply) {
 void RobotClient::set_estop(bool engaged, api::Reply<void> reply) {
   pb::Request request;
   request.mutable_set_estop()->set_engaged(engaged);
+  request.mutable_set_estop()->set_release(!engaged);
   impl_->call(std::move(request), empty_answer(std::move(reply)));
 }
 
-void RobotClient::command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) {
+void RobotClient::command_lease(const api::LeaseCommand& command, api::Reply<api::LeaseState> reply) {
   pb::Request request;
-  request.mutable_command_lease()->set_action(static_cast<pb::LeaseAction>(wire::wire_enum(action)));
+  request.mutable_command_lease()->set_action(static_cast<pb::LeaseAction>(wire::wire_enum(command.action)));
+  request.mutable_command_lease()->set_intended(command.intended);
   impl_->call(std::move(request), value_answer<api::LeaseState>(std::move(reply), [](const Responses& r) {
                 return wire::from_message<api::LeaseState>(r.front().command_lease().lease());
               }));
 }
 
 void RobotClient::drive(const api::DriveCommand& command, api::Reply<void> reply) {
-  pb::Request request;
-  wire::write(command, request.mutable_drive()->mutable_command());
-  impl_->call(std::move(request), empty_answer(std::move(reply)));
+  impl_->drive(command, std::move(reply));
 }
 
 void RobotClient::get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) {

@@ -91,12 +91,14 @@ class RobotClient final : public api::RobotApi {
   void get_settings(const std::string& component, api::Reply<std::vector<api::ComponentSetting>> reply) override;
   void set_settings(const std::string& component, const std::vector<std::string>& assignments,
                     api::Reply<std::vector<api::ComponentSetting>> reply) override;
-  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override;
+  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) override;
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override;
   void get_mission(api::Reply<api::MissionStatus> reply) override;
   void stop(api::Reply<void> reply) override;
   void set_estop(bool engaged, api::Reply<void> reply) override;
-  void command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) override;
+  void command_lease(const api::LeaseCommand& command, api::Reply<api::LeaseState> reply) override;
+  /// Stamps the command with the robot's time, unless it has a stamp; the clocks are compared for that before the first
+  /// command of a connection, and again every minute.
   void drive(const api::DriveCommand& command, api::Reply<void> reply) override;
   void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override;
   void get_grid(api::Reply<api::GridReport> reply) override;

@@ -80,6 +80,11 @@ void read(const pb::Detection& from, api::Detection& to, Check& check);
 void read(const pb::CoverageSummary& from, api::CoverageSummary& to, Check& check);
 void read(const pb::GridReport& from, api::GridReport& to, Check& check);
 
+void write(const api::LinkSteps& from, google::protobuf::RepeatedPtrField<pb::LinkStep>& to);
+void write(const api::LinkCountdown& from, pb::LinkCountdown* to);
+void read(const google::protobuf::RepeatedPtrField<pb::LinkStep>& from, api::LinkSteps& to, Check& check);
+void read(const pb::LinkCountdown& from, api::LinkCountdown& to, Check& check);
+
 /// Writes at most kMaxDecisionCandidates candidates.
 void write(const ExploreDecision& from, pb::ExploreDecision* to);
 void write(const api::MissionRequest& from, pb::MissionRequest* to);

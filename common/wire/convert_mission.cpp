@@ -213,6 +213,7 @@ void write(const api::MissionRequest& from, pb::MissionRequest* to) {
   if (from.time_limit) {
     to->set_time_limit_ns(from.time_limit->count());
   }
+  write(from.link_steps, *to->mutable_link_steps());
 }
 
 void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check) {
@@ -258,6 +259,7 @@ void read(const pb::MissionRequest& from, api::MissionRequest& to, Check& check)
       break;
   }
   check.enumerator("link_policy", from.link_policy(), api::LinkPolicy::kReturn, to.link_policy);
+  read(from.link_steps(), to.link_steps, check);
   if (from.has_time_limit_ns()) {
     to.time_limit = Duration(from.time_limit_ns());
   }
@@ -286,6 +288,7 @@ void write(const api::MissionStatus& from, pb::MissionStatus* to) {
   if (from.decision) {
     write(*from.decision, to->mutable_decision());
   }
+  write(from.link_steps, *to->mutable_link_steps());
 }
 
 void read(const pb::MissionStatus& from, api::MissionStatus& to, Check& check) {
@@ -309,6 +312,7 @@ void read(const pb::MissionStatus& from, api::MissionStatus& to, Check& check) {
     read(from.planned_path(), to.planned_path, check, kMaxPathPoints);
   }
   check.enumerator("link_policy", from.link_policy(), api::LinkPolicy::kReturn, to.link_policy);
+  read(from.link_steps(), to.link_steps, check);
   if (from.has_end() != (to.state == api::MissionState::kEnded)) {
     check.refuse("end", Errc::kInvalidArgument, "must be present exactly when the mission has ended");
   }

@@ -92,12 +92,18 @@ void write(const api::LeaseState& from, pb::LeaseState* to) {
   to->set_owner(clean_text(from.owner, kMaxNameBytes));
   to->set_epoch(from.epoch);
   to->set_requested_by(clean_text(from.requested_by, kMaxNameBytes));
+  to->set_stale(from.stale);
+  to->set_sequence(from.sequence);
+  to->set_request_left_ns(from.request_left.count());
 }
 
 void read(const pb::LeaseState& from, api::LeaseState& to, Check& check) {
   to.owner = check.text("owner", from.owner(), kMaxNameBytes);
   to.epoch = from.epoch();
   to.requested_by = check.text("requested_by", from.requested_by(), kMaxNameBytes);
+  to.stale = from.stale();
+  to.sequence = from.sequence();
+  to.request_left = Duration(from.request_left_ns());
 }
 
 void write(const api::RobotStatus& from, pb::RobotStatus* to) {
@@ -132,6 +138,9 @@ void write(const api::RobotStatus& from, pb::RobotStatus* to) {
   if (from.cut_off) {
     to->mutable_cut_off()->set_id(clean_text(from.cut_off->id, kMaxNameBytes));
     to->mutable_cut_off()->set_kind(clean_text(from.cut_off->kind, kMaxNameBytes));
+  }
+  if (from.link_countdown) {
+    write(*from.link_countdown, to->mutable_link_countdown());
   }
 }
 
@@ -173,6 +182,10 @@ void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check) {
     to.cut_off->id = check.text("id", from.cut_off().id(), kMaxNameBytes);
     to.cut_off->kind = check.text("kind", from.cut_off().kind(), kMaxNameBytes);
   }
+  if (from.has_link_countdown()) {
+    const auto scope = check.in("link_countdown");
+    read(from.link_countdown(), to.link_countdown.emplace(), check);
+  }
 }
 
 void write(const api::Event& from, pb::Event* to) {
@@ -203,6 +216,10 @@ void write(const api::DriveCommand& from, pb::DriveCommand* to) {
   write(from.velocity, to->mutable_velocity());
   to->set_ttl_ns(from.ttl.count());
   to->set_lease_epoch(from.lease_epoch);
+  to->set_sequence(from.sequence);
+  if (from.sent) {
+    to->set_sent_ns(from.sent->time_since_epoch().count());
+  }
 }
 
 void read(const pb::DriveCommand& from, api::DriveCommand& to, Check& check) {
@@ -212,6 +229,10 @@ void read(const pb::DriveCommand& from, api::DriveCommand& to, Check& check) {
     check.refuse("ttl_ns", Errc::kInvalidArgument, "must be above zero and at most 1 s");
   }
   to.lease_epoch = from.lease_epoch();
+  to.sequence = from.sequence();
+  if (from.has_sent_ns()) {
+    to.sent = RobotTime(Duration(from.sent_ns()));
+  }
 }
 
 }  // namespace seeker::wire

@@ -25,6 +25,8 @@ class Liveness {
   void on_sent(WallTime now) { sent_ = now; }
   /// Whether to send a heartbeat. Every frame counts as one, so that heartbeats are sent on a quiet link only.
   [[nodiscard]] bool heartbeat_due(WallTime now) const { return now - sent_ >= params_.heartbeat; }
+  /// Time since a frame was received.
+  [[nodiscard]] Duration silence(WallTime now) const { return now - received_; }
   /// Whether no frame was received for more than one and a half heartbeats.
   [[nodiscard]] bool stale(WallTime now) const { return now - received_ >= params_.heartbeat * 3 / 2; }
   [[nodiscard]] bool lost(WallTime now) const { return now - received_ >= params_.lost_after; }

@@ -161,6 +161,10 @@ ServerStep ServerSession::on_hello(const pb::Hello& hello) {
   if (params_.full) {
     return refuse_hello(pb::HelloReply::STATUS_BUSY, "the robot has no session left; close another client");
   }
+  if (params_.stuck) {
+    return refuse_hello(pb::HelloReply::STATUS_NOT_READY,
+                        "the robot's control loop is stuck and its base has stopped; restart seekerd, or try again");
+  }
   open_ = true;
   instance_ = hello.instance();
   const auto asked = static_cast<api::Role>(hello.role() - 1);
@@ -169,7 +173,8 @@ ServerStep ServerSession::on_hello(const pb::Hello& hello) {
   step.opened = true;
   pb::HelloReply reply = reply_base();
   reply.set_status(pb::HelloReply::STATUS_OK);
-  reply.set_protocol_minor(std::min(hello.protocol_minor(), api::kProtocolMinor));
+  minor_ = std::min(hello.protocol_minor(), api::kProtocolMinor);
+  reply.set_protocol_minor(minor_);
   reply.set_role(static_cast<pb::Role>(wire_enum(caller_.role)));
   reply.set_stream_id(params_.stream_id);
   reply.set_heartbeat_period_ns(params_.liveness.heartbeat.count());
@@ -223,7 +228,7 @@ ServerStep ServerSession::on_request(pb::Request& request, WallTime now, RobotTi
   return step;
 }
 
-ServerStep ServerSession::on_tick(WallTime now, RobotTime robot_now, bool has_subscriptions) {
+ServerStep ServerSession::on_tick(WallTime now, RobotTime robot_now, std::uint64_t loop_pass, bool has_subscriptions) {
   if (!open_) {
     return now - started_ >= params_.hello_timeout ? end_with(pb::Close::REASON_SILENT, "no hello came in time")
                                                    : ServerStep{};
@@ -236,8 +241,10 @@ ServerStep ServerSession::on_tick(WallTime now, RobotTime robot_now, bool has_su
     return end_with(pb::Close::REASON_IDLE, "the client asked for nothing for a long time");
   }
   ServerStep step;
-  if (liveness_.heartbeat_due(now)) {
+  if (liveness_.heartbeat_due(now) && beat_pass_ != loop_pass) {
+    beat_pass_ = loop_pass;
     pb::Heartbeat* heartbeat = step.send.emplace().mutable_heartbeat();
+    heartbeat->set_loop_pass(loop_pass);
     heartbeat->set_sender_time_ns(now.time_since_epoch().count());
     heartbeat->set_robot_time_ns(robot_now.time_since_epoch().count());
   }

@@ -28,6 +28,7 @@ struct ServerSessionParams {
   double request_burst = 400.0;
   std::size_t refused_requests = 2000;  ///< consecutive ones before the session is closed
   bool full = false;                    ///< true: hello is refused, since there are too many sessions
+  bool stuck = false;                   ///< true: hello is refused, since the robot's control loop is stuck
 };
 
 /// Reason and manner of the end of a session.
@@ -52,13 +53,20 @@ class ServerSession {
 
   [[nodiscard]] ServerStep on_payload(std::string_view payload, WallTime now, RobotTime robot_now);
   /// To be called a few times per heartbeat.
-  [[nodiscard]] ServerStep on_tick(WallTime now, RobotTime robot_now, bool has_subscriptions);
+  /// `loop_pass` counts the passes of the robot's control loop: without a new one since the last heartbeat no other is
+  /// sent, so that a robot whose loop is stuck is silent.
+  [[nodiscard]] ServerStep on_tick(WallTime now, RobotTime robot_now, std::uint64_t loop_pass, bool has_subscriptions);
   void on_sent(WallTime now) { liveness_.on_sent(now); }
   void answered();
 
   [[nodiscard]] bool open() const { return open_; }
   [[nodiscard]] const api::Caller& caller() const { return caller_; }
   [[nodiscard]] std::uint64_t instance() const { return instance_; }
+  /// The minor version of the protocol that both sides speak.
+  [[nodiscard]] std::uint32_t minor() const { return minor_; }
+  /// Wall time since a frame of the client was received.
+  [[nodiscard]] Duration silence(WallTime now) const { return liveness_.silence(now); }
+  [[nodiscard]] bool stale(WallTime now) const { return liveness_.stale(now); }
   [[nodiscard]] std::uint64_t refused_requests() const { return refused_total_; }
 
  private:
@@ -78,6 +86,8 @@ class ServerSession {
   bool open_ = false;
   api::Caller caller_;
   std::uint64_t instance_ = 0;
+  std::uint32_t minor_ = 0;
+  std::optional<std::uint64_t> beat_pass_;  ///< the pass of the loop of the last heartbeat
   std::size_t in_flight_ = 0;
   std::size_t refused_in_a_row_ = 0;
   std::uint64_t refused_total_ = 0;

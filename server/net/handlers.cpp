@@ -13,6 +13,9 @@
 namespace seeker::server_net {
 namespace {
 
+/// Clients that speak this minor version stamp their commands, and say it where they mean to take or release something.
+constexpr std::uint32_t kIntentMinor = 5;
+
 /// Large maps leave in several responses.
 void answer_tiles(const Responder& responder, const Result<api::TileUpdate>& result) {
   const SessionPtr to = responder.session.lock();
@@ -53,10 +56,11 @@ void start_mission(const Responder& responder, Session& session, const pb::Start
     responder.answer_now(valid);
     return;
   }
-  session.robot().start_mission(*mission,
-                                reply_with<api::MissionId>(responder, [](const api::MissionId& id, pb::Response& to) {
-                                  to.mutable_start_mission()->set_mission_id(id);
-                                }));
+  session.robot().start_mission(
+      *mission, reply_with<api::MissionAccepted>(responder, [](const api::MissionAccepted& accepted, pb::Response& to) {
+        to.mutable_start_mission()->set_mission_id(accepted.id);
+        wire::write(accepted.link_steps, *to.mutable_start_mission()->mutable_link_steps());
+      }));
 }
 
 void command_mission(const Responder& responder, Session& session, const pb::CommandMissionRequest& request) {
@@ -72,14 +76,15 @@ void command_mission(const Responder& responder, Session& session, const pb::Com
 
 void command_lease(const Responder& responder, Session& session, const pb::CommandLeaseRequest& request) {
   wire::Check check;
-  api::LeaseAction action = api::LeaseAction::kRequest;
-  check.enumerator("action", request.action(), api::LeaseAction::kRelease, action);
+  api::LeaseCommand command;
+  check.enumerator("action", request.action(), api::LeaseAction::kRelease, command.action);
+  command.intended = request.intended() || session.minor() < kIntentMinor;
   if (!check.ok()) {
     responder.answer_now(check.status());
     return;
   }
   session.robot().command_lease(
-      action, reply_with<api::LeaseState>(responder, [](const api::LeaseState& lease, pb::Response& to) {
+      command, reply_with<api::LeaseState>(responder, [](const api::LeaseState& lease, pb::Response& to) {
         wire::write(lease, to.mutable_command_lease()->mutable_lease());
       }));
 }
@@ -90,7 +95,23 @@ void drive(const Responder& responder, Session& session, const pb::DriveRequest&
     responder.answer_now(status_of(command));
     return;
   }
+  const bool stamped = command->sent && session.time_synced();
+  if (session.hub().robot.realtime && session.minor() >= kIntentMinor && !stamped) {
+    responder.answer_now(fail(Errc::kRefused,
+                              "a command with a time needs compared clocks: call time_sync in this session, and say "
+                              "with sent_ns when the command was given"));
+    return;
+  }
   session.robot().drive(*command, reply_empty(responder));
+}
+
+/// An empty request releases nothing.
+void set_estop(const Responder& responder, Session& session, const pb::SetEstopRequest& request) {
+  if (!request.engaged() && !request.release() && session.minor() >= kIntentMinor) {
+    responder.answer_now(fail(Errc::kInvalidArgument, "field 'release' must be set to release the emergency stop"));
+    return;
+  }
+  session.robot().set_estop(request.engaged(), reply_empty(responder));
 }
 
 void grab_image(const Responder& responder, Session& session, const pb::GrabImageRequest& request) {
@@ -161,6 +182,7 @@ void unsubscribe(const Responder& responder, Session& session, const pb::Unsubsc
 
 void time_sync(const Responder& responder, Session& session) {
   pb::Response response = responder.begin(session, {});
+  session.note_time_sync();
   response.mutable_time_sync()->set_realtime(session.hub().robot.realtime);
   session.respond(response, responder.call);
 }
@@ -214,7 +236,7 @@ void handle(const SessionPtr& session, const pb::Request& request, RobotTime rec
   Session& s = *session;
   switch (request.call_case()) {
     case R::kStop: return s.robot().stop(reply_empty(responder));
-    case R::kSetEstop: return s.robot().set_estop(request.set_estop().engaged(), reply_empty(responder));
+    case R::kSetEstop: return set_estop(responder, s, request.set_estop());
     case R::kDrive: return drive(responder, s, request.drive());
     case R::kStartMission: return start_mission(responder, s, request.start_mission());
     case R::kCommandMission: return command_mission(responder, s, request.command_mission());

@@ -17,6 +17,8 @@
 #include "common/log/log.hpp"
 #include "common/net/listen.hpp"
 #include "common/net/random_id.hpp"
+#include "server/net/client_silences.hpp"
+#include "server/net/loop_watch.hpp"
 #include "server/net/mailbox.hpp"
 #include "server/net/session.hpp"
 
@@ -61,8 +63,10 @@ class Server::Impl {
         tick_(*io_),
         mailbox_(std::make_shared<Mailbox>(2 * params_.backlog.items)),
         backlogs_(make_backlogs(params_.backlog, std::make_index_sequence<api::kTopicCount>())),
-        hub_{params_, host, io_, backlogs_, {}, net::random_id(), {}, {}, {}, {}, {}} {
+        hub_{params_, host, io_, backlogs_, {}, net::random_id(), {}, {}, false, {}, {}, {}, {}},
+        loop_(params_.lost_after, net::wall_now()) {
     hub_.robot_now = [this] { return params_.robot_now ? params_.robot_now() : newest_; };
+    hub_.loop_pass = [this] { return params_.loop_pass ? params_.loop_pass() : ++own_passes_; };
     hub_.opened = [this](const std::shared_ptr<Session>& session) { on_opened(session); };
     hub_.ended = [this](const std::shared_ptr<Session>& session, const wire::Ending& end) { on_ended(session, end); };
   }
@@ -207,6 +211,7 @@ class Server::Impl {
       return;
     }
     names_.erase(caller.client_name);
+    silences_.forget(caller.client_name);
     if (ending.goodbye) {
       hub_.host.closed(caller);
     } else {
@@ -224,11 +229,30 @@ class Server::Impl {
         return;
       }
       const wire::WallTime now = net::wall_now();
+      hub_.loop_stuck = loop_.stuck(hub_.loop_pass(), now);
+      report_silence(now);
       for (const auto& session : snapshot()) {
         session->tick(now);
       }
       tick();
     });
+  }
+
+  /// Before a silent session ends as lost, and again when its client speaks: link policies count from the silence.
+  void report_silence(wire::WallTime now) {
+    silences_.begin();
+    for (const auto& session : sessions_) {
+      if (session->open()) {
+        silences_.add(session->caller(), session->silence(now), session->stale(now));
+      }
+    }
+    for (const ClientSilences::Change& change : silences_.changes()) {
+      if (change.silent) {
+        hub_.host.silent(change.caller, change.silence);
+      } else {
+        hub_.host.returned(change.caller);
+      }
+    }
   }
 
   /// Encodes each update once and hands the bytes to all sessions.
@@ -314,6 +338,9 @@ class Server::Impl {
   SessionHub hub_;
   std::set<std::shared_ptr<Session>> sessions_;
   std::map<std::string, int> names_;
+  LoopWatch loop_;
+  std::uint64_t own_passes_ = 0;  ///< where the robot counts none
+  ClientSilences silences_;
   RobotTime newest_{};
   bool stopping_ = false;
   std::shared_ptr<api::RobotApi> robot_;

@@ -45,6 +45,9 @@ struct ServerParams {
   BacklogLimits backlog;
   /// Returns the present robot time; called on the server's thread. Empty: the newest published stamp is used.
   std::function<RobotTime()> robot_now;
+  /// Returns the number of passes of the robot's control loop; called on the server's thread. While it stands still no
+  /// heartbeat is sent, and after lost_after nobody can connect. Empty: each call counts as a pass.
+  std::function<std::uint64_t()> loop_pass;
 };
 
 /// Counters for the log and for tests.

@@ -24,6 +24,7 @@ wire::ServerSessionParams session_params(const SessionHub& hub, bool full) {
   out.request_burst = p.session.request_burst;
   out.refused_requests = p.session.refused_requests;
   out.full = full;
+  out.stuck = hub.loop_stuck;
   return out;
 }
 
@@ -68,7 +69,7 @@ void Session::on_payload(std::string_view payload) {
 
 void Session::tick(wire::WallTime now) {
   if (!ended_) {
-    act(session_.on_tick(now, hub_.robot_now(), streams_.subscriptions() > 0));
+    act(session_.on_tick(now, hub_.robot_now(), hub_.loop_pass(), streams_.subscriptions() > 0));
   }
 }
 

@@ -31,6 +31,8 @@ struct SessionHub {
   api::RobotInfo robot;
   std::uint64_t stream_id = 0;
   std::function<RobotTime()> robot_now;
+  std::function<std::uint64_t()> loop_pass;
+  bool loop_stuck = false;  ///< no pass of the control loop for ServerParams::lost_after
   std::function<void(const std::shared_ptr<Session>&)> opened;
   std::function<void(const std::shared_ptr<Session>&, const wire::Ending&)> ended;
   ServerStats stats;
@@ -66,6 +68,12 @@ class Session : public std::enable_shared_from_this<Session> {
   [[nodiscard]] bool ended() const { return ended_; }
   [[nodiscard]] const api::Caller& caller() const { return session_.caller(); }
   [[nodiscard]] std::uint64_t instance() const { return session_.instance(); }
+  [[nodiscard]] std::uint32_t minor() const { return session_.minor(); }
+  /// The client has compared the clocks in this session.
+  [[nodiscard]] bool time_synced() const { return time_synced_; }
+  void note_time_sync() { time_synced_ = true; }
+  [[nodiscard]] Duration silence(wire::WallTime now) const { return session_.silence(now); }
+  [[nodiscard]] bool stale(wire::WallTime now) const { return session_.stale(now); }
 
  private:
   void on_payload(std::string_view payload);
@@ -82,6 +90,7 @@ class Session : public std::enable_shared_from_this<Session> {
   std::shared_ptr<net::Connection> connection_;
   std::shared_ptr<api::RobotApi> robot_;
   boost::asio::steady_timer due_;
+  bool time_synced_ = false;
   bool ended_ = false;
 };
 

@@ -14,20 +14,26 @@ api::LandmarkSummary summary_of(const std::string& name, const std::vector<api::
 
 Result<api::LeaseState> fake_lease(api::LeaseState& state, api::LeaseAction action, const std::string& me) {
   const auto hand_to = [&](const std::string& owner) {
-    state = {owner, state.epoch + 1, ""};
+    state = {.owner = owner, .epoch = state.epoch + 1, .requested_by = ""};
     return state;
   };
   switch (action) {
     case api::LeaseAction::kAcquire:
       if (state.owner == me) {
+        state.stale = false;
         return state;
       }
-      if (!state.owner.empty()) {
+      if (!state.owner.empty() && !state.stale) {
         return fail(Errc::kBusy, "'" + state.owner + "' holds the lease; request it or take it over");
       }
       return hand_to(me);
     case api::LeaseAction::kTakeOver: return hand_to(me);
-    case api::LeaseAction::kRequest: state.requested_by = me; return state;
+    case api::LeaseAction::kRequest:
+      if (state.owner.empty()) {
+        return hand_to(me);
+      }
+      state.requested_by = me;
+      return state;
     default: break;
   }
   if (state.owner != me) {
@@ -88,7 +94,7 @@ Result<api::LandmarkSummary> fake_revert_landmarks(FakeRobotValues& values, cons
   return fake_inspect_landmarks(values, name);
 }
 
-Result<api::MissionId> fake_start_mission(FakeRobotValues& v, const api::MissionRequest& request) {
+Result<api::MissionAccepted> fake_start_mission(FakeRobotValues& v, const api::MissionRequest& request) {
   if (const Status valid = api::validate(request); !valid) {
     return tl::unexpected<Error>(valid.error());
   }
@@ -102,8 +108,11 @@ Result<api::MissionId> fake_start_mission(FakeRobotValues& v, const api::Mission
     v.mission->kind = std::string(api::task_name(request.task));
     v.mission->phase = "cover";
     v.mission->link_policy = request.link_policy;
+    v.mission->link_steps = request.link_steps.empty()
+                                ? api::link_steps_of(request.link_policy, std::chrono::seconds(5))
+                                : request.link_steps;
   }
-  return request.id;
+  return api::MissionAccepted{request.id, v.mission->link_steps};
 }
 
 Status fake_component(FakeRobotValues& values, const std::string& name,

@@ -15,7 +15,8 @@ namespace seeker::testing {
                                                  const std::string& me);
 
 /// One mission at a time; repeating the one that runs is accepted.
-[[nodiscard]] Result<api::MissionId> fake_start_mission(FakeRobotValues& values, const api::MissionRequest& request);
+[[nodiscard]] Result<api::MissionAccepted> fake_start_mission(FakeRobotValues& values,
+                                                              const api::MissionRequest& request);
 
 [[nodiscard]] std::vector<api::LandmarkSummary> fake_list_landmarks(const FakeRobotValues& values);
 [[nodiscard]] Result<api::LandmarkSummary> fake_inspect_landmarks(const FakeRobotValues& values,

@@ -88,9 +88,9 @@ class FakeRobot final : public api::RobotApi {
       return fake_set_settings(v, component, assignments);
     });
   }
-  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override {
-    read<api::MissionId>("start_mission " + request.id, reply,
-                         [&](FakeRobotValues& v) { return fake_start_mission(v, request); });
+  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) override {
+    read<api::MissionAccepted>("start_mission " + request.id, reply,
+                               [&](FakeRobotValues& v) { return fake_start_mission(v, request); });
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     change("command_mission", reply, [&](FakeRobotValues& v) -> Status {
@@ -129,12 +129,12 @@ class FakeRobot final : public api::RobotApi {
       return {};
     });
   }
-  void command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) override {
+  void command_lease(const api::LeaseCommand& command, api::Reply<api::LeaseState> reply) override {
     Result<api::LeaseState> result;
     {
       const std::lock_guard lock(shared_->mutex);
       shared_->values.calls.push_back(caller_.client_name + " command_lease");
-      result = fake_lease(shared_->values.lease, action, caller_.client_name);
+      result = fake_lease(shared_->values.lease, command.action, caller_.client_name);
     }
     shared_->answer(reply, std::move(result));
   }

@@ -45,6 +45,8 @@ struct FakeRobotValues {
   std::vector<api::Caller> opened;
   std::vector<api::Caller> closed;
   std::vector<std::pair<api::Caller, std::string>> lost;
+  std::vector<std::pair<api::Caller, Duration>> silent;
+  std::vector<api::Caller> returned;
 };
 
 /// Robot id "fake", one component, one camera "omni", four tiles, one detection, a mission when one was started.
@@ -59,6 +61,12 @@ class FakeRobotHost : public api::RobotHost {
 
   [[nodiscard]] std::shared_ptr<api::RobotApi> open(const api::Caller& caller) override;
   void closed(const api::Caller& caller) override;
+  void silent(const api::Caller& caller, Duration silence) override {
+    edit([&](FakeRobotValues& v) { v.silent.emplace_back(caller, silence); });
+  }
+  void returned(const api::Caller& caller) override {
+    edit([&](FakeRobotValues& v) { v.returned.push_back(caller); });
+  }
   void lost(const api::Caller& caller, const std::string& why) override;
 
   /// A copy of the values as they are now.

@@ -2,6 +2,7 @@
 /// A whole robot in its simulated world, stepped by the test: everything of seekerd but the network.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,10 @@ namespace seeker::testing {
 
 class SimulatedRobot {
  public:
-  /// `overrides` as for seekerd --set.
+  /// `overrides` as for seekerd --set. `wrap` may put its own devices around the simulated ones.
   explicit SimulatedRobot(const std::vector<std::string>& overrides = {},
-                          const std::string& robot_file = "config/robots/sim.yaml") {
+                          const std::string& robot_file = "config/robots/sim.yaml",
+                          const std::function<void(app::Devices&)>& wrap = {}) {
     Result<app::RobotOptions> options = app::load_robot_options(source_file(robot_file), overrides);
     if (!options) {
       throw std::runtime_error(options.error().message);
@@ -26,6 +28,9 @@ class SimulatedRobot {
     Result<app::Assembly> assembly = app::assemble(*options);
     if (!assembly) {
       throw std::runtime_error(assembly.error().message);
+    }
+    if (wrap) {
+      wrap(assembly->parts.devices);
     }
     simulation = assembly->simulation;
     faults = assembly->faults;

@@ -142,7 +142,7 @@ TEST(SearchSystem, GotoVisitsItsPlacesAndReturnsHome) {
 
 TEST(SearchSystem, DriveIsRefusedWhereTimeIsNotReal) {
   SimulatedRobot robot;
-  ASSERT_TRUE(robot.loop->commands().command_lease("test", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(robot.loop->commands().command_lease({"test"}, {api::LeaseAction::kAcquire, false}, {}));
   const Status status = robot.loop->commands().drive(
       "test",
       {.velocity = {0.2, 0.0}, .ttl = std::chrono::milliseconds(300), .lease_epoch = robot.loop->status().lease.epoch});

@@ -15,8 +15,10 @@ void describe(config::Fields& f, SafetyParams& params) {
   f.section("clearance", params.clearance);
   f.field("sonar_stop_range_m", params.sonar_stop_range_m);
   f.field("sonar_slack_m", params.sonar_slack_m);
+  f.seconds("lease_request_timeout_s", params.lease.request_timeout);
   f.check("max_v_m_s", params.max_v_m_s > 0.0, "must be above 0");
   f.check("max_omega_deg_s", params.max_omega_rad_s > 0.0, "must be above 0");
+  f.check("lease_request_timeout_s", params.lease.request_timeout > Duration::zero(), "must be above 0");
   f.check("sonar_stop_range_m", params.sonar_stop_range_m >= 0.0, "must be 0 or more");
 }
 

@@ -76,11 +76,13 @@ Result<std::unique_ptr<Behaviour>> RobotBehaviours::operator()(const api::Missio
 
 Result<std::unique_ptr<Behaviour>> RobotBehaviours::return_to_start(const api::ReturnMission& mission) const {
   api::GotoMission home;
-  home.waypoints = {Point2::Zero()};  // the map begins where the robot was started
+  home.waypoints = mission.along;
+  home.waypoints.emplace_back(Point2::Zero());  // the map begins where the robot was started
   home.keep_out = mission.keep_out;
   GotoParams go = options_->go;
   go.cost_map.unknown_traversable = false;  // the robot came over floor that it has seen
-  return std::unique_ptr<Behaviour>(std::make_unique<GotoBehaviour>(go, std::move(home), mission.bound));
+  return std::unique_ptr<Behaviour>(
+      std::make_unique<GotoBehaviour>(go, std::move(home), mission.bound, mission.along.size()));
 }
 
 Result<std::unique_ptr<Behaviour>> RobotBehaviours::search(const api::SearchMission& mission,

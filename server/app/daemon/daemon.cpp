@@ -75,6 +75,7 @@ Status run(const DaemonArguments& arguments, const RobotOptions& options, const 
   server_net::ServerParams params = options.server;
   params.port = arguments.port.value_or(params.port);
   params.robot_now = [&robot] { return robot.now(); };
+  params.loop_pass = [&robot] { return robot.passes(); };
   server_net::Server server(robot, params);
   robot.start(options.driver == DriverType::kReplay && options.replay.wait_for_client);
   const Result<std::uint16_t> port = server.start();

@@ -15,8 +15,8 @@ void ClientCommands::stop() {
   parties_.motion.stop();
 }
 
-void ClientCommands::set_estop(bool engaged) {
-  if (!parties_.motion.set_estop(engaged)) {
+void ClientCommands::set_estop(bool engaged, const std::string& client) {
+  if (!parties_.motion.set_estop(engaged, client)) {
     return;
   }
   if (engaged) {
@@ -25,19 +25,33 @@ void ClientCommands::set_estop(bool engaged) {
   parties_.motion.act({});  // no tick may come to tell why the robot stands now
 }
 
-Result<api::LeaseState> ClientCommands::command_lease(const std::string& client, api::LeaseAction action) {
+Result<api::LeaseState> ClientCommands::command_lease(const api::Caller& caller, const api::LeaseCommand& command,
+                                                      WallTime wall_now) {
   MotionAuthority& authority = parties_.motion.authority();
-  const std::string before = authority.lease().owner;
-  Result<api::LeaseState> state = authority.command_lease(client, action);
-  if (state && state->owner != before) {
-    parties_.diagnostics.log("lease",
-                             state->owner.empty() ? "the lease is free" : "'" + state->owner + "' holds the lease");
-  }
-  const bool to_drive = action != api::LeaseAction::kRelease && parties_.motion.drivable();
-  if (state && state->owner == client && to_drive) {
+  const api::LeaseState before = authority.lease();
+  Result<api::LeaseState> state = authority.command_lease(caller, command, wall_now);
+  note_lease(before, "'" + before.owner + "' has denied it");
+  const bool to_drive = command.action != api::LeaseAction::kRelease && parties_.motion.drivable();
+  if (state && state->owner == caller.client_name && to_drive) {
     authority.arm();
   }
   return state;
+}
+
+/// Tells in the log what has become of the lease; `why_not` is the reason why a request was not granted.
+void ClientCommands::note_lease(const api::LeaseState& before, const std::string& why_not) {
+  const api::LeaseState& now = parties_.motion.authority().lease();
+  if (now.owner != before.owner) {
+    parties_.diagnostics.log("lease", now.owner.empty() ? "the lease is free" : "'" + now.owner + "' holds the lease");
+  } else if (now.stale && !before.stale) {
+    parties_.diagnostics.log("lease-stale",
+                             "'" + now.owner + "', who holds the lease, is not heard: others may have it",
+                             api::Severity::kWarning);
+  } else if (!now.requested_by.empty() && now.requested_by != before.requested_by) {
+    parties_.diagnostics.log("lease-requested", "'" + now.requested_by + "' asks '" + now.owner + "' for the lease");
+  } else if (now.requested_by.empty() && !before.requested_by.empty()) {
+    parties_.diagnostics.log("lease-request-void", "'" + before.requested_by + "' does not get the lease: " + why_not);
+  }
 }
 
 Status ClientCommands::drive(const std::string& client, const api::DriveCommand& command) {
@@ -80,14 +94,37 @@ Status ClientCommands::relocalise(const std::optional<Pose2>& map_T_base) {
   return parties_.maps.relocalise(map_T_base);
 }
 
-void ClientCommands::client_lost(const std::string& client, const std::string& why, WallTime wall_now) {
-  parties_.diagnostics.log("link-lost", "'" + client + "': " + why, api::Severity::kWarning);
-  parties_.motion.authority().forget(client);
-  parties_.executor.client_lost(client, wall_now);
+void ClientCommands::client_silent(const std::string& client, WallTime since) {
+  const api::LeaseState before = parties_.motion.authority().lease();
+  parties_.motion.authority().silent(client);
+  note_lease(before, "it is not heard any more");
+  parties_.executor.client_silent(client, since);
 }
 
-void ClientCommands::client_back(const std::string& client) { parties_.executor.client_back(client); }
+void ClientCommands::client_lost(const std::string& client, const std::string& why, WallTime wall_now) {
+  parties_.diagnostics.log("link-lost", "'" + client + "': " + why, api::Severity::kWarning);
+  client_silent(client, wall_now);
+}
 
-void ClientCommands::client_closed(const std::string& client) { parties_.motion.authority().forget(client); }
+void ClientCommands::client_back(const std::string& client) {
+  parties_.executor.client_back(client, parties_.world.now());
+}
+
+void ClientCommands::client_closed(const std::string& client) {
+  const api::LeaseState before = parties_.motion.authority().lease();
+  parties_.motion.authority().forget(client);
+  note_lease(before, "it has left");
+  parties_.executor.client_back(client, parties_.world.now());  // who leaves on purpose is not missed
+}
+
+void ClientCommands::watch(WallTime wall_now) {
+  const api::LeaseState before = parties_.motion.authority().lease();
+  if (parties_.motion.authority().watch(wall_now)) {
+    note_lease(before, "'" + before.owner + "' did not answer in time");
+  }
+  if (parties_.executor.link_countdown()) {
+    parties_.executor.watch_link(parties_.situation.situation(), wall_now);
+  }
+}
 
 }  // namespace seeker::app

@@ -34,6 +34,7 @@ class ClientCommands {
     ComponentCommands& components;
     Publisher& publisher;
     Diagnostics& diagnostics;
+    const SituationSource& situation;
   };
 
   explicit ClientCommands(const Parties& parties) : parties_(parties) {}
@@ -44,10 +45,11 @@ class ClientCommands {
   [[nodiscard]] Status command_mission(api::MissionCommand command, const std::string& client);
   /// Ends the mission and stops the base; the holder of the lease must acquire it again to drive.
   void stop();
-  /// Latches or releases the emergency stop; latching it pauses the mission.
-  void set_estop(bool engaged);
-  /// Acquires, renews, takes over or releases the lease; see MotionAuthority::command_lease().
-  [[nodiscard]] Result<api::LeaseState> command_lease(const std::string& client, api::LeaseAction action);
+  /// Latches or releases the emergency stop; latching it pauses the mission. The log says who did it.
+  void set_estop(bool engaged, const std::string& client = "");
+  /// Acquires, renews, asks for, takes over or releases the lease; see Lease::command().
+  [[nodiscard]] Result<api::LeaseState> command_lease(const api::Caller& caller, const api::LeaseCommand& command,
+                                                      WallTime wall_now);
   /// Drives by hand with a velocity that expires: with the lease, at real time, while no mission runs.
   [[nodiscard]] Status drive(const std::string& client, const api::DriveCommand& command);
   /// Starts a component again. The robot is disarmed and its mission paused by that.
@@ -61,14 +63,21 @@ class ClientCommands {
   /// See MapCommands::relocalise().
   [[nodiscard]] Status relocalise(const std::optional<Pose2>& map_T_base);
 
-  /// The connection of a client broke: its lease is void, and its mission's link policy begins to count.
+  /// The client has been silent since then: its lease is stale, and its mission's link policy counts.
+  void client_silent(const std::string& client, WallTime since);
+  /// The connection of a client broke or was given up. Otherwise as client_silent().
   void client_lost(const std::string& client, const std::string& why, WallTime wall_now);
-  /// The client has connected again.
+  /// The client has sent something again, or has connected again.
   void client_back(const std::string& client);
   /// The client left on purpose: it gives its lease up, its mission goes on.
   void client_closed(const std::string& client);
+  /// Call it in each pass of the loop, also of one that makes no tick: requests for the lease time out, and link
+  /// policies go on.
+  void watch(WallTime wall_now);
 
  private:
+  void note_lease(const api::LeaseState& before, const std::string& why_not = "");
+
   Parties parties_;
 };
 

@@ -56,11 +56,8 @@ Status MissionControl::may_start(const api::MissionRequest& request, const std::
   if (authority.estop()) {
     return fail(Errc::kRefused, kEstopLatched);
   }
-  const api::LeaseState& lease = authority.lease();
-  if (!lease.owner.empty() && lease.owner != client) {
-    return fail(Errc::kRefused, "'" + lease.owner +
-                                    "' holds the lease; wait until it is released, or free it with "
-                                    "'seeker drive 0 0 --take-over'");
+  if (const Status free = authority.free_for(client); !free) {
+    return free;
   }
   if (const Status able = able_to(request.task); !able) {
     return able;
@@ -192,8 +189,7 @@ Status MissionControl::resume_in_map(const Result<LineMap>& map, const MapIdenti
 }
 
 Twist2 MissionControl::search_velocity() {
-  const std::string& owner = parties_.motion.authority().lease().owner;
-  const bool in_other_hands = !owner.empty() && owner != resumption_.client();
+  const bool in_other_hands = !parties_.motion.authority().free_for(resumption_.client());
   if (!resumption_.searching() || in_other_hands || parties_.sensing.odometry() == nullptr ||
       !parties_.localiser.map().relocalising()) {
     return {};

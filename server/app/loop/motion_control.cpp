@@ -13,7 +13,8 @@ MotionControl::MotionControl(const SafetyParams& params, const WheelCalibration&
       sensing_(sensing),
       situation_(situation),
       world_(world),
-      diagnostics_(diagnostics) {}
+      diagnostics_(diagnostics),
+      authority_(params.lease) {}
 
 SafetyVerdict MotionControl::verdict_on(const Twist2& wanted) const {
   if (diagnostics_.components().stopped("safety")) {
@@ -79,12 +80,14 @@ void MotionControl::stop() {
   act({});
 }
 
-bool MotionControl::set_estop(bool engaged) {
+bool MotionControl::set_estop(bool engaged, const std::string& client) {
   if (engaged == authority_.estop()) {
     return false;
   }
   authority_.set_estop(engaged);
-  diagnostics_.log(engaged ? "estop" : "estop-released", engaged ? "emergency stop latched" : "emergency stop released",
+  const std::string by = client.empty() ? "" : " by '" + client + "'";
+  diagnostics_.log(engaged ? "estop" : "estop-released",
+                   (engaged ? "emergency stop latched" : "emergency stop released") + by,
                    engaged ? api::Severity::kCritical : api::Severity::kInfo);
   return true;
 }

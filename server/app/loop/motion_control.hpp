@@ -32,8 +32,8 @@ class MotionControl {
   void act(const Twist2& wanted);
   /// Commands the base to stand and voids the velocity commands that have been sent and not yet carried out.
   void stop();
-  /// Latches or releases the emergency stop. Returns false when it was in that state already.
-  bool set_estop(bool engaged);
+  /// Latches or releases the emergency stop; the log names the client. Returns false when it was in that state already.
+  bool set_estop(bool engaged, const std::string& client = "");
   /// Stands still and powers the motors off, before the components stop.
   void halt();
   /// Call it after a component was restarted: the robot stays disarmed until somebody moves it on purpose, and a
@@ -41,7 +41,10 @@ class MotionControl {
   void restarted(const std::string& component);
 
   /// Uses other limits from now on.
-  void use(const SafetyParams& params) { params_ = params; }
+  void use(const SafetyParams& params) {
+    params_ = params;
+    authority_.use(params.lease);
+  }
 
   /// Success when the base obeys commands; the error says why it does not. A recording never does.
   [[nodiscard]] Status drivable() const { return base_->drivable(); }

@@ -106,6 +106,7 @@ api::RobotStatus Publisher::status() const {
   if (status.mission) {
     status.mission->decision.reset();  // its candidates are many bytes; the mission's own topic has them
   }
+  status.link_countdown = sources_.missions.link_countdown();
   status.faults = sources_.diagnostics.faults().all();
   status.safety = sources_.motion.safety_reason();
   status.clock_speed = sources_.world.speed();

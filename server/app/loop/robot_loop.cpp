@@ -28,7 +28,8 @@ RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
       components_(
           {world_, sensing_, neighbours_, localiser_, motion_, executor_, missions_, maps_, publisher_, diagnostics_},
           devices_, parts.configuration),
-      commands_({world_, perception_, motion_, executor_, missions_, maps_, components_, publisher_, diagnostics_}) {
+      commands_({world_, perception_, motion_, executor_, missions_, maps_, components_, publisher_, diagnostics_,
+                 situation_}) {
   add_components(diagnostics_.components(), parts, devices_, params.connections);
 }
 
@@ -157,6 +158,7 @@ void RobotLoop::publish_idle() {
 bool RobotLoop::await(Duration limit, WallTime wall_now) {
   const Result<bool> there = world_.await(limit);
   watch_world(wall_now);
+  commands_.watch(wall_now);
   if (!there) {
     end_source(there.error());
   }

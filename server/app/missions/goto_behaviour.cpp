@@ -30,12 +30,14 @@ nav::DriverParams driver_of(const GotoParams& params) {
 
 }  // namespace
 
-GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound)
+GotoBehaviour::GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound,
+                             std::size_t leading)
     : mission_(std::move(mission)),
       floors_(params.cost_map, {std::move(bound), mission_.keep_out}, kFloorCell_m, kMapPeriod_s),
       segments_(seconds(kMapPeriod_s)),
       robot_radius_m_(params.cost_map.robot_radius_m),
-      drive_(driver_of(params), params.retry) {}
+      drive_(driver_of(params), params.retry),
+      leading_(leading) {}
 
 void GotoBehaviour::resumed(RobotTime /*now*/) {
   drive_.interrupted();
@@ -133,6 +135,10 @@ void GotoBehaviour::look_round(const Situation& situation, Decision& decision) {
 
 void GotoBehaviour::cannot_drive(const Situation& situation, const nav::DriveFailure& why, bool over,
                                  Decision& decision) {
+  if (current_ < leading_) {
+    next_waypoint(decision);
+    return;
+  }
   const Point2& goal = mission_.waypoints[current_];
   const auto lasting = lasting_cause(situation, goal, why.cause);
   const UnreachableCause cause = lasting.value_or(why.cause);

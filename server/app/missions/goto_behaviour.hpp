@@ -29,8 +29,10 @@ struct GotoParams {
 
 class GotoBehaviour final : public Behaviour {
  public:
-  /// `bound`: the robot stays inside.
-  GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound = std::nullopt);
+  /// `bound`: the robot stays inside. The first `leading` waypoints only lead the robot: one to which no path is known
+  /// is left out at once and reported by nobody.
+  GotoBehaviour(const GotoParams& params, api::GotoMission mission, std::optional<Polygon> bound = std::nullopt,
+                std::size_t leading = 0);
 
   [[nodiscard]] Decision step(const Situation& situation) override;
   void resumed(RobotTime now) override;
@@ -59,6 +61,7 @@ class GotoBehaviour final : public Behaviour {
   SegmentView segments_;
   double robot_radius_m_;
   nav::RetryDrive drive_;
+  std::size_t leading_;
   std::size_t current_ = 0;
   bool driving_ = false;  ///< to the current place
   bool map_seen_ = false;

@@ -45,6 +45,9 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active.status.phase = "start";
   active.status.started = situation.now - so_far.running;
   active.status.link_policy = request.link_policy;
+  active.status.link_steps =
+      request.link_steps.empty() ? api::link_steps_of(request.link_policy, params_.link_grace) : request.link_steps;
+  active.link = LinkWatch(active.status.link_steps);
   active.detection_base = findings_.highest_id();
   active.pose = situation.pose.map_T_base;
   active.so_far = {so_far.start_map, so_far.running};
@@ -74,7 +77,7 @@ Status MissionExecutor::command(api::MissionCommand command, RobotTime now) {
   switch (command) {
     case api::MissionCommand::kStop: end(api::Outcome::kOperator, "stopped by the operator", "", now); return {};
     case api::MissionCommand::kPause:
-      if (!running()) {
+      if (!running() && !std::exchange(active_->paused_by_link, false)) {
         return fail(Errc::kNotReady, "the mission is paused already");
       }
       pause(now, "paused by the operator");
@@ -83,16 +86,24 @@ Status MissionExecutor::command(api::MissionCommand command, RobotTime now) {
       if (running()) {
         return fail(Errc::kNotReady, "the mission is not paused");
       }
-      active_->status.state = api::MissionState::kRunning;
-      active_->behaviour->resumed(now);
-      log(now, "mission-resumed", "resumed by the operator");
-      report(now);
+      go_on(now, "resumed by the operator");
       return {};
   }
   return fail(Errc::kInvalidArgument, "unknown mission command");
 }
 
+void MissionExecutor::go_on(RobotTime now, const std::string& why) {
+  active_->paused_by_link = false;
+  active_->status.state = api::MissionState::kRunning;
+  active_->behaviour->resumed(now);
+  log(now, "mission-resumed", why);
+  report(now);
+}
+
 void MissionExecutor::pause(RobotTime now, const std::string& why) {
+  if (active_) {
+    active_->paused_by_link = false;
+  }
   if (running()) {
     active_->status.state = api::MissionState::kPaused;
     active_->ran_at.reset();
@@ -180,39 +191,11 @@ bool MissionExecutor::hold_for_trouble(const Situation& situation, const api::Fa
   return false;
 }
 
-void MissionExecutor::apply_link_policy(const Situation& situation, WallTime wall_now) {
-  if (!active_->lost_since || wall_now - *active_->lost_since < params_.link_grace) {
-    return;
-  }
-  active_->lost_since.reset();
-  const std::string cause = "the client '" + active_->owner + "' that started the mission is gone";
-  const std::string remedy = "check the network; choose --link-policy continue to go on without a client";
-  switch (active_->request.link_policy) {
-    case api::LinkPolicy::kContinue: return;
-    case api::LinkPolicy::kStop: end(api::Outcome::kLinkLost, cause, remedy, situation.now); return;
-    case api::LinkPolicy::kFinishStep: active_->finish_step = true; return;
-    case api::LinkPolicy::kReturn: break;
-  }
-  Result<std::unique_ptr<Behaviour>> way_back = factory_(return_of(active_->request.task), situation);
-  if (!way_back) {
-    end(api::Outcome::kLinkLost, cause + "; no way back: " + way_back.error().message, remedy, situation.now);
-    return;
-  }
-  collect();
-  keep_searched();
-  api::MissionEnd why = active_->behaviour->pending_end().value_or(
-      api::MissionEnd{.outcome = api::Outcome::kLinkLost, .cause = cause, .remedy = remedy, .unreachable = {}});
-  active_->behaviour = std::move(*way_back);
-  active_->detection_base = findings_.highest_id();
-  active_->end_after = std::move(why);
-  log(situation.now, "returning", cause, api::Severity::kWarning);
-}
-
 Decision MissionExecutor::step(const Situation& situation, const api::Fault* blocking, WallTime wall_now) {
   if (!active_) {
     return {};
   }
-  apply_link_policy(situation, wall_now);
+  watch_link(situation, wall_now);
   if (!active_ || !running()) {
     return {};
   }
@@ -263,6 +246,7 @@ void MissionExecutor::take(const Decision& decision, const Situation& situation)
     status.path_length_m += distance_m(*active_->last_pose, pose);
   }
   active_->last_pose = active_->pose = pose;
+  active_->travelled.note(pose.translation());
   active_->map_epoch = situation.pose.map_epoch;
   const bool new_phase = status.phase != decision.phase;
   status.phase = decision.phase;
@@ -303,24 +287,13 @@ void MissionExecutor::on_look(const Result<StereoLook>& look) {
   }
 }
 
-void MissionExecutor::client_lost(const std::string& client, WallTime wall_now) {
-  if (active_ && active_->owner == client && !active_->lost_since) {
-    active_->lost_since = wall_now;
-  }
-}
-
-void MissionExecutor::client_back(const std::string& client) {
-  if (active_ && active_->owner == client) {
-    active_->lost_since.reset();
-  }
-}
-
 void MissionExecutor::map_moved(const MapCorrection& correction, RobotTime now) {
   if (active_) {
     const MapMove& move = correction.move;
     active_->behaviour->map_moved(move);
     active_->last_pose.reset();
     active_->pose = move * active_->pose;
+    active_->travelled.move(move);
     if (active_->so_far.start_map) {
       active_->so_far.start_map = move * *active_->so_far.start_map;
     }

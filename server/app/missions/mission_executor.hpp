@@ -11,15 +11,15 @@
 
 #include "common/api/robot_api.hpp"
 #include "server/app/missions/behaviour.hpp"
+#include "server/app/missions/link_watch.hpp"
 #include "server/app/missions/mission_findings.hpp"
+#include "server/app/missions/travelled_path.hpp"
 
 namespace seeker::app {
 
-/// Heartbeats and link policy live on the wall clock, missions on robot time (design section 3).
-using WallTime = std::chrono::steady_clock::time_point;
-
 struct MissionParams {
-  Duration link_grace = std::chrono::seconds(5);    ///< wall time a lost client has to come back
+  /// Wall time a silent client has to come back, where the mission's link policy has its short form.
+  Duration link_grace = std::chrono::seconds(5);
   Duration fault_grace = std::chrono::seconds(10);  ///< robot time a blocking fault may last
   /// Robot time without localisation; the time in which the robot is looked for in its map does not count.
   Duration lost_grace = std::chrono::seconds(10);
@@ -77,8 +77,15 @@ class MissionExecutor {
   }
   /// What the behaviour knew when the program was cut off; before its first step.
   void remember(const TopologyMemory& memory);
-  void client_lost(const std::string& client, WallTime wall_now);
-  void client_back(const std::string& client);
+  /// The client has been silent since then: the link policy of its mission counts from there.
+  void client_silent(const std::string& client, WallTime since);
+  /// The client has sent something again. What its mission's link policy has done stays done.
+  void client_back(const std::string& client, RobotTime now);
+  /// While the client that started the mission is silent: what comes next.
+  [[nodiscard]] std::optional<api::LinkCountdown> link_countdown() const;
+  /// Carries out what the link policy says by now; step() does it, too. For a loop that makes no steps while a mission
+  /// is paused.
+  void watch_link(const Situation& situation, WallTime wall_now);
 
   [[nodiscard]] bool running() const { return active_ && active_->status.state == api::MissionState::kRunning; }
   [[nodiscard]] bool present() const { return active_.has_value(); }
@@ -105,9 +112,11 @@ class MissionExecutor {
     MissionSoFar so_far;
     std::optional<RobotTime> ran_at;   ///< the step before this one; none after a pause or while it is held
     std::uint64_t detection_base = 0;  ///< added to the behaviour's own ids, which count from 1
-    std::optional<WallTime> lost_since;
+    LinkWatch link;
     bool finish_step = false;
     std::optional<api::MissionEnd> end_after;  ///< the outcome once the robot is back (link policy RETURN)
+    bool paused_by_link = false;               ///< by the link policy alone, which may end the pause, too
+    TravelledPath travelled;
     std::optional<RobotTime> blocked_since;
     std::optional<RobotTime> unlocalised_since;
     bool decision_reported = true;   ///< the status' decision was in a report
@@ -123,7 +132,10 @@ class MissionExecutor {
 
   [[nodiscard]] Decision held(const Situation& situation, const std::string& activity);
   [[nodiscard]] bool hold_for_trouble(const Situation& situation, const api::Fault* blocking);
-  void apply_link_policy(const Situation& situation, WallTime wall_now);
+  void go_on(RobotTime now, const std::string& why);
+  void carry_out(const api::LinkStep& step, const Situation& situation);
+  void return_because(const api::MissionEnd& why, const Situation& situation);
+  void end_link_pause(const Situation& situation);
   void take(const Decision& decision, const Situation& situation);
   void finish(const api::MissionEnd& end, RobotTime now);
   [[nodiscard]] api::MissionEnd as_it_counts(api::MissionEnd end) const;

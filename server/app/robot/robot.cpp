@@ -4,6 +4,7 @@
 
 #include "common/api/fleet.hpp"
 #include "common/log/log.hpp"
+#include "server/app/robot/robot_session.hpp"
 
 namespace seeker::app {
 namespace {
@@ -43,160 +44,6 @@ LoopParams of_robot(LoopParams params, const RobotIdentity& identity) {
 }
 
 }  // namespace
-
-/// One client's view: every call becomes a task of the loop's thread.
-class Robot::Session final : public api::RobotApi, public std::enable_shared_from_this<Robot::Session> {
- public:
-  Session(Robot& robot, std::string client) : robot_(robot), client_(std::move(client)) {}
-
-  void get_info(api::Reply<api::RobotInfo> reply) override {
-    ask(std::move(reply), [this] { return Result<api::RobotInfo>(robot_.info()); });
-  }
-  void get_status(api::Reply<api::RobotStatus> reply) override {
-    ask(std::move(reply), [this] { return Result<api::RobotStatus>(loop().status()); });
-  }
-  void list_components(api::Reply<std::vector<api::ComponentInfo>> reply) override {
-    ask(std::move(reply), [this] {
-      return Result<std::vector<api::ComponentInfo>>(loop().diagnostics().components().list(loop().now()));
-    });
-  }
-  void restart_component(const std::string& name, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, name] { return loop().commands().restart_component(name); });
-  }
-  void switch_component(const std::string& name, bool active, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, name, active] { return loop().commands().components().switch_to(name, active); });
-  }
-  void exchange_component(const std::string& name, const std::string& type, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, name, type] { return loop().commands().components().exchange(name, type); });
-  }
-  void get_settings(const std::string& component, api::Reply<std::vector<api::ComponentSetting>> reply) override {
-    ask(std::move(reply), [this, component] { return loop().commands().components().settings(component); });
-  }
-  void set_settings(const std::string& component, const std::vector<std::string>& assignments,
-                    api::Reply<std::vector<api::ComponentSetting>> reply) override {
-    ask(std::move(reply),
-        [this, component, assignments] { return loop().commands().components().set(component, assignments); });
-  }
-  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionId> reply) override {
-    ask(std::move(reply), [this, request] { return loop().commands().start_mission(request, client_); });
-  }
-  void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
-    if (command == api::MissionCommand::kResume) {
-      robot_.checkpoints_.resume_mission(client_, reply);
-      return;
-    }
-    ask(std::move(reply), [this, command] { return loop().commands().command_mission(command, client_); });
-  }
-  void get_mission(api::Reply<api::MissionStatus> reply) override {
-    ask(std::move(reply), [this]() -> Result<api::MissionStatus> {
-      if (!loop().missions().last()) {
-        return fail(Errc::kNotFound, "no mission has been started yet");
-      }
-      return *loop().missions().last();
-    });
-  }
-  void stop(api::Reply<void> reply) override {
-    ask(std::move(reply), [this] {
-      loop().commands().stop();
-      return Status();
-    });
-  }
-  void set_estop(bool engaged, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, engaged] {
-      loop().commands().set_estop(engaged);
-      return Status();
-    });
-  }
-  void command_lease(api::LeaseAction action, api::Reply<api::LeaseState> reply) override {
-    ask(std::move(reply), [this, action] { return loop().commands().command_lease(client_, action); });
-  }
-  void drive(const api::DriveCommand& command, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, command] { return loop().commands().drive(client_, command); });
-  }
-  void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override {
-    ask(std::move(reply),
-        [this, since_revision] { return Result<api::TileUpdate>(loop().robot_map().tiles_since(since_revision)); });
-  }
-  void get_grid(api::Reply<api::GridReport> reply) override {
-    ask(std::move(reply), [this]() -> Result<api::GridReport> {
-      if (!loop().missions().findings().grid()) {
-        return fail(Errc::kNotFound, "no search has been started yet, so there are no lists");
-      }
-      return *loop().missions().findings().grid();
-    });
-  }
-  void get_detections(api::Reply<std::vector<api::Detection>> reply) override {
-    ask(std::move(reply), [this] { return Result<std::vector<api::Detection>>(loop().missions().detections()); });
-  }
-  void get_trajectory(api::Reply<std::vector<api::StampedPose>> reply) override {
-    ask(std::move(reply), [this] { return Result<std::vector<api::StampedPose>>(loop().trajectory().stamped()); });
-  }
-  void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override {
-    ask(std::move(reply), [this, camera] { return loop().commands().grab_image(camera); });
-  }
-  void get_segments(std::uint64_t since_revision, api::Reply<api::SegmentUpdate> reply) override {
-    ask(std::move(reply), [this, since_revision] { return loop().robot_map().segments_since(since_revision); });
-  }
-  void save_map(const std::string& name, bool replace, api::Reply<api::MapSummary> reply) override {
-    robot_.maps_.save(name, replace, reply);
-  }
-  void load_map(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply) override {
-    robot_.maps_.load(name, use, reply);
-  }
-  void list_maps(api::Reply<std::vector<api::MapSummary>> reply) override { robot_.maps_.list(reply); }
-  void inspect_map(const std::string& name, bool verify, api::Reply<api::MapSummary> reply) override {
-    robot_.maps_.inspect(name, verify, reply);
-  }
-  void delete_map(const std::string& name, api::Reply<void> reply) override { robot_.maps_.remove(name, reply); }
-  void download_map(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply) override {
-    robot_.maps_.download(name, reply);
-  }
-  void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override {
-    robot_.maps_.upload(upload, reply);
-  }
-  void list_landmarks(api::Reply<std::vector<api::LandmarkSummary>> reply) override { robot_.landmarks_.list(reply); }
-  void inspect_landmarks(const std::string& name, bool verify, api::Reply<api::LandmarkSummary> reply) override {
-    robot_.landmarks_.inspect(name, verify, reply);
-  }
-  void get_landmarks(const std::string& name, api::Reply<std::vector<api::LandmarkPoint>> reply) override {
-    robot_.landmarks_.points(name, reply);
-  }
-  void prune_landmarks(const std::string& name, int min_views, api::Reply<api::LandmarkSummary> reply) override {
-    robot_.landmarks_.prune(name, min_views, reply);
-  }
-  void revert_landmarks(const std::string& name, api::Reply<api::LandmarkSummary> reply) override {
-    robot_.landmarks_.revert(name, reply);
-  }
-  void delete_landmarks(const std::string& name, api::Reply<void> reply) override {
-    robot_.landmarks_.remove(name, reply);
-  }
-  void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
-    ask(std::move(reply), [this, map_T_base] { return loop().commands().relocalise(map_T_base); });
-  }
-  Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
-                                                       api::UpdateSink sink) override {
-    std::unique_ptr<api::Subscription> subscription = robot_.hub_.subscribe(topics, std::move(sink));
-    // A full mailbox only delays the first picture of the map until the next change.
-    static_cast<void>(robot_.mailbox_.post([self = shared_from_this()] { self->loop().publisher().republish(); }));
-    return subscription;
-  }
-
- private:
-  [[nodiscard]] RobotLoop& loop() { return robot_.loop_; }
-
-  template <class T, class Work>
-  void ask(api::Reply<T> reply, Work work) {
-    auto shared = std::make_shared<api::Reply<T>>(std::move(reply));
-    // The task keeps the session alive: its client may be gone before the loop comes to it.
-    if (!robot_.mailbox_.post(
-            [shared, self = shared_from_this(), work = std::move(work)]() mutable { (*shared)(work()); })) {
-      (*shared)(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
-    }
-  }
-
-  Robot& robot_;
-  std::string client_;
-};
 
 Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal,
              const std::filesystem::path& maps, std::shared_ptr<LandmarkLibrary> landmarks)
@@ -310,6 +157,10 @@ void Robot::keep_journal() {
   };
   loop_.hooks().on_mission = [this](const api::MissionStatus& status) { journal_->mission(status); };
   loop_.hooks().on_detection = [this](const api::Detection& detection) { journal_->detection(detection); };
+  if (journal_->estop()) {
+    loop_.commands().set_estop(true);
+    log::warning("robot", "the emergency stop was latched when the program ended, and is; 'seeker estop --release'");
+  }
   journal_->set_on_error([this](const Error& error) {
     static_cast<void>(mailbox_.post([this, error] {
       loop_.diagnostics().raise("journal-failed", "journal", "the journal cannot be written: " + error.message,
@@ -331,9 +182,18 @@ void Robot::record(std::unique_ptr<DriveRecorder> recorder) {
   recorder_->follow(loop_.hooks());
 }
 
+/// Answers when it is on the disk. That it is not is a fault of the journal; the robot has stopped in any case.
+void Robot::keep_estop(bool engaged, const api::Reply<void>& reply) {
+  if (!journal_) {
+    reply({});
+    return;
+  }
+  journal_->keep_estop(engaged, [reply](const Status& /*kept*/) { reply({}); });
+}
+
 void Robot::start(bool wait_for_client) {
   loop_.start();
-  now_ns_ = loop_.now().time_since_epoch().count();
+  clock_.passed(loop_.now(), std::chrono::steady_clock::now(), false);
   thread_ = std::thread([this, wait_for_client] { run(wait_for_client); });
 }
 
@@ -356,15 +216,21 @@ void Robot::run(bool wait_for_client) {
       loop_.tick(std::chrono::steady_clock::now());
     }
     // The others in a shared world may be slow, or the way there cut: clients are served meanwhile.
-    while (!mailbox_.closed() && !loop_.await(kAwaitSlice, std::chrono::steady_clock::now())) {
+    while (!mailbox_.closed() && !pass()) {
       mailbox_.run_pending();
     }
-    now_ns_ = loop_.now().time_since_epoch().count();
     ended_ = loop_.world().ended();
   }
   loop_.world().hold();
   loop_.shut_down();
   mailbox_.run_pending();
+}
+
+bool Robot::pass() {
+  const auto wall_now = std::chrono::steady_clock::now();
+  const bool there = loop_.await(kAwaitSlice, wall_now);
+  clock_.passed(loop_.now(), std::chrono::steady_clock::now(), loop_.world().realtime() && !loop_.world().ended());
+  return there;
 }
 
 api::RobotInfo Robot::info() const {
@@ -380,11 +246,22 @@ api::RobotInfo Robot::info() const {
 std::shared_ptr<api::RobotApi> Robot::open(const api::Caller& caller) {
   client_seen_ = client_seen_ || !caller.client_name.empty();
   static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.commands().client_back(name); }));
-  return std::make_shared<Session>(*this, caller.client_name);
+  return std::make_shared<Session>(*this, caller);
 }
 
 void Robot::closed(const api::Caller& caller) {
   static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.commands().client_closed(name); }));
+}
+
+void Robot::silent(const api::Caller& caller, Duration silence) {
+  static_cast<void>(
+      mailbox_.post([this, name = caller.client_name, since = std::chrono::steady_clock::now() - silence] {
+        loop_.commands().client_silent(name, since);
+      }));
+}
+
+void Robot::returned(const api::Caller& caller) {
+  static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.commands().client_back(name); }));
 }
 
 void Robot::lost(const api::Caller& caller, const std::string& why) {

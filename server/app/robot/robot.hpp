@@ -13,6 +13,7 @@
 #include "server/app/loop/robot_loop.hpp"
 #include "server/app/robot/checkpoint_service.hpp"
 #include "server/app/robot/drive_recorder.hpp"
+#include "server/app/robot/loop_clock.hpp"
 #include "server/app/robot/map_service.hpp"
 #include "server/app/runtime/mailbox.hpp"
 #include "server/app/state/journal.hpp"
@@ -46,11 +47,14 @@ class Robot final : public api::RobotHost {
   [[nodiscard]] FleetHost fleet_host();
   /// True once a replay's source has been read to its end.
   [[nodiscard]] bool ended() const { return ended_.load(); }
-  /// Robot time of the last tick; any thread.
-  [[nodiscard]] RobotTime now() const { return RobotTime(Duration(now_ns_.load())); }
+  /// Robot time, and number of passes of the loop; any thread.
+  [[nodiscard]] RobotTime now() const { return clock_.now(std::chrono::steady_clock::now()); }
+  [[nodiscard]] std::uint64_t passes() const { return clock_.passes(); }
 
   [[nodiscard]] std::shared_ptr<api::RobotApi> open(const api::Caller& caller) override;
   void closed(const api::Caller& caller) override;
+  void silent(const api::Caller& caller, Duration silence) override;
+  void returned(const api::Caller& caller) override;
   void lost(const api::Caller& caller, const std::string& why) override;
 
  private:
@@ -60,6 +64,8 @@ class Robot final : public api::RobotHost {
   void give_own_topology(const api::Reply<OwnTopology>& reply);
   void give_own_seen(const api::Reply<OwnSeen>& reply);
   void keep_journal();
+  void keep_estop(bool engaged, const api::Reply<void>& reply);
+  [[nodiscard]] bool pass();
   void run(bool wait_for_client);
   [[nodiscard]] api::RobotInfo info() const;
 
@@ -76,7 +82,7 @@ class Robot final : public api::RobotHost {
   std::thread thread_;
   std::atomic<bool> client_seen_{false};
   std::atomic<bool> ended_{false};
-  std::atomic<std::int64_t> now_ns_{0};
+  LoopClock clock_;
 };
 
 }  // namespace seeker::app

@@ -1,102 +1,72 @@
 #include "server/app/safety/motion_authority.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace seeker::app {
 namespace {
 
-std::string held_by(const std::string& owner) {
-  return "'" + owner + "' holds the lease; wait until it is released, or take it over with 'seeker drive --take-over'";
-}
-
-}  // namespace
-
-void MotionAuthority::hand_over(const std::string& client) {
-  lease_.owner = client;
-  lease_.requested_by.clear();
-  ++lease_.epoch;
-  stopped_.reset();
-  drive_.reset();
-}
-
-void MotionAuthority::stop() {
-  drive_.reset();
-  if (!lease_.owner.empty()) {
-    stopped_ = lease_.epoch++;
-  }
-}
-
-Result<api::LeaseState> MotionAuthority::command_lease(const std::string& client, api::LeaseAction action) {
-  const bool owner = lease_.owner == client;
-  switch (action) {
-    case api::LeaseAction::kAcquire:
-      if (!lease_.owner.empty() && !owner) {
-        return fail(Errc::kRefused, held_by(lease_.owner));
-      }
-      if (!owner) {
-        hand_over(client);
-      }
-      return lease_;
-    case api::LeaseAction::kTakeOver:
-      if (!owner) {
-        hand_over(client);
-      }
-      return lease_;
-    case api::LeaseAction::kRequest:
-      if (!owner) {
-        lease_.requested_by = client;
-      }
-      return lease_;
-    case api::LeaseAction::kGrant:
-    case api::LeaseAction::kDeny:
-      if (!owner || lease_.requested_by.empty()) {
-        return fail(Errc::kRefused, owner ? "nobody asks for the lease" : "only the owner of the lease may answer");
-      }
-      if (action == api::LeaseAction::kGrant) {
-        hand_over(lease_.requested_by);
-      } else {
-        lease_.requested_by.clear();
-      }
-      return lease_;
-    case api::LeaseAction::kRelease:
-      if (owner) {
-        hand_over(lease_.requested_by);
-      }
-      return lease_;
-  }
-  return fail(Errc::kInvalidArgument, "unknown lease action");
-}
-
-void MotionAuthority::forget(const std::string& client) {
-  if (lease_.requested_by == client) {
-    lease_.requested_by.clear();
-  }
-  if (lease_.owner == client) {
-    hand_over(lease_.requested_by);
-  }
-}
-
-Status MotionAuthority::drive(const std::string& client, const api::DriveCommand& command, RobotTime now) {
-  if (estop_) {
-    return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
-  }
-  if (lease_.owner != client) {
-    return fail(Errc::kRefused,
-                lease_.owner.empty() ? "driving needs the lease; acquire it first" : held_by(lease_.owner));
-  }
-  if (stopped_ && command.lease_epoch == *stopped_) {
-    return fail(Errc::kRefused, "the robot was stopped while it was driven by hand; acquire the lease again to go on");
-  }
-  if (command.lease_epoch != lease_.epoch) {
-    return fail(Errc::kRefused, "the command belongs to an earlier lease; acquire the lease again");
-  }
+/// Of what the command itself says.
+Status validate(const api::DriveCommand& command, RobotTime now) {
   if (!std::isfinite(command.velocity.v_m_s) || !std::isfinite(command.velocity.omega_rad_s)) {
     return fail(Errc::kInvalidArgument, "the velocity is not a finite number");
   }
   if (command.ttl <= Duration::zero() || command.ttl > api::kMaxDriveTtl) {
     return fail(Errc::kInvalidArgument, "a velocity command lives above 0 and at most 1 s");
   }
-  drive_ = Drive{command.velocity, now + command.ttl};
+  if (command.sent && *command.sent > now + api::kMaxDriveClockError) {
+    return fail(Errc::kRefused, "the command comes from the future; compare the clocks again");
+  }
+  if (command.sent && now - *command.sent >= command.ttl) {
+    return fail(Errc::kTimeout, "the command arrived " + std::to_string(to_seconds(now - *command.sent)) +
+                                    " s after it was sent, when its life was over; check the link, or give it more");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<api::LeaseState> MotionAuthority::command_lease(const api::Caller& caller, const api::LeaseCommand& command,
+                                                       Lease::WallTime now) {
+  const std::string owner = lease().owner;
+  Result<api::LeaseState> state = lease_.command(caller, command, now);
+  if (lease().owner != owner) {
+    drive_.reset();
+  }
+  return state;
+}
+
+void MotionAuthority::forget(const std::string& client) {
+  if (lease().owner == client) {
+    drive_.reset();
+  }
+  lease_.forget(client);
+}
+
+void MotionAuthority::silent(const std::string& client) {
+  if (lease().owner == client) {
+    drive_.reset();
+  }
+  lease_.silent(client);
+}
+
+void MotionAuthority::stop() {
+  drive_.reset();
+  lease_.void_commands();
+}
+
+Status MotionAuthority::drive(const std::string& client, const api::DriveCommand& command, RobotTime now) {
+  if (estop_) {
+    return fail(Errc::kRefused, "the emergency stop is latched; release it with 'seeker estop --release'");
+  }
+  // What is wrong with a command may be known to its sender alone: who may send one comes first.
+  if (const Status taken = lease_.take(client, command.lease_epoch, command.sequence); !taken) {
+    return taken;
+  }
+  if (const Status valid = validate(command, now); !valid) {
+    return valid;
+  }
+  drive_ = Drive{command.velocity, std::min(command.sent.value_or(now), now) + command.ttl};
   return {};
 }
 

@@ -3,25 +3,37 @@
 /// thread: the present time is an argument.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "common/api/robot_api.hpp"
 #include "common/core/result.hpp"
+#include "server/app/safety/lease.hpp"
 
 namespace seeker::app {
 
 class MotionAuthority {
  public:
-  /// Lease actions of `client`. kRefused names the owner and the remedy.
-  [[nodiscard]] Result<api::LeaseState> command_lease(const std::string& client, api::LeaseAction action);
-  /// The owner went away: the lease is free, its last command is void.
-  void forget(const std::string& client);
-  [[nodiscard]] const api::LeaseState& lease() const { return lease_; }
+  explicit MotionAuthority(const LeaseParams& lease = {}) : lease_(lease) {}
 
-  /// Takes a velocity for at most its time to live. Refused without the lease, with a stale lease epoch, while the
-  /// emergency stop is latched, or with a life above api::kMaxDriveTtl.
+  /// Lease actions of `caller`; see Lease::command(). A new owner begins with no velocity in force.
+  [[nodiscard]] Result<api::LeaseState> command_lease(const api::Caller& caller, const api::LeaseCommand& command,
+                                                      Lease::WallTime now);
+  /// The client left on purpose: its lease is given up, its last command is void.
+  void forget(const std::string& client);
+  /// The client is silent: its lease is stale, its last command is void.
+  void silent(const std::string& client);
+  /// See Lease::watch().
+  bool watch(Lease::WallTime now) { return lease_.watch(now); }
+  [[nodiscard]] const api::LeaseState& lease() const { return lease_.state(); }
+  /// Uses other times of patience from the next request on.
+  void use(const LeaseParams& params) { lease_.use(params); }
+  /// See Lease::free_for().
+  [[nodiscard]] Status free_for(const std::string& client) const { return lease_.free_for(client); }
+
+  /// Takes a velocity for at most its time to live, which counts from when it was sent. Refused without the lease, with
+  /// a stale lease epoch, while the emergency stop is latched, or with a life above api::kMaxDriveTtl. kTimeout: its
+  /// life was over when it arrived.
   [[nodiscard]] Status drive(const std::string& client, const api::DriveCommand& command, RobotTime now);
   /// The velocity in force; nothing when none was given or the last one has expired.
   [[nodiscard]] std::optional<Twist2> drive_velocity(RobotTime now) const;
@@ -44,10 +56,7 @@ class MotionAuthority {
     RobotTime expires;
   };
 
-  void hand_over(const std::string& client);
-
-  api::LeaseState lease_;
-  std::optional<std::uint64_t> stopped_;  ///< epoch of the owner's commands that stop() has voided
+  Lease lease_;
   std::optional<Drive> drive_;
   bool estop_ = false;
   bool armed_ = false;

@@ -7,6 +7,7 @@
 
 #include "common/api/robot_state.hpp"
 #include "common/core/scan.hpp"
+#include "server/app/safety/lease.hpp"
 #include "server/nav/clearance.hpp"
 #include "server/nav/movers.hpp"
 
@@ -18,6 +19,7 @@ struct SafetyParams {
   nav::ClearanceParams clearance;
   double sonar_stop_range_m = 0.8;  ///< echoes beyond it never limit motion: the cones are too wide
   double sonar_slack_m = 0.25;      ///< an echo this much nearer than the lidar sees is a low obstacle of its own
+  LeaseParams lease;
 };
 
 struct SafetyInput {

@@ -10,6 +10,9 @@ namespace {
 /// Waiting writes; a disk that is this far behind is not coming back soon.
 constexpr std::size_t kMaxWaiting = 10'000;
 
+/// The setting that holds the emergency stop: one byte, 0 when it is released.
+constexpr const char* kEstopKey = "estop";
+
 std::int64_t ns(RobotTime time) { return time.time_since_epoch().count(); }
 
 store::Blob to_blob(const google::protobuf::MessageLite& message) {
@@ -53,6 +56,8 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::filesystem::path& fold
   }
   journal->highest_detection_id_ = *highest;
   journal->find_unfinished();
+  const Result<std::optional<store::Blob>> estop = journal->store_.get(kEstopKey);
+  journal->estop_ = !estop || (estop->has_value() && **estop != store::Blob{0});
   journal->thread_ = std::thread([raw = journal.get()] { raw->work(); });
   return journal;
 }
@@ -166,15 +171,28 @@ void Journal::detection(const api::Detection& detection) {
   });
 }
 
+void Journal::keep_estop(bool engaged, std::function<void(const Status&)> kept) {
+  {
+    const std::lock_guard lock(mutex_);
+    urgent_.emplace_back([engaged, kept = std::move(kept)](store::Store& store) {
+      const Status written = store.put(kEstopKey, store::Blob{static_cast<std::uint8_t>(engaged ? 1 : 0)});
+      kept(written);
+      return written;
+    });
+  }
+  wake_.notify_one();
+}
+
 void Journal::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return quit_ || !queue_.empty(); });
-    if (queue_.empty()) {
+    wake_.wait(lock, [this] { return quit_ || !queue_.empty() || !urgent_.empty(); });
+    std::deque<Write>& next = urgent_.empty() ? queue_ : urgent_;
+    if (next.empty()) {
       return;
     }
-    const Write write = std::move(queue_.front());
-    queue_.pop_front();
+    const Write write = std::move(next.front());
+    next.pop_front();
     lock.unlock();
     const Status written = write(store_);
     lock.lock();

@@ -39,6 +39,11 @@ class Journal {
   void mission(const api::MissionStatus& status);
   void event(const api::Event& event);
   void detection(const api::Detection& detection);
+  /// The emergency stop was latched when the program ended. One whose record cannot be read counts as latched.
+  [[nodiscard]] bool estop() const { return estop_; }
+  /// Keeps the emergency stop before anything that waits; `kept` is called on the journal's thread when it is on the
+  /// disk, or with the error.
+  void keep_estop(bool engaged, std::function<void(const Status&)> kept);
   /// Called on the journal's thread with the sentence of the first failed write.
   void set_on_error(std::function<void(const Error&)> on_error);
   [[nodiscard]] std::uint64_t dropped() const;
@@ -59,7 +64,9 @@ class Journal {
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Write> queue_;
+  std::deque<Write> urgent_;  ///< written first and never dropped
   std::function<void(const Error&)> on_error_;
+  bool estop_ = false;
   bool error_reported_ = false;  ///< the first one only
   std::uint64_t dropped_ = 0;
   bool quit_ = false;

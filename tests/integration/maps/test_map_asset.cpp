@@ -162,7 +162,7 @@ TEST_F(MapAsset, RobotThatCannotBeFoundIsLostWithTheCauseAndRefusesMissions) {
   mission.id = "go";
   mission.task = api::GotoMission{.waypoints = {Point2(1, 0)}, .final_heading_rad = std::nullopt, .keep_out = {}};
   const auto started =
-      run.ask<api::MissionId>([&](auto reply) { run.robot().start_mission(mission, std::move(reply)); });
+      run.ask<api::MissionAccepted>([&](auto reply) { run.robot().start_mission(mission, std::move(reply)); });
   ASSERT_FALSE(started);
   EXPECT_EQ(started.error().code, Errc::kNotReady);
   EXPECT_NE(started.error().message.find("seeker relocalise"), std::string::npos) << started.error().message;

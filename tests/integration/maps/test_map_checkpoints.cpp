@@ -224,14 +224,14 @@ TEST_F(MapCheckpoints, RobotThatLooksRoundIsStoppedByStopAndByEstop) {
 TEST_F(MapCheckpoints, RobotWhoseLeaseSomebodyHoldsDoesNotLookRound) {
   loop->mission_control().offer_unfinished(exploration());
   state->scans_to_search = 100'000;
-  ASSERT_TRUE(loop->commands().command_lease("somebody", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(loop->commands().command_lease({"somebody"}, {api::LeaseAction::kAcquire, false}, {}));
   ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
   ticks(45);
   EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01);
 }
 
 TEST_F(MapCheckpoints, WhoHoldsTheLeaseMayResumeAndOwnsTheMission) {
-  ASSERT_TRUE(loop->commands().command_lease("tester", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(loop->commands().command_lease({"tester"}, {api::LeaseAction::kAcquire, false}, {}));
   loop->mission_control().offer_unfinished(exploration());
   ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester"));
   ticks(20);
@@ -248,11 +248,11 @@ TEST_F(MapCheckpoints, ResumptionThatIsRefusedForgetsNothing) {
   TopologyMemory memory;
   memory.closed_map = {{2.0, 3.0}};
   ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
-  ASSERT_TRUE(loop->commands().command_lease("somebody", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(loop->commands().command_lease({"somebody"}, {api::LeaseAction::kAcquire, false}, {}));
   ticks(20);
   EXPECT_EQ(count("resume-failed"), 1);
   EXPECT_FALSE(loop->missions().present());
-  ASSERT_TRUE(loop->commands().command_lease("somebody", api::LeaseAction::kRelease));
+  ASSERT_TRUE(loop->commands().command_lease({"somebody"}, {api::LeaseAction::kRelease, false}, {}));
   ASSERT_TRUE(loop->commands().command_mission(api::MissionCommand::kResume, "tester"));
   EXPECT_EQ(remembered.topology, memory);
 }

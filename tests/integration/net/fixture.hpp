@@ -41,9 +41,10 @@ class RawClient {
     const auto frame = wire::frame_of(envelope);
     send_bytes(frame->head + *frame->body + frame->tail);
   }
-  void hello(const std::string& name, std::uint32_t major = api::kProtocolMajor) {
+  void hello(const std::string& name, std::uint32_t major = api::kProtocolMajor, std::uint32_t minor = 0) {
     pb::Envelope envelope;
     envelope.mutable_hello()->set_protocol_major(major);
+    envelope.mutable_hello()->set_protocol_minor(minor);
     envelope.mutable_hello()->set_client_name(name);
     envelope.mutable_hello()->set_instance(std::hash<std::string>()(name));
     envelope.mutable_hello()->set_role(pb::ROLE_OPERATOR);

@@ -76,12 +76,12 @@ TEST_F(NetTest, MissionStartAnswersAtOnceAndRepeatingItIsHarmless) {
   const auto client = connect("tester");
   api::MissionRequest request{"m-1", api::GotoMission{{Point2(1.0, 2.0)}, 0.5, {}}, api::LinkPolicy::kReturn, {}};
   for (int k = 0; k < 2; ++k) {
-    EXPECT_EQ(ask<api::MissionId>([&](auto r) { client->start_mission(request, r); }), "m-1");
+    EXPECT_EQ(ask<api::MissionAccepted>([&](auto r) { client->start_mission(request, r); })->id, "m-1");
   }
   ASSERT_EQ(robot_.values().missions.size(), 1U);
   EXPECT_EQ(robot_.values().missions.front(), request);
   request.id = "m-2";
-  const auto second = ask<api::MissionId>([&](auto r) { client->start_mission(request, r); });
+  const auto second = ask<api::MissionAccepted>([&](auto r) { client->start_mission(request, r); });
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, Errc::kBusy);
   EXPECT_TRUE(ask<void>([&](auto r) { client->command_mission(api::MissionCommand::kStop, r); }));
@@ -97,8 +97,35 @@ TEST_F(NetTest, ObserversReadAndStopButDoNotCommand) {
   EXPECT_TRUE(ask<void>([&](auto r) { client->stop(r); }));
   EXPECT_TRUE(ask<void>([&](auto r) { client->set_estop(true, r); }));
   EXPECT_EQ(ask<void>([&](auto r) { client->set_estop(false, r); }).error().code, Errc::kRefused);
-  EXPECT_EQ(ask<api::LeaseState>([&](auto r) { client->command_lease(api::LeaseAction::kAcquire, r); }).error().code,
+  EXPECT_EQ(ask<api::LeaseState>([&](auto r) {
+              client->command_lease({api::LeaseAction::kAcquire, false}, r);
+            })
+                .error()
+                .code,
             Errc::kRefused);
+}
+
+TEST_F(NetTest, LeaseKeeperRefreshesAStaleLease) {
+  start();
+  const auto client = connect("first");
+  Recorder<api::LeaseState> lost;
+  rpc::LeaseKeeperParams keep;
+  keep.client_name = "first";
+  keep.on_lost = [&](const api::LeaseState& lease) { lost.add(lease); };
+  const auto keeper = rpc::LeaseKeeper::acquire(client, keep);
+  ASSERT_TRUE(keeper) << keeper.error().message;
+  robot_.edit([](FakeRobotValues& v) {
+    v.lease.stale = true;
+    ++v.lease.epoch;
+  });
+  EXPECT_TRUE(eventually([&] {
+    api::RobotStatus status = robot_.values().status;
+    status.lease = robot_.values().lease;
+    robot_.publish(api::Topic::kStatus, robot_time_s(2.0), status);
+    return !robot_.values().lease.stale && (*keeper)->epoch() == robot_.values().lease.epoch;
+  }));
+  EXPECT_TRUE((*keeper)->held());
+  EXPECT_TRUE(lost.items().empty());
 }
 
 TEST_F(NetTest, LeaseKeeperHoldsAndReleasesAndHearsOfATakeOver) {

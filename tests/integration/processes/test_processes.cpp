@@ -112,6 +112,97 @@ TEST(Processes, ServerKilledInTheMissionOffersItAgainAndStaysDisarmed) {
   EXPECT_TRUE(resumed) << resumed.error().message;
 }
 
+TEST(Processes, CountdownOfALinkPolicyIsSeenWhileItsClientIsSilent) {
+  const Daemon daemon({"--set", "sim.speed=1"});
+  const auto watcher = connect(daemon, "watcher");
+  const auto status = [&] {
+    return rpc::wait<api::RobotStatus>([&](auto reply) { watcher->get_status(std::move(reply)); }, kCall)
+        .value_or(api::RobotStatus{});
+  };
+  ChildProcess client(
+      program("seeker"),
+      {"search", "--target", target_file(), "--link-policy", "2:event,600:pause", "--robot", daemon.address()},
+      daemon.folder() / "silent");
+  while (!status().mission) {
+  }
+  EXPECT_FALSE(status().link_countdown);
+  client.send(SIGSTOP);
+  api::RobotStatus seen;
+  while (!seen.link_countdown || !seen.link_countdown->next ||
+         seen.link_countdown->next->action != api::LinkAction::kPause) {
+    seen = status();
+  }
+  EXPECT_GE(seen.link_countdown->silent, Duration(seconds(2)));
+  EXPECT_NEAR(to_seconds(seen.link_countdown->silent + seen.link_countdown->left), 600.0, 1e-6);
+  EXPECT_EQ(seen.mission->link_steps.size(), 2U);
+  std::string output;
+  EXPECT_EQ(seeker(daemon, {"status"}, &output), 0);
+  EXPECT_NE(output.find(", pause in 5"), std::string::npos) << output;
+  client.send(SIGCONT);
+  while (status().link_countdown) {
+  }
+  EXPECT_FALSE(status().mission->end);
+  client.send(SIGINT);
+  EXPECT_EQ(client.wait(seconds(60)), 130) << client.output();
+}
+
+TEST(Processes, EmergencyStopOutlivesAKilledServerUntilItIsReleased) {
+  const std::filesystem::path folder = fresh_folder("estop");
+  const auto latched = [](const Daemon& daemon) {
+    const auto client = connect(daemon, "watcher");
+    const auto status = rpc::wait<api::RobotStatus>([&](auto reply) { client->get_status(std::move(reply)); }, kCall);
+    EXPECT_TRUE(status);
+    return status && status->estop;
+  };
+  const auto kill = [](Daemon& daemon) {
+    daemon.process->send(SIGKILL);
+    EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
+  };
+  {
+    Daemon daemon({}, folder);
+    EXPECT_FALSE(latched(daemon));
+    EXPECT_EQ(seeker(daemon, {"estop"}), 0);
+    kill(daemon);
+  }
+  {
+    Daemon again({}, folder);
+    EXPECT_TRUE(latched(again));
+    std::string output;
+    EXPECT_EQ(seeker(again, {"goto", "1,0"}, &output), 3);
+    EXPECT_NE(output.find("estop --release"), std::string::npos) << output;
+    EXPECT_EQ(seeker(again, {"estop", "--release"}), 0);
+    kill(again);
+  }
+  Daemon last({}, folder);
+  EXPECT_FALSE(latched(last));
+}
+
+TEST(Processes, OwnerOfTheLeaseIsAskedAndGrantsIt) {
+  const Daemon daemon({"--set", "loop.safety.lease_request_timeout_s=300"});
+  ChildProcess anna(program("seeker"), {"--as", "anna", "lease", "acquire", "--robot", daemon.address()},
+                    daemon.folder() / "anna");
+  const auto watcher = connect(daemon, "watcher");
+  const auto lease = [&] {
+    const auto status = rpc::wait<api::RobotStatus>([&](auto reply) { watcher->get_status(std::move(reply)); }, kCall);
+    return status ? status->lease : api::LeaseState{};
+  };
+  while (lease().owner != "anna") {
+  }
+  std::string output;
+  EXPECT_EQ(seeker(daemon, {"--as", "cleo", "lease", "acquire", "--for", "1"}, &output), 3);
+  EXPECT_NE(output.find("'anna'"), std::string::npos) << output;
+  ChildProcess ben(program("seeker"), {"--as", "ben", "lease", "request", "--robot", daemon.address()},
+                   daemon.folder() / "ben");
+  while (lease().requested_by != "ben") {
+  }
+  EXPECT_EQ(seeker(daemon, {"--as", "anna", "lease", "grant"}), 0);
+  EXPECT_EQ(lease().owner, "ben");
+  EXPECT_EQ(anna.wait(seconds(20)), 3) << anna.output();
+  ben.send(SIGINT);
+  EXPECT_EQ(ben.wait(seconds(20)), 0) << ben.output();
+  EXPECT_TRUE(lease().owner.empty());
+}
+
 TEST(Processes, TerminationIsOrderlyAndWrongConfigurationHasItsOwnCode) {
   Daemon daemon;
   daemon.process->send(SIGTERM);

@@ -66,10 +66,23 @@ class ValueMaker {
   api::RobotInfo info();
   api::ComponentInfo component();
   api::ComponentSetting setting();
-  api::LeaseState lease() { return {text(), rng_.bits(), text()}; }
+  api::LeaseState lease() {
+    return {text(), rng_.bits(), text(), flag(), rng_.bits(), std::chrono::milliseconds(count(9000))};
+  }
+  api::LinkStep link_step() {
+    return {std::chrono::milliseconds(1 + count(90'000)), one_of(api::LinkAction::kContinue)};
+  }
+  api::LinkSteps link_steps();
+  api::LinkCountdown link_countdown();
   api::Event event();
   api::ImageFrame frame() { return {text(), {time(), image()}, pose()}; }
-  api::DriveCommand drive() { return {{number(), number()}, std::chrono::milliseconds(1 + count(900)), rng_.bits()}; }
+  api::DriveCommand drive() {
+    return {{number(), number()},
+            std::chrono::milliseconds(1 + count(900)),
+            rng_.bits(),
+            rng_.bits(),
+            flag() ? std::optional(time()) : std::nullopt};
+  }
   api::Payload payload(api::Topic topic);
 
  private:

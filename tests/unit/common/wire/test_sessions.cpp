@@ -158,21 +158,32 @@ TEST_F(ServerSessionTest, AnotherRobotsRequestIsRefused) {
 TEST_F(ServerSessionTest, HeartbeatsAreDueOnAQuietLinkAndSilenceEndsIt) {
   ServerSession session = opened();
   session.on_sent(at(0));
-  EXPECT_FALSE(session.on_tick(at(900), {}, false).send);
-  const ServerStep beat = session.on_tick(at(1000), robot_time_s(5.0), false);
+  EXPECT_FALSE(session.on_tick(at(900), {}, 1, false).send);
+  const ServerStep beat = session.on_tick(at(1000), robot_time_s(5.0), 1, false);
   ASSERT_TRUE(beat.send);
   EXPECT_EQ(beat.send->heartbeat().robot_time_ns(), 5'000'000'000);
-  EXPECT_FALSE(session.on_tick(at(2900), {}, false).end);
-  const ServerStep lost = session.on_tick(at(3000), {}, false);
+  EXPECT_FALSE(session.on_tick(at(2900), {}, 1, false).end);
+  const ServerStep lost = session.on_tick(at(3000), {}, 1, false);
   ASSERT_TRUE(lost.end);
   EXPECT_EQ(lost.end->reason, pb::Close::REASON_SILENT);
   EXPECT_FALSE(lost.end->goodbye);
 }
 
+TEST_F(ServerSessionTest, ARobotWhoseLoopIsStuckSendsNoHeartbeat) {
+  ServerSession session = opened();
+  session.on_sent(at(0));
+  const ServerStep beat = session.on_tick(at(1000), {}, 7, false);
+  ASSERT_TRUE(beat.send);
+  EXPECT_EQ(beat.send->heartbeat().loop_pass(), 7U);
+  session.on_sent(at(1000));
+  EXPECT_FALSE(session.on_tick(at(2000), {}, 7, false).send) << "no pass since the last heartbeat";
+  EXPECT_TRUE(session.on_tick(at(2200), {}, 8, false).send) << "at once when the loop has passed";
+}
+
 TEST_F(ServerSessionTest, AnyFrameIsASignOfLife) {
   ServerSession session = opened();
   (void)put(session, info_request(1), 2500);
-  EXPECT_FALSE(session.on_tick(at(5000), {}, false).end);
+  EXPECT_FALSE(session.on_tick(at(5000), {}, 1, false).end);
 }
 
 TEST_F(ServerSessionTest, GoodbyeIsOnPurpose) {
@@ -187,8 +198,8 @@ TEST_F(ServerSessionTest, GoodbyeIsOnPurpose) {
 TEST_F(ServerSessionTest, IdleEndsOnlyWithoutSubscriptions) {
   params_.idle_limit = milliseconds(500);
   ServerSession session = opened();
-  EXPECT_FALSE(session.on_tick(at(600), {}, true).end);
-  EXPECT_EQ(session.on_tick(at(600), {}, false).end->reason, pb::Close::REASON_IDLE);
+  EXPECT_FALSE(session.on_tick(at(600), {}, 1, true).end);
+  EXPECT_EQ(session.on_tick(at(600), {}, 1, false).end->reason, pb::Close::REASON_IDLE);
 }
 
 class ClientSessionTest : public ServerSessionTest {

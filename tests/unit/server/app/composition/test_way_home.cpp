@@ -66,6 +66,23 @@ TEST_F(WayHome, LeadsAroundWhatTheMissionKeepsOut) {
   }
 }
 
+TEST_F(WayHome, LeadsAlongTheTravelledPathAndLeavesOutWhatIsBlockedNow) {
+  see(kTwoPi);
+  api::ReturnMission mission;
+  mission.along = {{5.0, 2.0}, {2.0, 2.0}};
+  const std::vector<Point2> way = first_step(mission).planned_path;
+  ASSERT_FALSE(way.empty());
+  EXPECT_THAT(way.back(), testing::Point2Near(Point2(5.0, 2.0), 0.1)) << "where it came by";
+  mission.along = {{5.0, 9.0}, {2.0, 9.0}};  // behind a wall now
+  (void)first_step(mission);
+  std::vector<Point2> home;
+  for (double now_s = 1.1; now_s < 3.0; now_s += 0.1) {
+    home = step(now_s).planned_path;
+  }
+  ASSERT_FALSE(home.empty());
+  EXPECT_THAT(home.back(), testing::Point2Near(Point2(0.0, 0.0), 0.1));
+}
+
 TEST_F(WayHome, StaysInsideTheBoundAndOnFloorThatTheRobotHasSeen) {
   see(kTwoPi);
   const Polygon east{{2.0, -3.0}, {12.0, -3.0}, {12.0, 3.0}, {2.0, 3.0}};

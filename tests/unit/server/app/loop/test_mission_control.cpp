@@ -29,7 +29,7 @@ TEST(MissionControl, RefusesWhileTheEmergencyStopIsLatched) {
 
 TEST(MissionControl, RefusesWhileSomebodyElseHoldsTheLease) {
   FakeDeck deck;
-  ASSERT_TRUE(deck.motion.authority().command_lease("other", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(deck.motion.authority().command_lease({"other"}, {api::LeaseAction::kAcquire, false}, {}));
   EXPECT_EQ(deck.missions.start(go_to("first"), "tester").error().code, Errc::kRefused);
   EXPECT_TRUE(deck.missions.start(go_to("first"), "other"));
 }

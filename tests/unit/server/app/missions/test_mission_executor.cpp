@@ -52,7 +52,7 @@ TEST_F(MissionExecutorTest, PauseHoldsTheBehaviourAndResumeTellsIt) {
 
 TEST_F(MissionExecutorTest, LostClientStopsTheMissionAfterTheGrace) {
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
-  executor.client_lost("anna", wall);
+  executor.client_silent("anna", wall);
   static_cast<void>(tick());
   EXPECT_TRUE(executor.present());
   wall += seconds(6);
@@ -62,9 +62,9 @@ TEST_F(MissionExecutorTest, LostClientStopsTheMissionAfterTheGrace) {
 
 TEST_F(MissionExecutorTest, ClientThatComesBackInTimeKeepsItsMission) {
   ASSERT_TRUE(executor.start(request("one"), "anna", situation));
-  executor.client_lost("anna", wall);
+  executor.client_silent("anna", wall);
   wall += seconds(3);
-  executor.client_back("anna");
+  executor.client_back("anna", situation.now);
   wall += seconds(10);
   static_cast<void>(tick());
   EXPECT_TRUE(executor.present());
@@ -72,14 +72,14 @@ TEST_F(MissionExecutorTest, ClientThatComesBackInTimeKeepsItsMission) {
 
 TEST_F(MissionExecutorTest, PoliciesContinueFinishStepAndReturn) {
   ASSERT_TRUE(executor.start(request("go-on", api::LinkPolicy::kContinue), "anna", situation));
-  executor.client_lost("anna", wall);
+  executor.client_silent("anna", wall);
   wall += seconds(6);
   static_cast<void>(tick());
   EXPECT_TRUE(executor.present());
   executor.end(api::Outcome::kOperator, "test", "", situation.now);
 
   ASSERT_TRUE(executor.start(request("finish", api::LinkPolicy::kFinishStep), "anna", situation));
-  executor.client_lost("anna", wall);
+  executor.client_silent("anna", wall);
   wall += seconds(6);
   static_cast<void>(tick());
   EXPECT_TRUE(executor.present());
@@ -89,7 +89,7 @@ TEST_F(MissionExecutorTest, PoliciesContinueFinishStepAndReturn) {
 
   script->next = {};
   ASSERT_TRUE(executor.start(request("home", api::LinkPolicy::kReturn), "anna", situation));
-  executor.client_lost("anna", wall);
+  executor.client_silent("anna", wall);
   wall += seconds(6);
   static_cast<void>(tick());
   EXPECT_EQ(made.back(), "return");
@@ -157,7 +157,7 @@ TEST_F(MissionExecutorTest, AMissionWhoseBoundTheRobotStandsFarOutsideOfIsRefuse
 
 TEST_F(MissionExecutorTest, AWayHomeForAClientThatIsGoneIsToldWhateverCutsItShort) {
   ASSERT_TRUE(executor.start(request("home", api::LinkPolicy::kReturn), "anna", situation));
-  executor.client_lost("anna", wall);
+  executor.client_silent("anna", wall);
   wall += seconds(6);
   static_cast<void>(tick());
   ASSERT_EQ(made.back(), "return");
@@ -313,7 +313,7 @@ TEST_F(MissionExecutorTest, WayHomeOfALostClientsMissionKeepsToItsGroundAndTells
   explore.keep_out = {stairs};
   exploration.task = explore;
   ASSERT_TRUE(executor.start(exploration, "anna", situation));
-  executor.client_lost("anna", wall);
+  executor.client_silent("anna", wall);
   wall += seconds(6);
   static_cast<void>(tick());
   ASSERT_TRUE(std::holds_alternative<api::ReturnMission>(made_last));

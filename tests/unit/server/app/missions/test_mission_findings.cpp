@@ -158,7 +158,7 @@ TEST_F(MissionResultsTest, RefutedFindIsWithdrawnButNotThatOfAnotherMission) {
 TEST_F(MissionResultsTest, FindsOutliveTheWayBackOfALostClientsMission) {
   ASSERT_TRUE(executor.start(request("home", api::LinkPolicy::kReturn), "anna", situation));
   script->detections = {mug_at({2.0, 0.0})};
-  executor.client_lost("anna", wall);
+  executor.client_silent("anna", wall);
   wall += seconds(6);
   static_cast<void>(tick(2.0));
   script->detections.clear();

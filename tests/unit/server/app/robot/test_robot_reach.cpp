@@ -159,7 +159,7 @@ TEST_F(RobotReach, ARecordingIsNotCommanded) {
   EXPECT_EQ(refused.error().message, "it is a recording");
   EXPECT_EQ(start("second", api::ExploreMission{}).error().code, Errc::kRefused);
   EXPECT_EQ(loop->commands().drive("tester", {}).error().message, "it is a recording");
-  ASSERT_TRUE(loop->commands().command_lease("tester", api::LeaseAction::kAcquire));
+  ASSERT_TRUE(loop->commands().command_lease({"tester"}, {api::LeaseAction::kAcquire, false}, {}));
   EXPECT_FALSE(loop->status().motors_armed);
   const std::vector<std::string> can = loop->capabilities();
   EXPECT_EQ(std::count(can.begin(), can.end(), "goto"), 0);
@@ -271,7 +271,7 @@ TEST(RobotLog, MissionsAndFaultsAreLinesOfIt) {
   request.id = "go";
   request.task = api::GotoMission{.waypoints = {Point2(1, 0)}, .final_heading_rad = std::nullopt, .keep_out = {}};
   const auto session = robot.open({"tester", api::Role::kOperator});
-  session->start_mission(request, [](const Result<api::MissionId>& id) { EXPECT_TRUE(id); });
+  session->start_mission(request, [](const Result<api::MissionAccepted>& id) { EXPECT_TRUE(id); });
   ASSERT_EQ(fault.get_future().wait_for(std::chrono::seconds(60)), std::future_status::ready);
   std::promise<void> stopped;
   session->stop([&](const Status& /*done*/) { stopped.set_value(); });

@@ -1,5 +1,7 @@
 #include "server/app/state/journal.hpp"
 
+#include <future>
+
 #include <gtest/gtest.h>
 
 #include "tests/unit/server/store/temporary_folder.hpp"
@@ -42,6 +44,23 @@ TEST(Journal, MissionThatWasCutOffIsOfferedUntilItIsResumedOverAnyNumberOfKills)
   }
   EXPECT_EQ(unfinished_in(folder.path()), "");
   EXPECT_EQ(end_of(folder.path(), "round")->outcome, "COMPLETE");
+}
+
+TEST(Journal, EmergencyStopIsKeptWhenThatIsTold) {
+  const testing::TemporaryFolder folder;
+  const auto keep = [&](bool engaged) {
+    const auto journal = Journal::open(folder.path()).value();
+    std::promise<Status> kept;
+    journal->keep_estop(engaged, [&](const Status& status) { kept.set_value(status); });
+    const Status told = kept.get_future().get();
+    EXPECT_TRUE(told) << told.error().message;
+  };
+  EXPECT_FALSE(Journal::open(folder.path()).value()->estop()) << "a new robot is not stopped";
+  keep(true);
+  EXPECT_TRUE(Journal::open(folder.path()).value()->estop());
+  EXPECT_TRUE(Journal::open(folder.path()).value()->estop()) << "over any number of restarts";
+  keep(false);
+  EXPECT_FALSE(Journal::open(folder.path()).value()->estop());
 }
 
 TEST(Journal, AnotherMissionClosesTheRecordOfTheOneThatWasCutOff) {

@@ -1,0 +1,183 @@
+/// \file
+/// The robot as one client sees it. A part of robot.cpp.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/app/robot/robot.hpp"
+
+namespace seeker::app {
+
+/// One client's view: every call becomes a task of the loop's thread.
+class Robot::Session final : public api::RobotApi, public std::enable_shared_from_this<Robot::Session> {
+ public:
+  Session(Robot& robot, api::Caller caller) : robot_(robot), caller_(std::move(caller)), client_(caller_.client_name) {}
+
+  void get_info(api::Reply<api::RobotInfo> reply) override {
+    ask(std::move(reply), [this] { return Result<api::RobotInfo>(robot_.info()); });
+  }
+  void get_status(api::Reply<api::RobotStatus> reply) override {
+    ask(std::move(reply), [this] { return Result<api::RobotStatus>(loop().status()); });
+  }
+  void list_components(api::Reply<std::vector<api::ComponentInfo>> reply) override {
+    ask(std::move(reply), [this] {
+      return Result<std::vector<api::ComponentInfo>>(loop().diagnostics().components().list(loop().now()));
+    });
+  }
+  void restart_component(const std::string& name, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, name] { return loop().commands().restart_component(name); });
+  }
+  void switch_component(const std::string& name, bool active, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, name, active] { return loop().commands().components().switch_to(name, active); });
+  }
+  void exchange_component(const std::string& name, const std::string& type, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, name, type] { return loop().commands().components().exchange(name, type); });
+  }
+  void get_settings(const std::string& component, api::Reply<std::vector<api::ComponentSetting>> reply) override {
+    ask(std::move(reply), [this, component] { return loop().commands().components().settings(component); });
+  }
+  void set_settings(const std::string& component, const std::vector<std::string>& assignments,
+                    api::Reply<std::vector<api::ComponentSetting>> reply) override {
+    ask(std::move(reply),
+        [this, component, assignments] { return loop().commands().components().set(component, assignments); });
+  }
+  void start_mission(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) override {
+    ask(std::move(reply), [this, request]() -> Result<api::MissionAccepted> {
+      Result<api::MissionId> id = loop().commands().start_mission(request, client_);
+      if (!id) {
+        return tl::unexpected<Error>(id.error());
+      }
+      return api::MissionAccepted{std::move(*id), loop().missions().last()->link_steps};
+    });
+  }
+  void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
+    if (command == api::MissionCommand::kResume) {
+      robot_.checkpoints_.resume_mission(client_, reply);
+      return;
+    }
+    ask(std::move(reply), [this, command] { return loop().commands().command_mission(command, client_); });
+  }
+  void get_mission(api::Reply<api::MissionStatus> reply) override {
+    ask(std::move(reply), [this]() -> Result<api::MissionStatus> {
+      if (!loop().missions().last()) {
+        return fail(Errc::kNotFound, "no mission has been started yet");
+      }
+      return *loop().missions().last();
+    });
+  }
+  void stop(api::Reply<void> reply) override {
+    ask(std::move(reply), [this] {
+      loop().commands().stop();
+      return Status();
+    });
+  }
+  void set_estop(bool engaged, api::Reply<void> reply) override {
+    const auto shared = std::make_shared<api::Reply<void>>(std::move(reply));
+    if (!robot_.mailbox_.post([this, shared, engaged, self = shared_from_this()] {
+          loop().commands().set_estop(engaged, client_);
+          robot_.keep_estop(engaged, *shared);
+        })) {
+      (*shared)(busy());
+    }
+  }
+  void command_lease(const api::LeaseCommand& command, api::Reply<api::LeaseState> reply) override {
+    ask(std::move(reply), [this, command] {
+      return loop().commands().command_lease(caller_, command, std::chrono::steady_clock::now());
+    });
+  }
+  void drive(const api::DriveCommand& command, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, command] { return loop().commands().drive(client_, command); });
+  }
+  void get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) override {
+    ask(std::move(reply),
+        [this, since_revision] { return Result<api::TileUpdate>(loop().robot_map().tiles_since(since_revision)); });
+  }
+  void get_grid(api::Reply<api::GridReport> reply) override {
+    ask(std::move(reply), [this]() -> Result<api::GridReport> {
+      if (!loop().missions().findings().grid()) {
+        return fail(Errc::kNotFound, "no search has been started yet, so there are no lists");
+      }
+      return *loop().missions().findings().grid();
+    });
+  }
+  void get_detections(api::Reply<std::vector<api::Detection>> reply) override {
+    ask(std::move(reply), [this] { return Result<std::vector<api::Detection>>(loop().missions().detections()); });
+  }
+  void get_trajectory(api::Reply<std::vector<api::StampedPose>> reply) override {
+    ask(std::move(reply), [this] { return Result<std::vector<api::StampedPose>>(loop().trajectory().stamped()); });
+  }
+  void grab_image(const std::string& camera, api::Reply<api::ImageFrame> reply) override {
+    ask(std::move(reply), [this, camera] { return loop().commands().grab_image(camera); });
+  }
+  void get_segments(std::uint64_t since_revision, api::Reply<api::SegmentUpdate> reply) override {
+    ask(std::move(reply), [this, since_revision] { return loop().robot_map().segments_since(since_revision); });
+  }
+  void save_map(const std::string& name, bool replace, api::Reply<api::MapSummary> reply) override {
+    robot_.maps_.save(name, replace, reply);
+  }
+  void load_map(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply) override {
+    robot_.maps_.load(name, use, reply);
+  }
+  void list_maps(api::Reply<std::vector<api::MapSummary>> reply) override { robot_.maps_.list(reply); }
+  void inspect_map(const std::string& name, bool verify, api::Reply<api::MapSummary> reply) override {
+    robot_.maps_.inspect(name, verify, reply);
+  }
+  void delete_map(const std::string& name, api::Reply<void> reply) override { robot_.maps_.remove(name, reply); }
+  void download_map(const std::string& name, api::Reply<std::vector<std::uint8_t>> reply) override {
+    robot_.maps_.download(name, reply);
+  }
+  void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override {
+    robot_.maps_.upload(upload, reply);
+  }
+  void list_landmarks(api::Reply<std::vector<api::LandmarkSummary>> reply) override { robot_.landmarks_.list(reply); }
+  void inspect_landmarks(const std::string& name, bool verify, api::Reply<api::LandmarkSummary> reply) override {
+    robot_.landmarks_.inspect(name, verify, reply);
+  }
+  void get_landmarks(const std::string& name, api::Reply<std::vector<api::LandmarkPoint>> reply) override {
+    robot_.landmarks_.points(name, reply);
+  }
+  void prune_landmarks(const std::string& name, int min_views, api::Reply<api::LandmarkSummary> reply) override {
+    robot_.landmarks_.prune(name, min_views, reply);
+  }
+  void revert_landmarks(const std::string& name, api::Reply<api::LandmarkSummary> reply) override {
+    robot_.landmarks_.revert(name, reply);
+  }
+  void delete_landmarks(const std::string& name, api::Reply<void> reply) override {
+    robot_.landmarks_.remove(name, reply);
+  }
+  void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
+    ask(std::move(reply), [this, map_T_base] { return loop().commands().relocalise(map_T_base); });
+  }
+  Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
+                                                       api::UpdateSink sink) override {
+    std::unique_ptr<api::Subscription> subscription = robot_.hub_.subscribe(topics, std::move(sink));
+    // A full mailbox only delays the first picture of the map until the next change.
+    static_cast<void>(robot_.mailbox_.post([self = shared_from_this()] { self->loop().publisher().republish(); }));
+    return subscription;
+  }
+
+ private:
+  [[nodiscard]] RobotLoop& loop() { return robot_.loop_; }
+
+  template <class T, class Work>
+  void ask(api::Reply<T> reply, Work work) {
+    auto shared = std::make_shared<api::Reply<T>>(std::move(reply));
+    // The task keeps the session alive: its client may be gone before the loop comes to it.
+    if (!robot_.mailbox_.post(
+            [shared, self = shared_from_this(), work = std::move(work)]() mutable { (*shared)(work()); })) {
+      (*shared)(busy());
+    }
+  }
+  [[nodiscard]] static tl::unexpected<Error> busy() {
+    return fail(Errc::kBusy, "the robot is overloaded or shutting down; try again");
+  }
+
+  Robot& robot_;
+  api::Caller caller_;
+  std::string client_;
+};
+
+}  // namespace seeker::app
