@@ -16,6 +16,7 @@ namespace seeker::cli {
 struct GlobalOptions {
   std::string robot = "127.0.0.1:7471";
   std::string client_name;  ///< given to the robot; empty: of program, host and process
+  std::string tls;          ///< folder of a bundle of certificates, "none" for plain TCP; empty: see bundle_for()
   bool json = false;
   bool quiet = false;
   bool verbose = false;
@@ -190,6 +191,28 @@ struct ComponentsVerb {
   std::string type;                      ///< to exchange it for
   std::vector<std::string> assignments;  ///< "key=value"
 };
+struct PkiInitVerb {
+  std::string folder;  ///< of the site; empty: the usual one
+  std::string name = "Seeker site";
+  int days = 3650;
+  bool overwrite = false;
+};
+struct PkiIssueVerb {
+  std::string site;  ///< folder; empty: the usual one
+  std::string name;
+  std::string role;
+  std::vector<std::string> hosts;
+  int days = 365;
+  std::string out;  ///< folder of the bundle; empty: in the site
+  bool overwrite = false;
+};
+struct PkiRevokeVerb {
+  std::string site;   ///< folder; empty: the usual one
+  std::string which;  ///< name or serial
+};
+struct PkiShowVerb {
+  std::string what;  ///< file or folder; empty: the usual site
+};
 struct RunVerb : FleetOptions {
   std::string file;
   std::vector<std::string> target_folders;
@@ -200,13 +223,14 @@ struct CompletionVerb {
 };
 struct VersionVerb {};
 
-using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb,
-                          RecogniseVerb, DriveVerb, LeaseVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb,
-                          MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb,
-                          MapDownloadVerb, MapUploadVerb, RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb,
-                          LandmarksPruneVerb, LandmarksRevertVerb, LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb,
-                          FleetSplitVerb, FleetMapVerb, GridVerb, TopologyVerb, DetectionsVerb, LinesVerb,
-                          CameraGrabVerb, ComponentsVerb, RunVerb, CompletionVerb, VersionVerb>;
+using Verb =
+    std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb, RecogniseVerb,
+                 DriveVerb, LeaseVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb,
+                 MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb,
+                 RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksRevertVerb,
+                 LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
+                 TopologyVerb, DetectionsVerb, LinesVerb, CameraGrabVerb, ComponentsVerb, PkiInitVerb, PkiIssueVerb,
+                 PkiRevokeVerb, PkiShowVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;
@@ -222,7 +246,8 @@ struct ParsedCommandLine {
   bool json = false;  ///< true: --json was given, even if the rest is wrong
 };
 
-/// Parses the arguments after the program's name; SEEKER_ROBOT gives the default of --robot.
+/// Parses the arguments after the program's name; SEEKER_ROBOT gives the default of --robot, SEEKER_TLS that of
+/// --tls.
 [[nodiscard]] ParsedCommandLine parse_command_line(const std::vector<std::string>& arguments);
 
 /// One command with its options and subcommands, as the parser knows them.

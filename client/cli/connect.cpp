@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "client/cli/program.hpp"
+#include "client/cli/tls_bundle.hpp"
 #include "common/log/log.hpp"
 #include "common/rpc/endpoint.hpp"
 #include "common/rpc/robot_client.hpp"
@@ -73,6 +74,11 @@ Result<Connection> connect_robot(const ConnectRequest& request) {
   auto watch = std::make_shared<LinkWatch>();
   rpc::ClientParams params;
   params.client_name = request.client_name.empty() ? client_name() : request.client_name;
+  Result<std::optional<pki::BundleFiles>> tls = bundle_for(request.tls, endpoint->host);
+  if (!tls) {
+    return tl::unexpected<Error>(tls.error());
+  }
+  params.tls = std::move(*tls);
   params.reconnect.enabled = request.reconnect;
   params.on_link = [watch](const rpc::LinkEvent& event) { watch->note(event); };
   if (request.timeout) {
@@ -83,7 +89,7 @@ Result<Connection> connect_robot(const ConnectRequest& request) {
   if (!robot) {
     return tl::unexpected<Error>(robot.error());
   }
-  return Connection{*robot, params.client_name, [watch] { return watch->error(); }};
+  return Connection{*robot, (*robot)->client_name(), [watch] { return watch->error(); }};
 }
 
 }  // namespace seeker::cli

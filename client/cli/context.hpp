@@ -32,6 +32,7 @@ struct Context {
   bool out_is_tty = false;
   bool err_is_tty = false;
   bool colour = false;
+  std::string tls;                     ///< as given with --tls
   std::optional<Duration> timeout;     ///< wall time, as given with --timeout
   std::string client_name = "seeker";  ///< name given to the robot, by which it names the owner of a lease
   /// Whether SIGINT has arrived.

@@ -11,6 +11,7 @@
 #include "client/cli/parser_errors.hpp"
 #include "client/cli/targets.hpp"
 #include "common/config/number_text.hpp"
+#include "common/pki/role.hpp"
 
 namespace seeker::cli {
 namespace {
@@ -46,6 +47,10 @@ void add_globals(Parse& parse) {
   app.add_option("--as", global.client_name,
                  "Name of this client for the robot, which names the owner of the lease by it (default: made up)")
       ->envname("SEEKER_CLIENT");
+  app.add_option("--tls", global.tls,
+                 "Speak TLS with the certificates of this folder ('seeker pki issue' makes it); none: plain TCP. "
+                 "Default: ~/.config/seeker/tls where it is there, for robots on other machines")
+      ->envname("SEEKER_TLS");
   app.add_flag("--json", global.json, "Print data as JSON");
   app.add_option("--timeout", global.timeout_s,
                  "Longest wall time in s: for an answer (default 5), or for the whole of a mission, watch and run")
@@ -447,6 +452,52 @@ void add_reports(Parse& parse) {
   add_components(parse);
 }
 
+template <class Verb>
+void add_site(CLI::App& sub, Verb& verb) {
+  sub.add_option("--site", verb.site, "Folder of the site (default: ~/.config/seeker/site)");
+}
+
+void add_issue(Parse& parse, CLI::App& pki) {
+  auto [issue, o] =
+      add_verb<PkiIssueVerb>(parse, pki, "issue", "Make a folder with key and certificate for a person or a robot",
+                             "seeker pki issue anna --role operator --out ~/.config/seeker/tls\n"
+                             "  seeker pki issue r1 --role robot --host 10.0.0.5 --host r1.local\n"
+                             "With --overwrite the same renews it; a robot notices new files by itself.");
+  issue->add_option("name", o->name, "Name of the person, or the robot's id")->required();
+  issue->add_option("--role", o->role, "What its owner may do; robot: for seekerd and seeker-emulator")
+      ->required()
+      ->check(CLI::IsMember(names_of(pki::kRoles)));
+  repeatable(issue->add_option("--host", o->hosts, "Name or IP address at which a robot is reached; repeatable"));
+  issue->add_option("--days", o->days, "Days until it expires")->check(CLI::Range(1, 36500))->capture_default_str();
+  issue->add_option("--out", o->out, "Folder to write (default: bundles/NAME of the site)");
+  issue->add_flag("--overwrite", o->overwrite, "Replace the key and certificate that are there");
+  add_site(*issue, *o);
+}
+
+void add_pki(Parse& parse) {
+  CLI::App* pki = parse.app.add_subcommand("pki", "Certificates of a site: who may connect to its robots, and as what");
+  pki->require_subcommand(1);
+  pki->fallthrough();
+  pki->footer("Example:\n  seeker pki init\n  seeker pki issue anna --role operator");
+  auto [init, i] = add_verb<PkiInitVerb>(parse, *pki, "init", "Make the certificate authority (CA) of a site",
+                                         "seeker pki init\n  seeker pki init /media/stick/site --name \"Site north\"");
+  init->add_option("folder", i->folder, "Folder of the site (default: ~/.config/seeker/site)");
+  init->add_option("--name", i->name, "Name of the CA")->capture_default_str();
+  init->add_option("--days", i->days, "Days until it expires")->check(CLI::Range(1, 36500))->capture_default_str();
+  init->add_flag("--overwrite", i->overwrite, "Replace a CA: all its certificates become void");
+  add_issue(parse, *pki);
+  auto [revoke, r] =
+      add_verb<PkiRevokeVerb>(parse, *pki, "revoke", "Declare certificates void before they expire",
+                              "seeker pki revoke anna\n"
+                              "Copy the site's crl.pem to each robot then; sessions end within a second.");
+  revoke->add_option("which", r->which, "Name (all its certificates) or serial number")->required();
+  add_site(*revoke, *r);
+  auto [show, s] =
+      add_verb<PkiShowVerb>(parse, *pki, "show", "Print certificates: name, role, validity, serial, revoked",
+                            "seeker pki show\n  seeker pki show ~/.config/seeker/tls --json");
+  show->add_option("what", s->what, "A certificate, a bundle or a site (default: ~/.config/seeker/site)");
+}
+
 void add_rest(Parse& parse) {
   auto [run, r] =
       add_verb<RunVerb>(parse, parse.app, "run", "Play a mission script; 0 only when every expectation holds",
@@ -475,6 +526,7 @@ void build(Parse& parse) {
   add_landmarks(parse);
   add_fleet(parse);
   add_motion(parse);
+  add_pki(parse);
   add_rest(parse);
 }
 

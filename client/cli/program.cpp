@@ -21,6 +21,7 @@ class Dispatch {
     context_.out = process.out;
     context_.err = process.err;
     context_.json = global.json;
+    context_.tls = global.tls;
     context_.quiet = global.quiet;
     context_.verbose = global.verbose;
     context_.out_is_tty = process.out_is_tty;
@@ -130,6 +131,10 @@ class Dispatch {
   VerbResult operator()(const ComponentsVerb& verb) {
     return with_robot([&] { return show_components(context_, verb); });
   }
+  VerbResult operator()(const PkiInitVerb& verb) const { return pki_init(context_, verb); }
+  VerbResult operator()(const PkiIssueVerb& verb) const { return pki_issue(context_, verb); }
+  VerbResult operator()(const PkiRevokeVerb& verb) const { return pki_revoke(context_, verb); }
+  VerbResult operator()(const PkiShowVerb& verb) const { return pki_show(context_, verb); }
   VerbResult operator()(const RunVerb& verb) {
     const std::filesystem::path file(verb.file);
     const std::vector<std::filesystem::path> folders = target_folders(verb.target_folders);
@@ -177,8 +182,8 @@ class Dispatch {
   template <class Run>
   VerbResult with_robot(Run run, bool reconnect = false) {
     // A long verb's --timeout is for its whole; connecting has the usual time then.
-    Result<Connection> connection =
-        connect_({robot_, reconnect ? std::optional<Duration>() : context_.timeout, reconnect, client_name_});
+    Result<Connection> connection = connect_(
+        {robot_, context_.tls, reconnect ? std::optional<Duration>() : context_.timeout, reconnect, client_name_});
     if (!connection) {
       return tl::unexpected<Error>(connection.error());
     }

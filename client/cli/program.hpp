@@ -23,6 +23,7 @@ struct Connection {
 
 struct ConnectRequest {
   std::string robot;                ///< HOST[:PORT]
+  std::string tls;                  ///< as given with --tls
   std::optional<Duration> timeout;  ///< wall time for the connection
   bool reconnect = false;           ///< true: a broken connection is made again, for verbs that run long
   std::string client_name = {};     ///< empty: of program, host and process

@@ -55,6 +55,11 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetMergeVerb& verb);
 [[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetSplitVerb& verb);
 [[nodiscard]] VerbResult fleet(const Context& context, const std::string& robot, const FleetMapVerb& verb);
+// Certificates; no robot is asked.
+[[nodiscard]] VerbResult pki_init(const Context& context, const PkiInitVerb& verb);
+[[nodiscard]] VerbResult pki_issue(const Context& context, const PkiIssueVerb& verb);
+[[nodiscard]] VerbResult pki_revoke(const Context& context, const PkiRevokeVerb& verb);
+[[nodiscard]] VerbResult pki_show(const Context& context, const PkiShowVerb& verb);
 [[nodiscard]] VerbResult watch(const Context& context, const WatchVerb& verb);
 
 [[nodiscard]] VerbResult stop(const Context& context);

@@ -7,6 +7,7 @@
 #include "client/cli/export_check.hpp"
 #include "client/cli/scene.hpp"
 #include "client/cli/show_done.hpp"
+#include "client/cli/tls_bundle.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
@@ -102,7 +103,11 @@ Result<rpc::FleetClient> fleet_of(const Context& context, const std::string& rob
   // Where no port is written, parse_endpoint() gives that of a robot's server.
   const bool has_port = !options.main.empty() && at->port != rpc::kDefaultPort;
   at->port = has_port ? at->port : rpc::kDefaultFleetPort;
-  return rpc::FleetClient(std::move(*at), context.answer_time());
+  Result<std::optional<pki::BundleFiles>> tls = bundle_for(context.tls, at->host);
+  if (!tls) {
+    return tl::unexpected<Error>(tls.error());
+  }
+  return rpc::FleetClient(std::move(*at), context.answer_time(), std::move(*tls));
 }
 
 VerbResult decide(const Context& context, const std::string& robot, const FleetOptions& options,

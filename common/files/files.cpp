@@ -55,9 +55,11 @@ bool write_all(int fd, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-bool write_and_close(FileDescriptor& file, std::span<const std::uint8_t> bytes, bool sync) {
-  constexpr mode_t kMode = 0644;
-  return write_all(file.get(), bytes) && ::fchmod(file.get(), kMode) == 0 && (!sync || ::fsync(file.get()) == 0) &&
+bool write_and_close(FileDescriptor& file, std::span<const std::uint8_t> bytes, bool sync, ReadableBy readers) {
+  constexpr mode_t kForAll = 0644;
+  constexpr mode_t kForOwner = 0600;
+  const mode_t mode = readers == ReadableBy::kOwner ? kForOwner : kForAll;
+  return write_all(file.get(), bytes) && ::fchmod(file.get(), mode) == 0 && (!sync || ::fsync(file.get()) == 0) &&
          file.close();
 }
 
@@ -95,14 +97,15 @@ Result<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path, s
   }
 }
 
-Status write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, Outlives outlives) {
+Status write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, Outlives outlives,
+                  ReadableBy readers) {
   const bool sync = outlives == Outlives::kPowerCut;
   std::string temporary = path.string() + ".XXXXXX";
   FileDescriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
   if (file.get() < 0) {
     return cannot_write(path, errno);
   }
-  if (!write_and_close(file, bytes, sync) || ::rename(temporary.c_str(), path.c_str()) != 0) {
+  if (!write_and_close(file, bytes, sync, readers) || ::rename(temporary.c_str(), path.c_str()) != 0) {
     const int number = errno;
     ::unlink(temporary.c_str());
     return cannot_write(path, number);
@@ -110,8 +113,9 @@ Status write_file(const std::filesystem::path& path, std::span<const std::uint8_
   return sync ? sync_folder(path.parent_path()) : Status();
 }
 
-Status write_file(const std::filesystem::path& path, std::string_view text) {
-  return write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+Status write_file(const std::filesystem::path& path, std::string_view text, ReadableBy readers) {
+  return write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()),
+                    Outlives::kPowerCut, readers);
 }
 
 Status sync_folder(const std::filesystem::path& folder) {

@@ -27,11 +27,18 @@ enum class Outlives : std::uint8_t {
   kItsProgram,  ///< no wait for the disk, which may be busy for seconds; after a power cut it may be old, empty or gone
 };
 
+/// Who may read a file that was written; the owner may write it, too.
+enum class ReadableBy : std::uint8_t {
+  kAll,
+  kOwner,  ///< for private keys, from the first byte on
+};
+
 /// Replaces or creates `path` with `bytes`. The temporary file lies beside it and is removed on failure; `path` then
 /// still has its old content. kIo: full disk, no permission, no such folder.
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
-                                Outlives outlives = Outlives::kPowerCut);
-[[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view text);
+                                Outlives outlives = Outlives::kPowerCut, ReadableBy readers = ReadableBy::kAll);
+[[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view text,
+                                ReadableBy readers = ReadableBy::kAll);
 
 /// Makes a rename or a new file in `folder` survive a power cut.
 [[nodiscard]] Status sync_folder(const std::filesystem::path& folder);

@@ -3,7 +3,12 @@
 #include <utility>
 
 #include <boost/asio/connect.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+
+#include "common/net/tls_context.hpp"
+#include "common/net/tls_error.hpp"
+#include "common/net/tls_stream.hpp"
 
 namespace seeker::net {
 namespace {
@@ -14,40 +19,43 @@ using boost::system::error_code;
 
 class Attempt : public std::enable_shared_from_this<Attempt> {
  public:
-  Attempt(asio::io_context& io, std::string host, std::uint16_t port, Duration timeout,
-          std::function<void(Result<Transport>)> done)
-      : host_(std::move(host)),
-        port_(port),
-        timeout_(timeout),
-        done_(std::move(done)),
-        resolver_(io),
-        socket_(io),
-        timer_(io) {}
+  Attempt(asio::io_context& io, Target target, std::function<void(Result<Transport>)> done)
+      : target_(std::move(target)), done_(std::move(done)), resolver_(io), socket_(io), timer_(io) {}
 
   void start() {
-    timer_.expires_after(timeout_);
+    if (target_.tls) {
+      Result<std::shared_ptr<const TlsContext>> context = TlsContext::make(*target_.tls, TlsSide::kClient);
+      if (!context) {
+        asio::post(socket_.get_executor(), [self = shared_from_this(), error = context.error()] {
+          self->finish(tl::unexpected<Error>(error));
+        });
+        return;
+      }
+      context_ = std::move(*context);
+    }
+    timer_.expires_after(target_.timeout);
     timer_.async_wait([self = shared_from_this()](error_code error) {
       if (!error) {
         self->finish(fail(Errc::kTimeout, "no connection to " + self->name() + " in " +
-                                              std::to_string(to_seconds(self->timeout_)) +
+                                              std::to_string(to_seconds(self->target_.timeout)) +
                                               " s; check address and network"));
       }
     });
-    resolver_.async_resolve(host_, std::to_string(port_), tcp::resolver::numeric_service,
+    resolver_.async_resolve(target_.host, std::to_string(target_.port), tcp::resolver::numeric_service,
                             [self = shared_from_this()](error_code error, const tcp::resolver::results_type& found) {
                               self->on_resolved(error, found);
                             });
   }
 
  private:
-  [[nodiscard]] std::string name() const { return host_ + " port " + std::to_string(port_); }
+  [[nodiscard]] std::string name() const { return target_.host + " port " + std::to_string(target_.port); }
 
   void on_resolved(error_code error, const tcp::resolver::results_type& found) {
     if (!done_) {
       return;
     }
     if (error) {
-      finish(fail(Errc::kLinkLost, "the address of '" + host_ + "' cannot be found: " + error.message()));
+      finish(fail(Errc::kLinkLost, "the address of '" + target_.host + "' cannot be found: " + error.message()));
       return;
     }
     asio::async_connect(socket_, found, [self = shared_from_this()](error_code failed, const tcp::endpoint&) {
@@ -55,9 +63,45 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
         self->finish(fail(Errc::kLinkLost, "no robot answers at " + self->name() + " (" + failed.message() +
                                                "); check that seekerd runs there"));
       } else {
-        self->finish(std::move(self->socket_));
+        self->on_connected();
       }
     });
+  }
+
+  void on_connected() {
+    if (!done_) {
+      return;
+    }
+    if (!context_) {
+      finish(Transport(std::move(socket_)));
+      return;
+    }
+    SSL* session = context_->new_session();
+    if (session == nullptr) {
+      finish(fail(Errc::kInternal, "out of memory"));
+      return;
+    }
+    tls_ = std::make_unique<TlsStream>(std::move(socket_), session);
+    if (!expect_host(session, target_.host)) {
+      finish(fail(Errc::kInvalidArgument, "'" + target_.host + "' is no name that a certificate could have"));
+      return;
+    }
+    tls_->stream.async_handshake(asio::ssl::stream_base::client,
+                                 [self = shared_from_this()](error_code error) { self->on_handshake(error); });
+  }
+
+  void on_handshake(const error_code& error) {
+    if (!done_) {
+      return;
+    }
+    SSL* session = tls_->stream.native_handle();
+    X509* shown = error ? nullptr : SSL_get1_peer_certificate(session);
+    if (shown == nullptr) {
+      finish(tl::unexpected<Error>(failed_handshake(error, SSL_get_verify_result(session), name())));
+      return;
+    }
+    pki::Certificate peer(shown);
+    finish(Transport(std::move(tls_), std::move(peer)));
   }
 
   void finish(Result<Transport> result) {
@@ -70,24 +114,26 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
     if (!result) {
       error_code ignored;
       socket_.close(ignored);
+      if (tls_) {
+        tls_->stream.next_layer().close(ignored);
+      }
     }
     done(std::move(result));
   }
 
-  std::string host_;
-  std::uint16_t port_;
-  Duration timeout_;
+  Target target_;
+  std::shared_ptr<const TlsContext> context_;  ///< null: plain TCP
   std::function<void(Result<Transport>)> done_;
   tcp::resolver resolver_;
-  Transport socket_;
+  tcp::socket socket_;
+  std::unique_ptr<TlsStream> tls_;
   asio::steady_timer timer_;
 };
 
 }  // namespace
 
-void async_connect(asio::io_context& io, const std::string& host, std::uint16_t port, Duration timeout,
-                   std::function<void(Result<Transport>)> done) {
-  std::make_shared<Attempt>(io, host, port, timeout, std::move(done))->start();
+void async_connect(asio::io_context& io, Target target, std::function<void(Result<Transport>)> done) {
+  std::make_shared<Attempt>(io, std::move(target), std::move(done))->start();
 }
 
 }  // namespace seeker::net

@@ -5,17 +5,28 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/core/result.hpp"
 #include "common/net/transport.hpp"
+#include "common/pki/bundle.hpp"
 
 namespace seeker::net {
 
-/// Looks the host up and tries its addresses in turn, within `timeout` of wall time; `done` is called exactly once, on
-/// the io_context. kLinkLost names the cause, kTimeout the time.
-void async_connect(boost::asio::io_context& io, const std::string& host, std::uint16_t port, Duration timeout,
-                   std::function<void(Result<Transport>)> done);
+/// Whom to connect to, and how.
+struct Target {
+  std::string host;  ///< name or IP address; with TLS the other side's certificate must name it
+  std::uint16_t port = 0;
+  Duration timeout = std::chrono::seconds(3);  ///< wall time for look-up, connection and handshake together
+  std::optional<pki::BundleFiles> tls;         ///< read for each connection; nothing: plain TCP
+};
+
+/// Looks the host up, tries its addresses in turn and, with TLS, shakes hands; `done` is called exactly once, on the
+/// io_context. kLinkLost names the cause, kTimeout the time; kRefused: the other side is not whom it should be, or does
+/// not speak TLS; the errors of our certificates' files. Whether the other side believes our certificate shows only
+/// when something is read from it.
+void async_connect(boost::asio::io_context& io, Target target, std::function<void(Result<Transport>)> done);
 
 /// Delays between attempts: they double from `first` up to `max`.
 class Backoff {

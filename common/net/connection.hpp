@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <boost/asio/steady_timer.hpp>
@@ -32,8 +33,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     /// Returns the next frame to write; std::nullopt when there is none now (then call wake() later).
     std::function<std::optional<wire::OutFrame>()> next_frame;
     std::function<void(std::size_t bytes)> on_sent;
-    /// Called exactly once, unless close() was called before. An orderly end by the peer is kLinkLost, too. An
-    /// oversized frame is kTooLarge and leaves the writing side open: call finish() or close().
+    /// Called exactly once, unless close() was called before. An orderly end by the peer is kLinkLost, too; kRefused:
+    /// it does not believe our certificate. An oversized frame is kTooLarge and leaves the writing side open: call
+    /// finish() or close().
     std::function<void(const Error&)> on_end;
   };
 
@@ -51,8 +53,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   void read();
+  void on_read_ended(const boost::system::error_code& error);
   void on_read(std::size_t bytes);
+  [[nodiscard]] Error not_a_frame(const Error& error) const;
   void write();
+  void send_writing();
+  void on_written(const boost::system::error_code& error, std::size_t bytes);
   void say_end();
   void end(const Error& error);
 
@@ -66,6 +72,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   wire::FrameDecoder decoder_;
   std::array<char, kReadBytes> chunk_{};
   wire::OutFrame writing_;
+  std::string record_;  ///< with TLS: a small frame in one piece, so that it travels as one record
+  bool frame_came_ = false;
   bool write_busy_ = false;
   bool read_ended_ = false;
   bool finishing_ = false;

@@ -3,14 +3,13 @@
 #include <utility>
 
 #include "common/core/assert.hpp"
-#include "common/net/connect.hpp"
 
 namespace seeker::net {
 
-Result<std::unique_ptr<Exchange>> Exchange::connect(const std::string& host, std::uint16_t port, Duration timeout) {
+Result<std::unique_ptr<Exchange>> Exchange::connect(Target target) {
   std::unique_ptr<Exchange> exchange(new Exchange());
   std::optional<Result<Transport>> transport;
-  async_connect(exchange->io_, host, port, timeout,
+  async_connect(exchange->io_, std::move(target),
                 [&transport](Result<Transport> result) { transport.emplace(std::move(result)); });
   exchange->io_.run();  // until the attempt has ended, within its time
   SEEKER_ASSERT(transport);

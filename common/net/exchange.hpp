@@ -10,6 +10,7 @@
 #include <boost/asio/io_context.hpp>
 
 #include "common/core/result.hpp"
+#include "common/net/connect.hpp"
 #include "common/net/connection.hpp"
 
 namespace seeker::net {
@@ -17,15 +18,14 @@ namespace seeker::net {
 /// Calls come from one thread, which does the network work while it waits.
 class Exchange {
  public:
-  /// Connects to a server. Errors: kLinkLost, kTimeout.
-  [[nodiscard]] static Result<std::unique_ptr<Exchange>> connect(const std::string& host, std::uint16_t port,
-                                                                 Duration timeout);
+  /// Connects to a server. Errors of async_connect().
+  [[nodiscard]] static Result<std::unique_ptr<Exchange>> connect(Target target);
   Exchange(const Exchange&) = delete;
   Exchange& operator=(const Exchange&) = delete;
   ~Exchange();
 
-  /// Sends a request and returns the payload of the reply. Errors: kLinkLost, kTimeout, kTooLarge; the connection
-  /// cannot be used after one.
+  /// Sends a request and returns the payload of the reply. Errors: kLinkLost, kTimeout, kTooLarge, kRefused; the
+  /// connection cannot be used after one.
   [[nodiscard]] Result<std::string> ask(std::string payload, Duration timeout);
 
  private:

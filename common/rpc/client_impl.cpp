@@ -60,7 +60,23 @@ RobotClient::Impl::~Impl() {
   }
 }
 
+Status RobotClient::Impl::take_certified_name() {
+  if (!params_.tls) {
+    return {};
+  }
+  const Result<pki::Certificate> own = pki::Certificate::read(params_.tls->certificate);
+  if (!own) {
+    return fail(own.error().code == Errc::kNotFound ? Errc::kInvalidArgument : own.error().code,
+                own.error().message + "; have a bundle issued with 'seeker pki issue'");
+  }
+  params_.client_name = wire::certified_client_name(own->facts().name, params_.client_name);
+  return {};
+}
+
 Status RobotClient::Impl::open() {
+  if (Status named = take_certified_name(); !named) {
+    return named;
+  }
   if (!wire::is_client_name(params_.client_name)) {
     return fail(Errc::kInvalidArgument, "the client name must have 1 to 64 printable characters without spaces");
   }
@@ -123,7 +139,7 @@ void RobotClient::Impl::close_now() {
 
 void RobotClient::Impl::connect_now() {
   const auto self = shared_from_this();
-  net::async_connect(io_, endpoint_.host, endpoint_.port, params_.connect_timeout,
+  net::async_connect(io_, {endpoint_.host, endpoint_.port, params_.connect_timeout, params_.tls},
                      [self](Result<net::Transport> transport) { self->on_connected(std::move(transport)); });
 }
 
@@ -132,7 +148,7 @@ void RobotClient::Impl::on_connected(Result<net::Transport> transport) {
     return;
   }
   if (!transport) {
-    end_connection(transport.error(), false);
+    end_connection(transport.error(), transport.error().code == Errc::kRefused);
     return;
   }
   wire::ClientSessionParams p;
@@ -162,7 +178,8 @@ void RobotClient::Impl::on_connected(Result<net::Transport> transport) {
        },
        [self, number](const Error& error) {
          if (number == self->connection_number_) {
-           self->end_connection({Errc::kLinkLost, error.message}, false);
+           const bool refused = error.code == Errc::kRefused;  // asking again would change nothing
+           self->end_connection({refused ? error.code : Errc::kLinkLost, error.message}, refused);
          }
        }});
 }
@@ -309,6 +326,7 @@ api::RobotInfo RobotClient::Impl::robot() const {
   const std::lock_guard lock(mutex_);
   return robot_;
 }
+std::string RobotClient::Impl::client_name() const { return params_.client_name; }
 api::Role RobotClient::Impl::role() const {
   const std::lock_guard lock(mutex_);
   return role_;

@@ -41,10 +41,13 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
                                                        api::UpdateSink sink);
 
   [[nodiscard]] api::RobotInfo robot() const;
+  [[nodiscard]] std::string client_name() const;
   [[nodiscard]] api::Role role() const;
   [[nodiscard]] LinkState link() const;
 
  private:
+  /// Has the name begin with that of the certificate, if there is one.
+  Status take_certified_name();
   void connect_now();
   void on_connected(Result<net::Transport> transport);
   void on_payload(std::string_view payload);

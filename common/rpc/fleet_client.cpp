@@ -19,11 +19,12 @@ Result<api::FleetStatus> fleet_of(const Result<pb::FleetReply>& reply) {
 struct FleetClient::Link {
   Endpoint main;
   Duration timeout;
+  std::optional<pki::BundleFiles> tls;
   std::unique_ptr<net::Exchange> exchange;
 
   Result<pb::FleetReply> ask(pb::FleetRequest request) {
     if (!exchange) {
-      Result<std::unique_ptr<net::Exchange>> connected = net::Exchange::connect(main.host, main.port, timeout);
+      Result<std::unique_ptr<net::Exchange>> connected = net::Exchange::connect({main.host, main.port, timeout, tls});
       if (!connected) {
         return fail_with_context(
             "no main robot of a fleet answers (fleet.lead: true in its robot file, --main names it)",
@@ -51,8 +52,8 @@ struct FleetClient::Link {
   }
 };
 
-FleetClient::FleetClient(Endpoint main, Duration call_timeout)
-    : link_(std::make_unique<Link>(Link{std::move(main), call_timeout, nullptr})) {}
+FleetClient::FleetClient(Endpoint main, Duration call_timeout, std::optional<pki::BundleFiles> tls)
+    : link_(std::make_unique<Link>(Link{std::move(main), call_timeout, std::move(tls), nullptr})) {}
 
 FleetClient::FleetClient(FleetClient&&) noexcept = default;
 FleetClient& FleetClient::operator=(FleetClient&&) noexcept = default;

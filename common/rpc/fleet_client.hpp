@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/api/fleet.hpp"
 #include "common/core/result.hpp"
+#include "common/pki/bundle.hpp"
 #include "common/rpc/endpoint.hpp"
 
 namespace seeker::rpc {
@@ -17,7 +19,8 @@ inline constexpr std::uint16_t kDefaultFleetPort = 7473;
 /// Used by one thread, which waits for each reply. After an error of the link the next call connects again.
 class FleetClient {
  public:
-  FleetClient(Endpoint main, Duration call_timeout);
+  /// With `tls` the calls are made over TLS with these files, which are read for each connection.
+  FleetClient(Endpoint main, Duration call_timeout, std::optional<pki::BundleFiles> tls = std::nullopt);
   FleetClient(FleetClient&& other) noexcept;
   FleetClient& operator=(FleetClient&& other) noexcept;
   ~FleetClient();

@@ -46,6 +46,7 @@ RobotClient::~RobotClient() { impl_->shut_down(); }
 
 api::RobotInfo RobotClient::robot() const { return impl_->robot(); }
 api::Role RobotClient::role() const { return impl_->role(); }
+std::string RobotClient::client_name() const { return impl_->client_name(); }
 LinkState RobotClient::link() const { return impl_->link(); }
 void RobotClient::close() { impl_->shut_down(); }
 void RobotClient::sync_time(api::Reply<TimeSync> reply) { impl_->sync_time(std::move(reply)); }

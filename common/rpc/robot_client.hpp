@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/api/robot_api.hpp"
+#include "common/pki/bundle.hpp"
 #include "common/rpc/endpoint.hpp"
 
 namespace seeker::rpc {
@@ -40,9 +41,12 @@ struct ReconnectParams {
 
 /// All times are wall time.
 struct ClientParams {
-  std::string client_name = "seeker";     ///< program and instance, stable over reconnects; printable ASCII, no spaces
-  std::string robot_id;                   ///< refuse any other robot; empty: any
-  api::Role role = api::Role::kOperator;  ///< asked for; see RobotClient::role()
+  std::string client_name = "seeker";  ///< program and instance, stable over reconnects; printable ASCII, no spaces
+  /// Files with which to speak TLS, read for each connection; nothing: plain TCP. The client's name becomes
+  /// "NAME/client_name" then, NAME being that of the certificate.
+  std::optional<pki::BundleFiles> tls;
+  std::string robot_id;                                ///< refuse any other robot; empty: any
+  api::Role role = api::Role::kOperator;               ///< asked for; see RobotClient::role()
   Duration connect_timeout = std::chrono::seconds(3);  ///< for address look-up, connection and hello together
   Duration call_timeout = std::chrono::seconds(5);
   Duration heartbeat = std::chrono::seconds(1);  ///< send at least this often; stale after 1.5, lost after 3 of them
@@ -57,9 +61,9 @@ struct TimeSync {
   bool realtime = true;  ///< false: robot time does not run with the wall clock, and the offset has no meaning
 };
 
-/// RobotApi over TCP. Calls may come from any thread; replies, sinks and link events are called on the client's own
-/// thread and must not block or wait for another call. A call ends with kTimeout when no answer came in time and with
-/// kLinkLost when the connection broke while it was open (it may or may not have been carried out).
+/// RobotApi over TCP or TLS. Calls may come from any thread; replies, sinks and link events are called on the client's
+/// own thread and must not block or wait for another call. A call ends with kTimeout when no answer came in time and
+/// with kLinkLost when the connection broke while it was open (it may or may not have been carried out).
 ///
 /// Subscriptions survive a reconnect: RELIABLE topics resume after the last item that was delivered, so that nothing
 /// is lost or delivered twice; where the robot no longer keeps the items, Update::dropped is the number of missing
@@ -67,7 +71,8 @@ struct TimeSync {
 class RobotClient final : public api::RobotApi {
  public:
   /// Connects and exchanges hello; waits at most `connect_timeout`. Errors: kLinkLost (nobody answers there),
-  /// kTimeout, kUnsupportedVersion, kRefused, kBusy, kNotFound (another robot), kInvalidArgument (name).
+  /// kTimeout, kUnsupportedVersion, kRefused (also: one side does not believe the other's certificate), kBusy,
+  /// kNotFound (another robot), kInvalidArgument (name), those of the files of `tls`.
   [[nodiscard]] static Result<std::shared_ptr<RobotClient>> connect(const Endpoint& endpoint, ClientParams params);
   /// Ends the session on purpose: link policies of missions do not apply.
   ~RobotClient() override;
@@ -77,6 +82,8 @@ class RobotClient final : public api::RobotApi {
   /// Role that the robot has granted.
   [[nodiscard]] api::Role role() const;
   [[nodiscard]] LinkState link() const;
+  /// The name by which the robot knows this client.
+  [[nodiscard]] std::string client_name() const;
   /// Ends the session on purpose and all open calls with kCancelled. Further calls have no effect.
   void close();
   /// Compares the clocks once; replies with the best estimate so far.

@@ -26,6 +26,18 @@ bool is_client_name(std::string_view name) {
          std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < 0x7f; });
 }
 
+bool agrees_with_certificate(std::string_view name, std::string_view certified) {
+  return certified.empty() || name == certified ||
+         (name.starts_with(certified) && name.size() > certified.size() && name[certified.size()] == '/');
+}
+
+std::string certified_client_name(std::string_view certified, std::string_view program) {
+  if (agrees_with_certificate(program, certified)) {
+    return std::string(program);
+  }
+  return (std::string(certified) + "/" + std::string(program)).substr(0, kMaxNameBytes);
+}
+
 bool is_urgent(const pb::Request& request) {
   return request.call_case() == pb::Request::kStop || (request.has_set_estop() && request.set_estop().engaged());
 }
@@ -154,6 +166,12 @@ ServerStep ServerSession::on_hello(const pb::Hello& hello) {
     return refuse_hello(pb::HelloReply::STATUS_INVALID_ARGUMENT,
                         "hello needs a role and a client name of 1 to 64 printable characters without spaces");
   }
+  if (!agrees_with_certificate(hello.client_name(), params_.certified_name)) {
+    return refuse_hello(pb::HelloReply::STATUS_INVALID_ARGUMENT,
+                        "the certificate is of '" + params_.certified_name + "', the client calls itself '" +
+                            hello.client_name() + "'; its name must be '" + params_.certified_name +
+                            "' or begin with '" + params_.certified_name + "/'");
+  }
   if (!hello.robot_id().empty() && hello.robot_id() != params_.robot.robot_id) {
     return refuse_hello(pb::HelloReply::STATUS_NOT_FOUND,
                         "this robot is '" + params_.robot.robot_id + "'; check the address of the one you look for");
@@ -220,7 +238,11 @@ ServerStep ServerSession::on_request(pb::Request& request, WallTime now, RobotTi
   }
   if (caller_.role < required_role(request)) {
     return refuse_request(request, robot_now, pb::CommonError::CODE_REFUSED,
-                          "an observer may not do this; connect as operator");
+                          params_.certified_name.empty() || caller_.role < params_.max_role
+                              ? "an observer may not do this; connect as operator"
+                              : "the certificate of '" + params_.certified_name +
+                                    "' is an observer's and does not "
+                                    "allow this; have one issued with --role operator");
   }
   ++in_flight_;
   ServerStep step;

@@ -23,6 +23,7 @@ struct ServerSessionParams {
   Duration hello_timeout = std::chrono::seconds(3);
   Duration idle_limit = Duration::zero();  ///< wall time without request and subscription; zero: no limit
   api::Role max_role = api::Role::kAdmin;
+  std::string certified_name;  ///< in the client's certificate; empty: it has shown none
   std::size_t in_flight = 64;
   double requests_per_s = 200.0;
   double request_burst = 400.0;
@@ -103,5 +104,10 @@ void begin_response(const seeker::v1::RequestHeader& request, const std::string&
 [[nodiscard]] bool is_urgent(const seeker::v1::Request& request);
 /// Whether a name is one of a client: 1 to 64 printable ASCII characters without spaces.
 [[nodiscard]] bool is_client_name(std::string_view name);
+/// Whether a client whose certificate has the name `certified` may call itself `name`: so, or "CERTIFIED/..." for one
+/// of its programs. An empty `certified` (no certificate) allows all.
+[[nodiscard]] bool agrees_with_certificate(std::string_view name, std::string_view certified);
+/// The name "CERTIFIED/PROGRAM" for a program that calls itself `program`, cut to the length of a client's name.
+[[nodiscard]] std::string certified_client_name(std::string_view certified, std::string_view program);
 
 }  // namespace seeker::wire

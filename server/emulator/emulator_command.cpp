@@ -7,7 +7,9 @@
 #include "common/files/config_folder.hpp"
 #include "common/files/files.hpp"
 #include "common/log/log.hpp"
+#include "common/net/link_security.hpp"
 #include "common/net/random_id.hpp"
+#include "common/pki/bundle.hpp"
 #include "server/app/composition/robot_options.hpp"
 #include "server/app/runtime/termination_signals.hpp"
 #include "server/drivers/emulator/emulator_wire.hpp"
@@ -80,6 +82,15 @@ Result<WorldDevices> make_world_devices(const EmulatorArguments& arguments, sim:
   return devices;
 }
 
+net::LinkSecurity security_of(const EmulatorArguments& arguments) {
+  net::LinkSecurity security;
+  if (!arguments.tls.empty()) {
+    security.files = pki::bundle_in(arguments.tls);
+  }
+  security.insecure = arguments.insecure;
+  return security;
+}
+
 Status announce(const EmulatorArguments& arguments, const WorldDevices& devices) {
   if (!arguments.devices.empty()) {
     log::info(kPart, "devices:\n" + devices.addresses());
@@ -99,7 +110,8 @@ Status serve(const EmulatorArguments& arguments, drivers::SharedDevices devices,
                                .port = arguments.port.value_or(drivers::kEmulatorPort),
                                .lockstep = arguments.lockstep,
                                .speed = speed,
-                               .live_step = arguments.devices.empty() ? kLiveStep : kDeviceStep});
+                               .live_step = arguments.devices.empty() ? kLiveStep : kDeviceStep,
+                               .security = security_of(arguments)});
   TruthLog truth;
   if (!arguments.truth_file.empty()) {
     if (Status opened = truth.open(arguments.truth_file); !opened) {
@@ -143,6 +155,10 @@ int run_emulator(const EmulatorArguments& arguments) {
       files::named_file(arguments.config, files::config_folder() / "robots"), arguments.overrides);
   if (!options) {
     log::error(kPart, options.error().message);
+    return kExitConfig;
+  }
+  if (const Status allowed = net::check_allowed(arguments.address, security_of(arguments)); !allowed) {
+    log::error(kPart, "--tls or --insecure: " + allowed.error().message);
     return kExitConfig;
   }
   Result<drivers::SharedDevices> devices = make_world(arguments, options->sim);

@@ -19,6 +19,8 @@ struct EmulatorArguments {
   std::vector<std::size_t> starts;     ///< index of each robot's start pose; empty: 0, 1, ...
   std::optional<std::uint16_t> port;   ///< 0: any free one
   std::string address = "127.0.0.1";   ///< of the interface to listen on
+  std::filesystem::path tls;           ///< folder of a bundle of certificates; empty: plain TCP
+  bool insecure = false;               ///< plain TCP is allowed beyond this machine
   std::filesystem::path port_file;     ///< the port is written here once the world can be reached
   std::vector<std::string> devices;    ///< as parse_device_spec() reads them
   std::vector<std::string> faults;     ///< as parse_fault_command() reads them

@@ -16,7 +16,6 @@ namespace seeker::emulator {
 namespace {
 
 namespace asio = boost::asio;
-using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::string_view kPart = "emulator";
@@ -26,13 +25,22 @@ constexpr std::size_t kMaxQueued = 64;
 /// After a pause the world starts afresh and does not hurry to catch up.
 constexpr Duration kMaxLag = std::chrono::milliseconds(250);
 
+/// The world is for robots, not for the people who command them.
+Status may_enter(const pki::Certificate* certificate) {
+  return certificate == nullptr || certificate->facts().role == pki::Role::kRobot
+             ? Status()
+             : fail(Errc::kRefused, "the certificate of '" + certificate->facts().name +
+                                        "' is not a robot's; issue one with --role robot");
+}
+
 }  // namespace
 
 /// One connection.
 struct EmulatorServer::Peer {
   Peer(asio::io_context& io, std::shared_ptr<net::Connection> with) : connection(std::move(with)), hello(io) {}
   std::shared_ptr<net::Connection> connection;
-  asio::steady_timer hello;  ///< until it must have said who it is
+  std::shared_ptr<const pki::Certificate> certificate;  ///< null: plain TCP
+  asio::steady_timer hello;                             ///< until it must have said who it is
   std::optional<std::size_t> robot;
   net::FrameQueue outgoing{kMaxQueued};
 };
@@ -40,13 +48,14 @@ struct EmulatorServer::Peer {
 EmulatorServer::EmulatorServer(WorldHost& host, EmulatorServerParams params)
     : host_(host),
       params_(std::move(params)),
-      listener_(io_, kPart, [this](tcp::socket socket) { admit(std::move(socket)); }),
+      listener_(io_, kPart,
+                {[this](net::Transport transport) { admit(std::move(transport)); }, [this] { check_certificates(); }}),
       pace_(io_) {}
 
 EmulatorServer::~EmulatorServer() = default;
 
 Result<std::uint16_t> EmulatorServer::listen() {
-  Result<std::uint16_t> port = listener_.open(params_.address, params_.port);
+  Result<std::uint16_t> port = listener_.open(params_.address, params_.port, params_.security);
   if (port) {
     listener_.accept();
     if (!params_.lockstep) {
@@ -73,10 +82,20 @@ void EmulatorServer::close_all() {
   robots_.clear();
 }
 
-void EmulatorServer::admit(tcp::socket socket) {
+void EmulatorServer::check_certificates() {
+  for (const auto& peer : std::set<std::shared_ptr<Peer>>(peers_)) {
+    if (const Status believed = listener_.check(peer->certificate.get()); !believed) {
+      drop(peer, believed.error().message);
+    }
+  }
+}
+
+void EmulatorServer::admit(net::Transport transport) {
   net::ConnectionParams params;
   params.max_frame_bytes = drivers::kMaxEmulatorRequestBytes;
-  const auto peer = std::make_shared<Peer>(io_, std::make_shared<net::Connection>(std::move(socket), params));
+  const std::shared_ptr<const pki::Certificate> certificate = transport.peer();
+  const auto peer = std::make_shared<Peer>(io_, std::make_shared<net::Connection>(std::move(transport), params));
+  peer->certificate = certificate;
   // The handlers hold the peer until its connection is closed.
   net::Connection::Handlers handlers;
   handlers.on_frame = [this, peer](std::string_view payload) { on_frame(peer, payload); };
@@ -109,7 +128,9 @@ void EmulatorServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_vie
 }
 
 void EmulatorServer::greet(const std::shared_ptr<Peer>& peer, const v1::EmulatorRequest& request) {
-  const Result<std::size_t> robot = request.has_hello()
+  const Status allowed = may_enter(peer->certificate.get());
+  const Result<std::size_t> robot = !allowed ? Result<std::size_t>(tl::unexpected<Error>(allowed.error()))
+                                    : request.has_hello()
                                         ? host_.enter(request.hello())
                                         : fail(Errc::kInvalidArgument, "the first request must be a hello");
   if (!robot) {

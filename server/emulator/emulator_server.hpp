@@ -10,7 +10,6 @@
 #include <string>
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 
 #include "common/core/result.hpp"
@@ -26,6 +25,7 @@ struct EmulatorServerParams {
   double speed = 0.0;                                  ///< as in HostParams; above 0 without lockstep
   Duration live_step = std::chrono::milliseconds(20);  ///< robot time between steps without lockstep
   Duration hello_timeout = std::chrono::seconds(3);    ///< wall time from connection to hello
+  net::LinkSecurity security = {};
 };
 
 class EmulatorServer {
@@ -48,7 +48,9 @@ class EmulatorServer {
  private:
   struct Peer;
   void close_all();
-  void admit(boost::asio::ip::tcp::socket socket);
+  void admit(net::Transport transport);
+  /// Drops those who are not believed any more.
+  void check_certificates();
   void on_frame(const std::shared_ptr<Peer>& peer, std::string_view payload);
   void greet(const std::shared_ptr<Peer>& peer, const v1::EmulatorRequest& request);
   void send(const std::shared_ptr<Peer>& peer, const v1::EmulatorReply& reply);

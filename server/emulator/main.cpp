@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
   app.add_option("--set", arguments.overrides, "Override a field of it: key.path=value (repeatable)");
   app.add_flag("--lockstep", arguments.lockstep, "The world waits for its robots; else it goes with the wall clock");
   app.add_option("--address", arguments.address, "Interface to listen on")->capture_default_str();
+  app.add_option("--tls", arguments.tls, "Folder of certificates made by 'seeker pki issue'; robots need theirs, too");
+  app.add_flag("--insecure", arguments.insecure, "Allow plain TCP beyond this machine");
   auto* port_option = app.add_option("--port", port, "TCP port; 0 takes any free one (default: 7472)");
   app.add_option("--port-file", arguments.port_file, "Write the port to this file once the world can be reached");
   app.add_option("--device", arguments.devices,

@@ -1,5 +1,6 @@
 /// \file
-/// LoopWatch concludes from the number of its passes whether the robot's control loop is stuck. Wall time is an argument.
+/// LoopWatch concludes from the number of its passes whether the robot's control loop is stuck. Wall time is an
+/// argument.
 #pragma once
 
 #include <cstdint>

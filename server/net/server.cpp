@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <boost/asio/executor_work_guard.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 
@@ -18,6 +17,7 @@
 #include "common/net/listen.hpp"
 #include "common/net/random_id.hpp"
 #include "server/net/client_silences.hpp"
+#include "server/net/link_faults.hpp"
 #include "server/net/loop_watch.hpp"
 #include "server/net/mailbox.hpp"
 #include "server/net/session.hpp"
@@ -26,7 +26,6 @@ namespace seeker::server_net {
 namespace {
 
 namespace asio = boost::asio;
-using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::string_view kPart = "server/net";
@@ -59,7 +58,9 @@ class Server::Impl {
       : params_(std::move(params)),
         io_(std::make_shared<asio::io_context>(1)),
         work_(asio::make_work_guard(*io_)),
-        listener_(*io_, kPart, [this](tcp::socket socket) { admit(std::move(socket)); }),
+        listener_(
+            *io_, kPart,
+            {[this](net::Transport transport) { admit(std::move(transport)); }, [this] { check_certificates(); }}),
         tick_(*io_),
         mailbox_(std::make_shared<Mailbox>(2 * params_.backlog.items)),
         backlogs_(make_backlogs(params_.backlog, std::make_index_sequence<api::kTopicCount>())),
@@ -77,7 +78,7 @@ class Server::Impl {
     if (!ready) {
       return tl::unexpected<Error>(ready.error());
     }
-    Result<std::uint16_t> port = listener_.open(params_.address, params_.port);
+    Result<std::uint16_t> port = listener_.open(params_.address, params_.port, params_.security);
     if (!port) {
       return port;
     }
@@ -85,6 +86,7 @@ class Server::Impl {
     if (!ready) {
       return tl::unexpected<Error>(ready.error());
     }
+    report_link_faults();
     listener_.accept();
     tick();
     thread_ = std::thread([this] { run(); });
@@ -159,7 +161,7 @@ class Server::Impl {
     return {};
   }
 
-  void admit(tcp::socket socket) {
+  void admit(net::Transport transport) {
     ++hub_.stats.accepted;
     const auto said_hello =
         std::count_if(sessions_.begin(), sessions_.end(), [](const auto& session) { return session->open(); });
@@ -170,9 +172,27 @@ class Server::Impl {
     while (sessions_.size() >= most) {
       drop_longest_silent();
     }
-    const auto session = std::make_shared<Session>(hub_, std::move(socket), full);
+    const auto session = std::make_shared<Session>(hub_, std::move(transport), full);
     sessions_.insert(session);
     session->start();
+  }
+
+  /// Ends the sessions of those who are not believed any more.
+  void check_certificates() {
+    for (const auto& session : snapshot()) {
+      if (const Status believed = listener_.check(session->certificate()); !believed) {
+        session->end({::seeker::v1::Close::REASON_CERTIFICATE, believed.error().message, false, true});
+      }
+    }
+    report_link_faults();
+  }
+
+  void report_link_faults() {
+    std::vector<api::Fault> faults = link_faults(listener_.health(), std::chrono::system_clock::now());
+    if (params_.on_link_faults && faults != link_faults_) {
+      params_.on_link_faults(faults);
+    }
+    link_faults_ = std::move(faults);
   }
 
   /// Who has not said hello makes room, or silent connections would lock everybody out. There must be one.
@@ -341,6 +361,7 @@ class Server::Impl {
   LoopWatch loop_;
   std::uint64_t own_passes_ = 0;  ///< where the robot counts none
   ClientSilences silences_;
+  std::vector<api::Fault> link_faults_;  ///< as they were reported last
   RobotTime newest_{};
   bool stopping_ = false;
   std::shared_ptr<api::RobotApi> robot_;

@@ -8,8 +8,10 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/api/robot_api.hpp"
+#include "common/net/link_security.hpp"
 
 namespace seeker::server_net {
 
@@ -40,7 +42,8 @@ struct ServerParams {
   Duration heartbeat = std::chrono::seconds(1);   ///< wall time between heartbeats
   Duration lost_after = std::chrono::seconds(3);  ///< wall time without a received frame after which a client is lost
   Duration linger = std::chrono::milliseconds(500);  ///< wall time for the last frames of a session to leave
-  api::Role max_role = api::Role::kAdmin;            ///< the highest role that is granted
+  api::Role max_role = api::Role::kAdmin;            ///< the highest role that is granted, whatever a certificate says
+  net::LinkSecurity security;
   SessionLimits session;
   BacklogLimits backlog;
   /// Returns the present robot time; called on the server's thread. Empty: the newest published stamp is used.
@@ -48,6 +51,9 @@ struct ServerParams {
   /// Returns the number of passes of the robot's control loop; called on the server's thread. While it stands still no
   /// heartbeat is sent, and after lost_after nobody can connect. Empty: each call counts as a pass.
   std::function<std::uint64_t()> loop_pass;
+  /// Is told what is wrong with the port's protection, at the start and when that changes; called on the server's
+  /// thread (the first time by start()). May be empty.
+  std::function<void(const std::vector<api::Fault>&)> on_link_faults;
 };
 
 /// Counters for the log and for tests.

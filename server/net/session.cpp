@@ -1,5 +1,6 @@
 #include "server/net/session.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/wire/outcome.hpp"
@@ -10,7 +11,18 @@ namespace {
 
 namespace pb = ::seeker::v1;
 
-wire::ServerSessionParams session_params(const SessionHub& hub, bool full) {
+/// What a certificate allows a client of the robot. Another robot has nothing to command here.
+api::Role role_of(const pki::Certificate& certificate) {
+  switch (certificate.facts().role.value_or(pki::Role::kObserver)) {
+    case pki::Role::kOperator: return api::Role::kOperator;
+    case pki::Role::kAdmin: return api::Role::kAdmin;
+    case pki::Role::kObserver:
+    case pki::Role::kRobot: return api::Role::kObserver;
+  }
+  return api::Role::kObserver;
+}
+
+wire::ServerSessionParams session_params(const SessionHub& hub, const pki::Certificate* certificate, bool full) {
   const ServerParams& p = hub.params;
   wire::ServerSessionParams out;
   out.robot = hub.robot;
@@ -19,6 +31,10 @@ wire::ServerSessionParams session_params(const SessionHub& hub, bool full) {
   out.hello_timeout = p.session.hello_timeout;
   out.idle_limit = p.session.idle_limit;
   out.max_role = p.max_role;
+  if (certificate != nullptr) {
+    out.max_role = std::min(p.max_role, role_of(*certificate));
+    out.certified_name = certificate->facts().name;
+  }
   out.in_flight = p.session.in_flight;
   out.requests_per_s = p.session.requests_per_s;
   out.request_burst = p.session.request_burst;
@@ -32,7 +48,7 @@ wire::ServerSessionParams session_params(const SessionHub& hub, bool full) {
 wire::Ending ending_of(const Error& error) {
   wire::Ending ending;
   ending.text = error.message;
-  ending.send_close = error.code != Errc::kLinkLost;
+  ending.send_close = error.code != Errc::kLinkLost && error.code != Errc::kRefused;
   ending.reason = error.code == Errc::kTooLarge  ? pb::Close::REASON_FRAME_TOO_LARGE
                   : error.code == Errc::kTimeout ? pb::Close::REASON_TOO_SLOW
                                                  : pb::Close::REASON_SILENT;
@@ -44,7 +60,8 @@ wire::Ending ending_of(const Error& error) {
 Session::Session(SessionHub& hub, net::Transport transport, bool full)
     : hub_(hub),
       since_(net::wall_now()),
-      session_(session_params(hub, full), since_),
+      certificate_(transport.peer()),
+      session_(session_params(hub, certificate_.get(), full), since_),
       outbox_(hub.params.session.queued_replies, hub.params.session.queued_bytes),
       streams_(hub.backlogs, hub.stream_id),
       connection_(std::make_shared<net::Connection>(

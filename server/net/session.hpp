@@ -74,6 +74,8 @@ class Session : public std::enable_shared_from_this<Session> {
   void note_time_sync() { time_synced_ = true; }
   [[nodiscard]] Duration silence(wire::WallTime now) const { return session_.silence(now); }
   [[nodiscard]] bool stale(wire::WallTime now) const { return session_.stale(now); }
+  /// The client's certificate; null: plain TCP.
+  [[nodiscard]] const pki::Certificate* certificate() const { return certificate_.get(); }
 
  private:
   void on_payload(std::string_view payload);
@@ -84,6 +86,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   SessionHub& hub_;
   wire::WallTime since_;  ///< when it connected
+  std::shared_ptr<const pki::Certificate> certificate_;
   wire::ServerSession session_;
   wire::Outbox outbox_;
   wire::StreamSender streams_;

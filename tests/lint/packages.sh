@@ -7,7 +7,7 @@ declare -A PACKAGES=(
     protobuf-compiler libfuzzylite-dev libnanoflann-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev
     libsqlite3-dev libsystemd-dev libzstd-dev libssl-dev libpng-dev libjpeg-dev zlib1g-dev
     nlohmann-json3-dev libcairo2-dev libfreetype-dev fonts-dejavu-core"
-  [test]="libgtest-dev libgmock-dev librapidcheck-dev"
+  [test]="libgtest-dev libgmock-dev librapidcheck-dev openssl"
   [lint]="clang-format clang-tidy"
   [bench]="libbenchmark-dev"
   [fuzz]="clang-14 libfuzzer-14-dev libclang-rt-14-dev"

@@ -1,4 +1,5 @@
 #include "server/app/composition/device_factory.hpp"
+#include "server/app/composition/link_options.hpp"
 
 #include <utility>
 
@@ -87,6 +88,9 @@ Result<MadeDevices> make_emulator(const RobotOptions& options) {
   drivers::EmulatorParams params;
   params.host = endpoint->host;
   params.port = endpoint->port;
+  if (options.emulator.tls) {
+    params.tls = link_security(options).files;
+  }
   params.robot = static_cast<std::uint32_t>(options.emulator.robot);
   const Result<std::shared_ptr<drivers::EmulatorLink>> link = drivers::EmulatorLink::connect(params);
   if (!link) {

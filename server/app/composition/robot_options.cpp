@@ -2,6 +2,7 @@
 
 #include "common/api/robot_state.hpp"
 #include "server/app/composition/estimators.hpp"
+#include "server/app/composition/link_options.hpp"
 #include "server/app/composition/loop_options.hpp"
 #include "server/app/composition/stereo_mode.hpp"
 #include "server/options/camera_options.hpp"
@@ -41,31 +42,6 @@ void describe(config::Fields& f, ReplayParams& params) {
 
 }  // namespace seeker::drivers
 
-namespace seeker {
-namespace {
-
-void describe_port(config::Fields& f, std::uint16_t& number) {
-  int port = number;
-  f.field("port", port);
-  constexpr int kHighestPort = 65535;
-  const bool valid = port >= 0 && port <= kHighestPort;
-  f.check("port", valid, "must be from 0 to 65535");
-  number = valid ? static_cast<std::uint16_t>(port) : number;
-}
-
-}  // namespace
-}  // namespace seeker
-
-namespace seeker::server_net {
-void describe(config::Fields& f, ServerParams& params) {
-  f.field("address", params.address);
-  describe_port(f, params.port);
-  f.seconds("heartbeat_s", params.heartbeat);
-  f.seconds("lost_after_s", params.lost_after);
-}
-
-}  // namespace seeker::server_net
-
 namespace seeker::app {
 void describe(config::Fields& f, GotoParams& params) {
   f.section("cost_map", params.cost_map);
@@ -90,6 +66,7 @@ void describe(config::Fields& f, SimSettings& settings) {
 void describe(config::Fields& f, EmulatorSettings& settings) {
   f.field("address", settings.address);
   f.field("robot", settings.robot);
+  f.field("tls", settings.tls);
 }
 
 void describe(config::Fields& f, FleetSettings& settings) {

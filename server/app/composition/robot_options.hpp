@@ -47,6 +47,7 @@ struct SimSettings {
 struct EmulatorSettings {
   std::string address = "127.0.0.1:7472";  ///< host:port
   std::uint64_t robot = 0;                 ///< which robot of the world, from 0
+  bool tls = false;                        ///< the world is reached over TLS, with the files of `server.tls`
 };
 
 /// Real devices.

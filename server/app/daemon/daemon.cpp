@@ -7,6 +7,7 @@
 #include "common/files/config_folder.hpp"
 #include "common/files/files.hpp"
 #include "common/log/log.hpp"
+#include "server/app/composition/link_options.hpp"
 #include "server/app/composition/robot_assembly.hpp"
 #include "server/app/composition/robot_options.hpp"
 #include "server/app/daemon/service_notifier.hpp"
@@ -74,8 +75,10 @@ Status run(const DaemonArguments& arguments, const RobotOptions& options, const 
            Robot& robot, const ServiceNotifier& service) {
   server_net::ServerParams params = options.server;
   params.port = arguments.port.value_or(params.port);
+  params.security = link_security(options);
   params.robot_now = [&robot] { return robot.now(); };
   params.loop_pass = [&robot] { return robot.passes(); };
+  params.on_link_faults = [&robot](const std::vector<api::Fault>& faults) { robot.set_link_faults(faults); };
   server_net::Server server(robot, params);
   robot.start(options.driver == DriverType::kReplay && options.replay.wait_for_client);
   const Result<std::uint16_t> port = server.start();
@@ -112,8 +115,10 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
   if (const Status recording = record(arguments, options, robot); !recording) {
     return config_error(recording.error());
   }
-  const Result<FleetPart> fleet = start_fleet(options.fleet, options.robot_id, SEEKER_VERSION,
-                                              state / options.robot_id / "fleet", robot.fleet_host());
+  FleetSettings settings = options.fleet;
+  settings.security = link_security(options);
+  const Result<FleetPart> fleet =
+      start_fleet(settings, options.robot_id, SEEKER_VERSION, state / options.robot_id / "fleet", robot.fleet_host());
   if (!fleet) {
     return config_error(fleet.error());
   }
@@ -147,6 +152,9 @@ int run_daemon(const DaemonArguments& arguments) {
   if (arguments.print_config) {
     std::cout << config::print(*options);
     return EXIT_SUCCESS;
+  }
+  if (const Status links = check_links(*options); !links) {
+    return config_error(links.error());
   }
   const std::filesystem::path state = arguments.state.empty() ? default_state_folder() : arguments.state;
   // Before any thread: making the robot starts some, and one that does not block a signal dies of it with all others.

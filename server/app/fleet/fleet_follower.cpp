@@ -23,7 +23,7 @@ FleetFollower::FleetFollower(FleetFollowerParams params, FleetHost host)
     : params_(std::move(params)),
       host_(std::move(host)),
       instance_(net::random_id()),
-      main_(params_.main, params_.call_timeout),
+      main_(params_.main, params_.call_timeout, params_.tls),
       others_(params_.robot_id, host_),
       last_(fail(Errc::kNotReady, "the main robot has not answered yet")),
       thread_([this] { run(); }) {}

@@ -24,6 +24,7 @@ namespace seeker::app {
 
 struct FleetFollowerParams {
   rpc::Endpoint main;
+  std::optional<pki::BundleFiles> tls;  ///< nothing: plain TCP
   std::string robot_id;
   Duration period = std::chrono::seconds(5);         ///< wall time between announcements of the map
   Duration share_period = std::chrono::seconds(1);   ///< wall time between those of where the robot goes

@@ -10,7 +10,7 @@ namespace {
 
 Status lead(const FleetSettings& settings, const std::filesystem::path& folder, FleetPart& part) {
   part.server = std::make_unique<FleetServer>(*part.leader, settings.share_period);
-  const Result<std::uint16_t> port = part.server->start(settings.address, settings.port);
+  const Result<std::uint16_t> port = part.server->start(settings.address, settings.port, settings.security);
   if (!port) {
     return fail_with_context("fleet", port.error());
   }
@@ -49,6 +49,9 @@ Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& 
     }
     FleetFollowerParams params;
     params.main = std::move(*main);
+    if (settings.security.tls()) {
+      params.tls = settings.security.files;
+    }
     params.robot_id = robot_id;
     params.period = settings.period;
     params.share_period = settings.share_period;

@@ -1,5 +1,7 @@
 #include "server/app/fleet/fleet_server.hpp"
 
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <boost/asio/post.hpp>
@@ -17,7 +19,6 @@ namespace seeker::app {
 namespace {
 
 namespace asio = boost::asio;
-using asio::ip::tcp;
 
 constexpr std::size_t kMaxPeers = 64;
 /// Replies that a peer has not read yet; it asks one thing at a time, so more is malice.
@@ -80,7 +81,37 @@ Status serve(FleetLeader& leader, const v1::FleetRequest& request, v1::FleetRepl
   }
 }
 
+/// The robot in whose name a request speaks; nothing: in nobody's.
+std::optional<std::string> sender_of(const v1::FleetRequest& request) {
+  switch (request.call_case()) {
+    case v1::FleetRequest::kAnnounce: return request.announce().robot_id();
+    case v1::FleetRequest::kChunk: return request.chunk().robot_id();
+    case v1::FleetRequest::kShare: return request.share().robot_id();
+    case v1::FleetRequest::kSeen: return request.seen().robot_id();
+    default: return std::nullopt;
+  }
+}
+
 }  // namespace
+
+Status may_ask(const pki::Certificate* peer, const v1::FleetRequest& request) {
+  if (peer == nullptr) {
+    return {};
+  }
+  const pki::CertificateFacts& facts = peer->facts();
+  if (request.call_case() == v1::FleetRequest::kDecide) {
+    return facts.role == pki::Role::kOperator || facts.role == pki::Role::kAdmin
+               ? Status()
+               : fail(Errc::kRefused, "the certificate of '" + facts.name +
+                                          "' does not allow this; have one issued with --role operator");
+  }
+  const std::optional<std::string> robot = sender_of(request);
+  if (robot && (facts.role != pki::Role::kRobot || *robot != facts.name)) {
+    return fail(Errc::kRefused, "the certificate of '" + facts.name + "' does not allow to speak for the robot '" +
+                                    *robot + "'; issue one of that name with --role robot");
+  }
+  return {};
+}
 
 v1::FleetReply answer_of(FleetLeader& leader, const v1::FleetRequest& request) {
   v1::FleetReply reply;
@@ -97,12 +128,14 @@ v1::FleetReply answer_of(FleetLeader& leader, const v1::FleetRequest& request) {
 /// One connection.
 struct FleetServer::Peer {
   std::shared_ptr<net::Connection> connection;
+  std::shared_ptr<const pki::Certificate> certificate;  ///< null: plain TCP
   net::FrameQueue outgoing{kMaxQueued};
 };
 
 FleetServer::FleetServer(FleetLeader& leader, Duration refresh_period)
     : leader_(leader),
-      listener_(io_, kFleetPart, [this](tcp::socket socket) { admit(std::move(socket)); }),
+      listener_(io_, kFleetPart,
+                {[this](net::Transport transport) { admit(std::move(transport)); }, [this] { check_certificates(); }}),
       timer_(io_),
       refresh_period_(refresh_period) {}
 
@@ -113,8 +146,9 @@ FleetServer::~FleetServer() {
   }
 }
 
-Result<std::uint16_t> FleetServer::start(const std::string& address, std::uint16_t port) {
-  Result<std::uint16_t> opened = listener_.open(address, port);
+Result<std::uint16_t> FleetServer::start(const std::string& address, std::uint16_t port,
+                                         const net::LinkSecurity& security) {
+  Result<std::uint16_t> opened = listener_.open(address, port, security);
   if (opened) {
     listener_.accept();
     refresh();
@@ -142,14 +176,24 @@ void FleetServer::close_all() {
   }
 }
 
-void FleetServer::admit(tcp::socket socket) {
+void FleetServer::check_certificates() {
+  for (const auto& peer : std::set<std::shared_ptr<Peer>>(peers_)) {
+    if (const Status believed = listener_.check(peer->certificate.get()); !believed) {
+      log::warning(kFleetPart, "a connection was closed: " + believed.error().message);
+      drop(peer);
+    }
+  }
+}
+
+void FleetServer::admit(net::Transport transport) {
   if (peers_.size() >= kMaxPeers) {
     return;  // closes it
   }
   net::ConnectionParams params;
   params.max_frame_bytes = kMaxRequestBytes;
   const auto peer = std::make_shared<Peer>();
-  peer->connection = std::make_shared<net::Connection>(std::move(socket), params);
+  peer->certificate = transport.peer();
+  peer->connection = std::make_shared<net::Connection>(std::move(transport), params);
   // The handlers hold the peer until its connection is closed.
   net::Connection::Handlers handlers;
   handlers.on_frame = [this, peer](std::string_view payload) { on_frame(peer, payload); };
@@ -164,6 +208,12 @@ void FleetServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_view p
   if (const Status parsed = wire::parse_within_limits(payload, request); !parsed) {
     log::info(kFleetPart, "a connection was closed: " + parsed.error().message);
     drop(peer);
+    return;
+  }
+  if (const Status allowed = may_ask(peer->certificate.get(), request); !allowed) {
+    v1::FleetReply refusal;
+    wire::set_error(*refusal.mutable_error(), allowed);
+    send(peer, refusal);
     return;
   }
   if (request.call_case() != v1::FleetRequest::kMap) {

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 
 #include "common/net/listen.hpp"
@@ -31,11 +30,14 @@ class FleetServer {
   ~FleetServer();
 
   /// Listens and starts the thread; the answer is the port.
-  [[nodiscard]] Result<std::uint16_t> start(const std::string& address, std::uint16_t port);
+  [[nodiscard]] Result<std::uint16_t> start(const std::string& address, std::uint16_t port,
+                                            const net::LinkSecurity& security = {});
 
  private:
   struct Peer;
-  void admit(boost::asio::ip::tcp::socket socket);
+  void admit(net::Transport transport);
+  /// Drops those who are not believed any more.
+  void check_certificates();
   void on_frame(const std::shared_ptr<Peer>& peer, std::string_view payload);
   void send(const std::shared_ptr<Peer>& peer, const v1::FleetReply& reply);
   void drop(const std::shared_ptr<Peer>& peer);
@@ -51,6 +53,10 @@ class FleetServer {
   bool stopping_ = false;
   std::thread thread_;
 };
+
+/// Whether the owner of a certificate may make a request: a robot speaks for itself alone, decisions need an operator,
+/// reading needs any certificate. Null (plain TCP) may do everything. kRefused names the remedy.
+[[nodiscard]] Status may_ask(const pki::Certificate* peer, const v1::FleetRequest& request);
 
 /// The reply to everything but a map, which comes later.
 [[nodiscard]] v1::FleetReply answer_of(FleetLeader& leader, const v1::FleetRequest& request);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/core/time.hpp"
+#include "common/net/link_security.hpp"
 #include "server/fleet/map_merger.hpp"
 
 namespace seeker::app {
@@ -27,6 +28,7 @@ struct FleetSettings {
   /// Wall time after which what a robot has searched proves nothing to the others any more, unless it searches on.
   Duration search_age = std::chrono::hours(1);
   fleet::MergeParams merge;
+  net::LinkSecurity security;  ///< of the port, and of the link to the main robot; not a field: as that of the server
 };
 
 }  // namespace seeker::app

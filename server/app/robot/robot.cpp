@@ -1,5 +1,6 @@
 #include "server/app/robot/robot.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/api/fleet.hpp"
@@ -97,6 +98,22 @@ FleetHost Robot::fleet_host() {
     static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.diagnostics().log(kind, text, severity); }));
   };
   return host;
+}
+
+void Robot::set_link_faults(std::vector<api::Fault> faults) {
+  static_cast<void>(mailbox_.post([this, faults = std::move(faults)] {
+    Diagnostics& diagnostics = loop_.diagnostics();
+    for (const std::string& id : std::exchange(link_faults_, {})) {
+      const bool lasts = std::any_of(faults.begin(), faults.end(), [&](const api::Fault& f) { return f.id == id; });
+      if (!lasts) {
+        diagnostics.clear(id);
+      }
+    }
+    for (const api::Fault& fault : faults) {
+      diagnostics.raise(fault.id, fault.component, fault.message, fault.remedy, fault.severity);
+      link_faults_.push_back(fault.id);
+    }
+  }));
 }
 
 void Robot::give_own_map(const api::Reply<OwnMap>& reply) {

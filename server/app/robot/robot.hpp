@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "common/api/robot_api.hpp"
 #include "server/app/fleet/own_map.hpp"
@@ -43,6 +44,9 @@ class Robot final : public api::RobotHost {
   void stop();
   /// Runs until the source has ended (a replay) or `deadline` robot time; for programs without a network.
   [[nodiscard]] RobotLoop& loop() { return loop_; }
+  /// Raises these faults, which concern the link to clients, and clears those of the last call that are not among them;
+  /// any thread.
+  void set_link_faults(std::vector<api::Fault> faults);
   /// The robot for its fleet; valid while this lives.
   [[nodiscard]] FleetHost fleet_host();
   /// True once a replay's source has been read to its end.
@@ -79,6 +83,7 @@ class Robot final : public api::RobotHost {
   MapService maps_;
   CheckpointService checkpoints_;
   LandmarkService landmarks_;
+  std::vector<std::string> link_faults_;  ///< ids of those that are raised; the loop's thread
   std::thread thread_;
   std::atomic<bool> client_seen_{false};
   std::atomic<bool> ended_{false};

@@ -61,9 +61,12 @@ bool EmulatorLink::work_until(Done done, Duration limit) {
 void EmulatorLink::try_connect() {
   state_ = State::kConnecting;
   net::async_connect(
-      io_, params_.host, params_.port, params_.connect_timeout, [this](Result<net::Transport> transport) {
+      io_, {params_.host, params_.port, params_.connect_timeout, params_.tls},
+      [this](Result<net::Transport> transport) {
         if (transport) {
           greet(std::move(*transport));
+        } else if (params_.tls) {
+          lose(transport.error());
         } else {
           // What the error says to look after is for clients of a robot.
           lose({transport.error().code, "no emulator answers at " + params_.host + ":" + std::to_string(params_.port)});

@@ -22,6 +22,7 @@ namespace seeker::drivers {
 struct EmulatorParams {
   std::string host = "127.0.0.1";
   std::uint16_t port = 7472;
+  std::optional<pki::BundleFiles> tls;                     ///< nothing: plain TCP
   std::uint32_t robot = 0;                                 ///< index of the robot in the world, from 0
   Duration connect_timeout = std::chrono::seconds(5);      ///< wall time for the first connection
   Duration call_timeout = std::chrono::seconds(10);        ///< wall time limit for a reply, except for advance()

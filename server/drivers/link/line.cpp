@@ -22,7 +22,7 @@ void open_line(boost::asio::io_context& io, const LineAddress& address, Duration
     boost::asio::post(io, [&io, path = address.path, done = std::move(done)] { done(SerialLine::open(io, path)); });
     return;
   }
-  net::async_connect(io, address.host, address.port, timeout,
+  net::async_connect(io, {address.host, address.port, timeout, std::nullopt},
                      [name = to_string(address), done = std::move(done)](Result<net::Transport> transport) {
                        if (!transport) {
                          done(fail(transport.error().code,
@@ -30,8 +30,8 @@ void open_line(boost::asio::io_context& io, const LineAddress& address, Duration
                          return;
                        }
                        boost::system::error_code ignored;
-                       transport->set_option(boost::asio::ip::tcp::no_delay(true), ignored);
-                       done(std::make_unique<TcpLine>(std::move(*transport), name));
+                       transport->socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+                       done(std::make_unique<TcpLine>(transport->take_socket(), name));
                      });
 }
 

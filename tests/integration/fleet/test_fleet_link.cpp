@@ -142,7 +142,7 @@ TEST(FleetLink, ARobotWithoutItsMainOneGoesOnAndSaysWhy) {
 }
 
 v1::FleetReply ask(std::uint16_t port, const v1::FleetRequest& request) {
-  auto exchange = net::Exchange::connect("127.0.0.1", port, 10s);
+  auto exchange = net::Exchange::connect({"127.0.0.1", port, 10s, std::nullopt});
   EXPECT_TRUE(exchange);
   const Result<std::string> payload = (*exchange)->ask(request.SerializeAsString(), 10s);
   EXPECT_TRUE(payload) << payload.error().message;
@@ -163,7 +163,7 @@ TEST(FleetServer, RefusesAnotherProtocolAndNonsense) {
   EXPECT_EQ(wire::status_of(ask(main.port, request).error()).error().code, Errc::kInvalidArgument);
   request.clear_call();
   EXPECT_EQ(wire::status_of(ask(main.port, request).error()).error().code, Errc::kInvalidArgument);
-  auto garbage = net::Exchange::connect("127.0.0.1", main.port, 10s);
+  auto garbage = net::Exchange::connect({"127.0.0.1", main.port, 10s, std::nullopt});
   ASSERT_TRUE(garbage);
   EXPECT_EQ((*garbage)->ask("\x01\x02\x03 no message", 10s).error().code, Errc::kLinkLost);
   EXPECT_EQ(main.part.leader->status().members.size(), 1U);

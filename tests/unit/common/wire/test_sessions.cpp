@@ -110,6 +110,36 @@ TEST_F(ServerSessionTest, HelloIsRefusedWithItsReason) {
   EXPECT_EQ(status_of(hello()), pb::HelloReply::STATUS_BUSY);
 }
 
+TEST_F(ServerSessionTest, ACertificateNamesItsClients) {
+  params_.certified_name = "anna";
+  const auto status_of = [&](const std::string& name) {
+    ServerSession session = make();
+    return put(session, hello(1, name)).send->hello_reply().status();
+  };
+  EXPECT_EQ(status_of("anna"), pb::HelloReply::STATUS_OK);
+  EXPECT_EQ(status_of("anna/seeker-desk-12"), pb::HelloReply::STATUS_OK);
+  for (const char* name : {"bob", "annabel", "ann", "bob/anna", "/anna"}) {
+    EXPECT_EQ(status_of(name), pb::HelloReply::STATUS_INVALID_ARGUMENT) << name;
+  }
+  EXPECT_EQ(certified_client_name("anna", "seeker-1"), "anna/seeker-1");
+  EXPECT_EQ(certified_client_name("anna", "anna/seeker-1"), "anna/seeker-1");
+  EXPECT_EQ(certified_client_name("anna", std::string(64, 'x')).size(), 64U);
+  EXPECT_EQ(certified_client_name("", "seeker-1"), "seeker-1");
+}
+
+TEST_F(ServerSessionTest, ARoleThatACertificateDoesNotAllowIsNotGranted) {
+  params_.certified_name = "olga";
+  params_.max_role = api::Role::kObserver;
+  ServerSession session = make();
+  put(session, hello(1, "olga"));
+  EXPECT_EQ(session.caller().role, api::Role::kObserver);
+  pb::Envelope drive = info_request(1);
+  drive.mutable_request()->mutable_drive();
+  const ServerStep step = put(session, drive);
+  EXPECT_FALSE(step.request);
+  EXPECT_NE(step.send->response().header().error().message().find("--role operator"), std::string::npos);
+}
+
 TEST_F(ServerSessionTest, TheSmallerMinorIsSpoken) {
   ServerSession session = make();
   auto newer = hello();

@@ -1,0 +1,26 @@
+#include "common/net/transport.hpp"
+
+#include <utility>
+
+#include "common/core/assert.hpp"
+#include "common/net/tls_stream.hpp"
+
+namespace seeker::net {
+
+Transport::Transport(Socket socket) : plain_(std::move(socket)) {}
+
+Transport::Transport(std::unique_ptr<TlsStream> tls, pki::Certificate peer)
+    : tls_(std::move(tls)), peer_(std::make_shared<const pki::Certificate>(std::move(peer))) {}
+
+Transport::Transport(Transport&& other) noexcept = default;
+Transport& Transport::operator=(Transport&& other) noexcept = default;
+Transport::~Transport() = default;
+
+Transport::Socket& Transport::socket() { return tls_ ? tls_->stream.next_layer() : *plain_; }
+
+Transport::Socket Transport::take_socket() {
+  SEEKER_ASSERT(plain_);
+  return std::move(*plain_);
+}
+
+}  // namespace seeker::net
