@@ -19,6 +19,7 @@ find_package(Boost 1.81 REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 # With FreeType, which loads the font.
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo-ft freetype2)
+find_package(prometheus-cpp REQUIRED)
 pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
 # fuzzylite.pc has an empty version: ask for none.
 pkg_check_modules(FUZZYLITE REQUIRED IMPORTED_TARGET fuzzylite)

@@ -32,6 +32,7 @@ set(SEEKER_ALONE
     tests/arch/test_rules.cpp
     tests/support/net/chaos_proxy.cpp
     tests/unit/common/image/test_map_picture.cpp
+    tests/unit/common/wire/test_stream_sender.cpp
     tests/unit/server/app/maps/test_robot_map.cpp
     tests/unit/server/app/missions/test_rotate_and_look.cpp
     tests/unit/server/explore/test_doors.cpp tests/unit/server/explore/test_exploration.cpp

@@ -7,6 +7,7 @@
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 namespace seeker::log {
 namespace {
@@ -30,22 +31,15 @@ std::string_view name(Level level) {
   }
 }
 
-/// spdlog writes whole lines under its lock and adds the time where nobody else does.
-void write_to_stderr(const Line& line) {
-  static const bool journald = std::getenv("JOURNAL_STREAM") != nullptr;
-  static const std::shared_ptr<spdlog::logger> logger = [] {
-    auto made = std::make_shared<spdlog::logger>("seeker", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    made->set_level(spdlog::level::trace);
-    made->flush_on(spdlog::level::trace);
-    made->set_pattern(journald ? "%v" : "%H:%M:%S.%e %v");
-    return made;
-  }();
-  logger->info("{}", format_line(line, journald));
-}
+void write_to_stderr(const Line& line);
+
+/// Who reads our stderr, unless somebody says so.
+Format usual_format() { return std::getenv("JOURNAL_STREAM") != nullptr ? Format::kJournald : Format::kText; }
 
 struct State {
   std::mutex mutex;
   Sink sink = write_to_stderr;
+  Format format = usual_format();
   std::atomic<Level> level{Level::kInfo};
 };
 
@@ -53,6 +47,39 @@ struct State {
 State& state() {
   static auto* const instance = new State;
   return *instance;
+}
+
+/// spdlog writes whole lines under its lock and adds the time where nobody else does.
+void set_pattern(spdlog::logger& logger, Format format) {
+  switch (format) {
+    case Format::kText: return logger.set_pattern("%H:%M:%S.%e %v");
+    case Format::kJournald: return logger.set_pattern("%v");
+    case Format::kJson:
+      return logger.set_pattern(R"({"time":"%Y-%m-%dT%H:%M:%S.%fZ",%v})", spdlog::pattern_time_type::utc);
+  }
+}
+
+/// Called under the lock of the state.
+void write_to_stderr(const Line& line) {
+  static const std::shared_ptr<spdlog::logger> logger = [] {
+    auto made = std::make_shared<spdlog::logger>("seeker", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    made->set_level(spdlog::level::trace);
+    made->flush_on(spdlog::level::trace);
+    return made;
+  }();
+  static std::optional<Format> written;
+  if (written != state().format) {
+    written = state().format;
+    set_pattern(*logger, *written);
+  }
+  logger->info("{}", format_line(line, *written));
+}
+
+std::string json_fields(const Line& line) {
+  const nlohmann::ordered_json fields{{"level", name(line.level)}, {"part", line.part}, {"text", line.text}};
+  // What a peer has said may be no UTF-8.
+  const std::string object = fields.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return object.substr(1, object.size() - 2);
 }
 
 void write(Level level, std::string_view part, std::string_view text) {
@@ -99,8 +126,27 @@ void error(std::string_view part, std::string_view text) { write(Level::kError, 
 ScopedSink::ScopedSink(Sink sink) : former_(exchange_sink(std::move(sink))) {}
 ScopedSink::~ScopedSink() { exchange_sink(std::move(former_)); }
 
-std::string format_line(const Line& line, bool journald) {
-  std::string text = journald ? "<" + std::to_string(priority(line.level)) + ">" : std::string(name(line.level)) + " ";
+void set_format(Format format) {
+  const std::lock_guard lock(state().mutex);
+  state().format = format;
+}
+
+std::optional<Format> parse_format(std::string_view text) {
+  if (text == "text") {
+    return Format::kText;
+  }
+  if (text == "journald") {
+    return Format::kJournald;
+  }
+  return text == "json" ? std::optional(Format::kJson) : std::nullopt;
+}
+
+std::string format_line(const Line& line, Format format) {
+  if (format == Format::kJson) {
+    return json_fields(line);
+  }
+  std::string text = format == Format::kJournald ? "<" + std::to_string(priority(line.level)) + ">"
+                                                 : std::string(name(line.level)) + " ";
   text += line.part;
   text += ": ";
   // One line a record: a newline from a peer must not forge a second one.

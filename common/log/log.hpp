@@ -46,8 +46,20 @@ class ScopedSink {
   Sink former_;
 };
 
-/// The text written to stderr for a line: "<N>part: text" with the priority of syslog when the service manager reads
-/// our stderr (journald = $JOURNAL_STREAM is set), otherwise "hh:mm:ss.mmm LEVEL part: text" without the time.
-[[nodiscard]] std::string format_line(const Line& line, bool journald);
+/// How lines are written to stderr.
+enum class Format : std::uint8_t {
+  kText,      ///< "hh:mm:ss.mmm LEVEL part: text"
+  kJournald,  ///< "<N>part: text" with the priority of syslog, for a service manager that reads our stderr
+  kJson,      ///< {"time":"2026-11-28T16:49:24.123456Z","level":"INFO","part":"net","text":"up"}, for other programs
+};
+
+/// Sets the form of lines from now on. Default: kJournald where the service manager reads our stderr ($JOURNAL_STREAM
+/// is set), otherwise kText.
+void set_format(Format format);
+/// Reads "text", "journald" or "json"; std::nullopt for any other text.
+[[nodiscard]] std::optional<Format> parse_format(std::string_view text);
+
+/// The line as it is written, without its time and what encloses it in JSON. It holds no line break.
+[[nodiscard]] std::string format_line(const Line& line, Format format);
 
 }  // namespace seeker::log

@@ -37,7 +37,7 @@ class TlsAcceptance : public std::enable_shared_from_this<TlsAcceptance> {
   /// Closes the connection; no handler is called afterwards.
   void close();
   [[nodiscard]] const boost::asio::ip::address& address() const { return address_; }
-  /// True: it was refused, and only the reason is on its way.
+  /// True: it was refused, and only the reason is still to be sent.
   [[nodiscard]] bool refused() const { return refused_; }
 
  private:

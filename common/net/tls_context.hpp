@@ -17,7 +17,7 @@ namespace seeker::net {
 enum class TlsSide : std::uint8_t { kClient, kServer };
 
 /// TLS 1.3 alone, with a certificate on both sides. There is neither renegotiation nor resumption nor early data: each
-/// connection proves anew who it is, and bytes that are sent again mean nothing.
+/// connection proves again who it is, and bytes that are sent again mean nothing.
 class TlsContext {
  public:
   /// Reads the files. The error names the file and the remedy.

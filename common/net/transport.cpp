@@ -18,6 +18,9 @@ Transport::~Transport() = default;
 
 Transport::Socket& Transport::socket() { return tls_ ? tls_->stream.next_layer() : *plain_; }
 
+// Not in the header: the analyser of clang takes a moved executor for a null one.
+Transport::Socket::executor_type Transport::get_executor() { return socket().get_executor(); }
+
 Transport::Socket Transport::take_socket() {
   SEEKER_ASSERT(plain_);
   return std::move(*plain_);

@@ -33,7 +33,7 @@ class Transport {
   [[nodiscard]] TlsStream* tls() { return tls_.get(); }
   /// Who is on the other side; null: plain TCP, anybody.
   [[nodiscard]] const std::shared_ptr<const pki::Certificate>& peer() const { return peer_; }
-  [[nodiscard]] Socket::executor_type get_executor() { return socket().get_executor(); }
+  [[nodiscard]] Socket::executor_type get_executor();
   /// Gives the socket of plain TCP away; the transport cannot be used afterwards.
   [[nodiscard]] Socket take_socket();
 

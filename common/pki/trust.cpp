@@ -62,7 +62,8 @@ std::string distrust_sentence(const std::string& whose, long code) {
   switch (code) {
     case X509_V_ERR_CERT_REVOKED: return whose + " was revoked; have another one issued";
     case X509_V_ERR_CERT_HAS_EXPIRED: return whose + " has expired; have another one issued ('seeker pki issue')";
-    case X509_V_ERR_CERT_NOT_YET_VALID: return whose + " is not valid yet; check the clocks of both machines";
+    case X509_V_ERR_CERT_NOT_YET_VALID:
+    case X509_V_ERR_CRL_NOT_YET_VALID: return whose + " is not valid yet; check the clocks of both machines";
     case X509_V_ERR_HOSTNAME_MISMATCH:
     case X509_V_ERR_IP_ADDRESS_MISMATCH:
       return whose +

@@ -61,7 +61,7 @@ void RobotClient::Impl::on_thread(std::function<void()> work, const std::functio
   closed();
 }
 
-void RobotClient::Impl::call(pb::Request request, wire::ClientSession::Answer answer) {
+void RobotClient::Impl::call(pb::Request request, const wire::ClientSession::Answer& answer) {
   const auto shared = std::make_shared<pb::Request>(std::move(request));
   on_thread([self = shared_from_this(), shared, answer] { self->call_now(std::move(*shared), answer); },
             [answer] { answer(fail(Errc::kCancelled, "the client was closed")); });
@@ -84,7 +84,7 @@ void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answe
   }
 }
 
-void RobotClient::Impl::sync_time(api::Reply<TimeSync> reply) {
+void RobotClient::Impl::sync_time(const api::Reply<TimeSync>& reply) {
   on_thread([self = shared_from_this(), reply] { self->sync_now(reply); },
             [reply] { reply(fail(Errc::kCancelled, "the client was closed")); });
 }
@@ -115,7 +115,7 @@ void RobotClient::Impl::sync_now(api::Reply<TimeSync> reply) {
   });
 }
 
-void RobotClient::Impl::drive(const api::DriveCommand& command, api::Reply<void> reply) {
+void RobotClient::Impl::drive(const api::DriveCommand& command, const api::Reply<void>& reply) {
   const Duration given = net::wall_now().time_since_epoch();
   on_thread([self = shared_from_this(), command, given, reply] { self->drive_now(command, given, reply); },
             [reply] { reply(fail(Errc::kCancelled, "the client was closed")); });

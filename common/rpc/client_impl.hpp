@@ -34,9 +34,9 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   /// Ends the session on purpose and ends the thread. Called on the client's own thread, it does not wait for that.
   void shut_down();
 
-  void call(seeker::v1::Request request, wire::ClientSession::Answer answer);
-  void sync_time(api::Reply<TimeSync> reply);
-  void drive(const api::DriveCommand& command, api::Reply<void> reply);
+  void call(seeker::v1::Request request, const wire::ClientSession::Answer& answer);
+  void sync_time(const api::Reply<TimeSync>& reply);
+  void drive(const api::DriveCommand& command, const api::Reply<void>& reply);
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                        api::UpdateSink sink);
 

@@ -40,6 +40,7 @@ class Outbox {
     return frame;
   }
   [[nodiscard]] bool empty() const { return frames_.empty(); }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
   std::size_t max_frames_;

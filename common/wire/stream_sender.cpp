@@ -119,6 +119,9 @@ std::optional<OutFrame> StreamSender::next_of(std::uint64_t id, TopicState& stat
   if (!body) {
     return std::nullopt;
   }
+  if (counts_ != nullptr) {
+    (*counts_)[static_cast<std::size_t>(state.request.topic)] += state.dropped;
+  }
   return stream_frame(std::move(body), id, std::exchange(state.dropped, 0));
 }
 

@@ -20,6 +20,9 @@ namespace seeker::wire {
 /// One backlog per topic; those of LATEST topics stay empty.
 using Backlogs = std::array<Backlog, api::kTopicCount>;
 
+/// By topic: items that slow clients did not get.
+using DropCounts = std::array<std::uint64_t, api::kTopicCount>;
+
 /// A requested topic, with the run of the robot that its position belongs to (0: not known).
 struct TopicWish {
   api::TopicRequest request;
@@ -36,7 +39,9 @@ struct EncodedTiles {
 /// and a position in the shared backlog per RELIABLE topic.
 class StreamSender {
  public:
-  StreamSender(const Backlogs& backlogs, std::uint64_t stream_id) : backlogs_(backlogs), stream_id_(stream_id) {}
+  /// Each item that the client learns to have missed is added to `counts`, where it is given.
+  StreamSender(const Backlogs& backlogs, std::uint64_t stream_id, DropCounts* counts = nullptr)
+      : backlogs_(backlogs), stream_id_(stream_id), counts_(counts) {}
 
   /// Adds a subscription, or replaces that of the same id.
   std::vector<seeker::v1::TopicReply> subscribe(std::uint64_t id, const std::vector<TopicWish>& wishes);
@@ -79,6 +84,7 @@ class StreamSender {
 
   const Backlogs& backlogs_;
   std::uint64_t stream_id_;
+  DropCounts* counts_;
   std::map<std::uint64_t, Subscription> subscriptions_;
   std::size_t next_topic_ = 0;
 };

@@ -113,6 +113,10 @@ class Server::Impl {
     auto future = promise->get_future();
     asio::post(*io_, [this, promise] {
       hub_.stats.sessions = sessions_.size();
+      hub_.stats.queued_bytes = 0;
+      for (const auto& session : sessions_) {
+        hub_.stats.queued_bytes += session->queued_bytes();
+      }
       promise->set_value(hub_.stats);
     });
     return future.get();

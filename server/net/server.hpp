@@ -2,6 +2,7 @@
 /// The robot on the network: listens, keeps one session per client, sends streams to all of them.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +43,8 @@ struct ServerParams {
   Duration heartbeat = std::chrono::seconds(1);   ///< wall time between heartbeats
   Duration lost_after = std::chrono::seconds(3);  ///< wall time without a received frame after which a client is lost
   Duration linger = std::chrono::milliseconds(500);  ///< wall time for the last frames of a session to leave
-  api::Role max_role = api::Role::kAdmin;            ///< the highest role that is granted, whatever a certificate says
+  api::Role max_role =
+      api::Role::kAdmin;  ///< the highest role that is granted, also to a certificate with a higher one
   net::LinkSecurity security;
   SessionLimits session;
   BacklogLimits backlog;
@@ -51,7 +53,7 @@ struct ServerParams {
   /// Returns the number of passes of the robot's control loop; called on the server's thread. While it stands still no
   /// heartbeat is sent, and after lost_after nobody can connect. Empty: each call counts as a pass.
   std::function<std::uint64_t()> loop_pass;
-  /// Is told what is wrong with the port's protection, at the start and when that changes; called on the server's
+  /// Receives what is wrong with the port's protection, at the start and when that changes; called on the server's
   /// thread (the first time by start()). May be empty.
   std::function<void(const std::vector<api::Fault>&)> on_link_faults;
 };
@@ -65,6 +67,9 @@ struct ServerStats {
   std::uint64_t frames_sent = 0;
   std::uint64_t bytes_sent = 0;
   std::uint64_t encoded = 0;  ///< number of encoded stream updates, each once for all clients
+  /// By topic: items that clients missed, since they were too slow.
+  std::array<std::uint64_t, api::kTopicCount> dropped{};
+  std::size_t queued_bytes = 0;  ///< of answers that clients have not taken yet
 };
 
 /// One thread does all network work. `host` is called on it (and must outlive the server); replies and updates may come

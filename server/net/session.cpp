@@ -63,7 +63,7 @@ Session::Session(SessionHub& hub, net::Transport transport, bool full)
       certificate_(transport.peer()),
       session_(session_params(hub, certificate_.get(), full), since_),
       outbox_(hub.params.session.queued_replies, hub.params.session.queued_bytes),
-      streams_(hub.backlogs, hub.stream_id),
+      streams_(hub.backlogs, hub.stream_id, &hub.stats.dropped),
       connection_(std::make_shared<net::Connection>(
           std::move(transport), net::ConnectionParams{wire::kMaxFrameBytes, hub.params.session.write_timeout})),
       due_(*hub.io) {}

@@ -63,6 +63,8 @@ class Session : public std::enable_shared_from_this<Session> {
   [[nodiscard]] api::RobotApi& robot() { return *robot_; }
   [[nodiscard]] wire::StreamSender& streams() { return streams_; }
   [[nodiscard]] const SessionHub& hub() const { return hub_; }
+  /// Bytes of answers that the client has not taken yet.
+  [[nodiscard]] std::size_t queued_bytes() const { return outbox_.bytes(); }
   [[nodiscard]] bool open() const { return session_.open(); }
   [[nodiscard]] wire::WallTime since() const { return since_; }
   [[nodiscard]] bool ended() const { return ended_; }

@@ -5,9 +5,9 @@ declare -A PACKAGES=(
   [base]="g++ cmake ninja-build pkg-config ccache mold libboost1.81-dev libeigen3-dev libexpected-dev libopencv-core-dev
     libopencv-imgproc-dev libopencv-features2d-dev libopencv-flann-dev libopencv-calib3d-dev libopencv-videoio-dev libprotobuf-dev
     protobuf-compiler libfuzzylite-dev libnanoflann-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev
-    libsqlite3-dev libsystemd-dev libzstd-dev libssl-dev libpng-dev libjpeg-dev zlib1g-dev
+    libsqlite3-dev libsystemd-dev prometheus-cpp-dev libzstd-dev libssl-dev libpng-dev libjpeg-dev zlib1g-dev
     nlohmann-json3-dev libcairo2-dev libfreetype-dev fonts-dejavu-core"
-  [test]="libgtest-dev libgmock-dev librapidcheck-dev openssl"
+  [test]="libgtest-dev libgmock-dev librapidcheck-dev openssl curl"
   [lint]="clang-format clang-tidy"
   [bench]="libbenchmark-dev"
   [fuzz]="clang-14 libfuzzer-14-dev libclang-rt-14-dev"

@@ -71,6 +71,13 @@ void describe_port(config::Fields& f, std::uint16_t& number) {
   number = valid ? static_cast<std::uint16_t>(port) : number;
 }
 
+void describe(config::Fields& f, MetricsSettings& settings) {
+  f.field("address", settings.address);
+  describe_port(f, settings.port);
+  const Status ok = validate(settings);
+  f.check("address", ok.has_value(), ok ? "" : ok.error().message);
+}
+
 net::LinkSecurity link_security(const RobotOptions& options) {
   net::LinkSecurity security = options.server.security;
   for (std::filesystem::path* file :

@@ -26,6 +26,9 @@ namespace seeker::app {
 /// The field `port`.
 void describe_port(config::Fields& f, std::uint16_t& number);
 
+/// The section `metrics`.
+void describe(config::Fields& f, MetricsSettings& settings);
+
 /// The sections `server.tls` and `server.insecure` with paths that can be opened: they hold for the robot's own port,
 /// for that of its fleet, and for its links to a main robot and to an emulator.
 [[nodiscard]] net::LinkSecurity link_security(const RobotOptions& options);

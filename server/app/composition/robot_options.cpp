@@ -232,6 +232,7 @@ void describe(config::Fields& f, RobotOptions& options) {
   f.section("connections", options.loop.connections);
   f.section("odometry_calibration", options.loop.odometry_calibration);
   f.field("record", options.record);
+  f.optional_section("metrics", options.metrics);
   f.section("tracking", options.tracking);
   f.section("lines", options.lines);
   f.section("slam", options.slam);

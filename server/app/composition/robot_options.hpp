@@ -13,6 +13,7 @@
 #include "server/app/estimators/landmark_estimator.hpp"
 #include "server/app/fleet/fleet_settings.hpp"
 #include "server/app/loop/loop_params.hpp"
+#include "server/app/metrics/metrics_settings.hpp"
 #include "server/app/missions/goto_behaviour.hpp"
 #include "server/app/missions/search_behaviour.hpp"
 #include "server/app/missions/survey_behaviour.hpp"
@@ -97,6 +98,7 @@ struct RobotOptions {
   std::string base;  ///< the robot file that a file builds on; empty once both are read
   std::string robot_id = "seeker-1";
   std::string record;  ///< file of a CARMEN log that the drive is recorded into, plain or .gz; empty: none
+  std::optional<MetricsSettings> metrics;  ///< nothing: no page
   DriverType driver = DriverType::kSim;
   /// Of its body. A file that names another value means all radii that plans and checks go by, too, unless it says
   /// them.

@@ -12,6 +12,7 @@
 #include "server/app/composition/robot_options.hpp"
 #include "server/app/daemon/service_notifier.hpp"
 #include "server/app/fleet/fleet_part.hpp"
+#include "server/app/metrics/metrics_service.hpp"
 #include "server/app/robot/robot.hpp"
 #include "server/app/runtime/termination_signals.hpp"
 #include "server/net/server.hpp"
@@ -70,14 +71,31 @@ Status record(const DaemonArguments& arguments, const RobotOptions& options, Rob
   return {};
 }
 
+/// Without settings there is no page, which is no error. The page serves before there is a robot.
+Result<std::unique_ptr<MetricsService>> start_metrics(const RobotOptions& options) {
+  if (!options.metrics) {
+    return std::unique_ptr<MetricsService>();
+  }
+  Result<std::unique_ptr<MetricsService>> metrics =
+      MetricsService::start(*options.metrics, options.robot_id, SEEKER_VERSION);
+  if (metrics) {
+    log::info(kPart,
+              "metrics at http://" + options.metrics->address + ":" + std::to_string((*metrics)->port()) + "/metrics");
+  }
+  return metrics;
+}
+
 /// Runs the robot and its server to their orderly end.
 Status run(const DaemonArguments& arguments, const RobotOptions& options, const TerminationSignals& signals,
-           Robot& robot, const ServiceNotifier& service) {
+           Robot& robot, const ServiceNotifier& service, MetricsService* metrics) {
   server_net::ServerParams params = options.server;
   params.port = arguments.port.value_or(params.port);
   params.security = link_security(options);
   params.robot_now = [&robot] { return robot.now(); };
-  params.loop_pass = [&robot] { return robot.passes(); };
+  if (robot.loop().world().realtime()) {
+    // A simulation that goes as fast as it can takes its time for one tick where it must, and nothing moves meanwhile.
+    params.loop_pass = [&robot] { return robot.passes(); };
+  }
   params.on_link_faults = [&robot](const std::vector<api::Fault>& faults) { robot.set_link_faults(faults); };
   server_net::Server server(robot, params);
   robot.start(options.driver == DriverType::kReplay && options.replay.wait_for_client);
@@ -88,8 +106,14 @@ Status run(const DaemonArguments& arguments, const RobotOptions& options, const 
   if (Status announced = announce(arguments, options, *port); !announced) {
     return announced;
   }
+  if (metrics != nullptr) {
+    metrics->metrics().set_server([&server] { return server.stats(); });
+  }
   service.ready();
   wait_for_end(signals, options, robot);
+  if (metrics != nullptr) {
+    metrics->metrics().set_server({});
+  }
   log::info(kPart, "stopping: motion first, then the sessions");
   service.stopping();
   robot.stop();
@@ -105,13 +129,21 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
     return EXIT_FAILURE;
   }
   warn_of_cut_off(**journal);
-  ServiceNotifier service;  // before the robot, whose loop speaks to it until the end
+  // Before the robot, whose loop speaks to both until the end.
+  ServiceNotifier service;
+  const Result<std::unique_ptr<MetricsService>> metrics = start_metrics(options);
+  if (!metrics) {
+    return config_error(metrics.error());
+  }
   Robot robot(
       {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
       options.loop, std::move(assembly.parts), std::move(*journal), state / "maps", std::move(assembly.landmarks));
   robot.loop().hooks().on_pass = [&robot, &service](WallTime now) {
     service.passed(now, [&robot] { return service_state(robot.loop().status()); });
   };
+  if (*metrics) {
+    (*metrics)->follow(robot.loop().hooks(), robot);
+  }
   if (const Status recording = record(arguments, options, robot); !recording) {
     return config_error(recording.error());
   }
@@ -122,7 +154,7 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
   if (!fleet) {
     return config_error(fleet.error());
   }
-  if (const Status ran = run(arguments, options, signals, robot, service); !ran) {
+  if (const Status ran = run(arguments, options, signals, robot, service, metrics->get()); !ran) {
     log::error(kPart, ran.error().message);
     return EXIT_FAILURE;
   }
@@ -144,6 +176,9 @@ std::filesystem::path default_state_folder() {
 
 int run_daemon(const DaemonArguments& arguments) {
   log::set_level(log::parse_level(arguments.log_level).value_or(log::Level::kInfo));
+  if (const std::optional<log::Format> format = log::parse_format(arguments.log_format)) {
+    log::set_format(*format);
+  }
   const Result<RobotOptions> options =
       load_robot_options(files::named_file(arguments.config, files::config_folder() / "robots"), arguments.overrides);
   if (!options) {

@@ -20,6 +20,7 @@ struct DaemonArguments {
   std::filesystem::path state;         ///< empty: $STATE_DIRECTORY, $XDG_STATE_HOME/seeker, ~/.local/state/seeker
   std::string record;                  ///< file that the drive is recorded into; empty: as the robot file says
   std::string log_level = "info";
+  std::string log_format;  ///< text, journald or json; empty: by who reads it
   bool print_config = false;
 };
 

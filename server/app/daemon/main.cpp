@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
   app.add_option("--log-level", arguments.log_level, "What is logged")
       ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
       ->capture_default_str();
+  app.add_option("--log-format", arguments.log_format, "How lines are written (default: by who reads them)")
+      ->check(CLI::IsMember({"text", "journald", "json"}));
   app.add_flag("--print-config", arguments.print_config, "Print the effective configuration and exit");
   try {
     app.parse(argc, argv);

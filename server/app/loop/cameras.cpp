@@ -84,6 +84,7 @@ std::optional<Recognition> Cameras::take_recognition() {
   if (!answer) {
     return std::nullopt;
   }
+  diagnostics_.note_work("recogniser", recognition_.took());
   if (!*answer) {
     diagnostics_.raise("recogniser-failed", "recogniser", answer->error().message,
                        "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
@@ -109,6 +110,7 @@ std::optional<TakenPicture> Cameras::take_described() {
   if (!answer) {
     return std::nullopt;
   }
+  diagnostics_.note_work("node-picture", described_.took());
   if (!*answer) {
     diagnostics_.raise("pictures-failed", "camera", answer->error().message,
                        "check the camera's picture with 'seeker camera grab'", api::Severity::kWarning);
@@ -155,6 +157,7 @@ std::optional<Result<RobotTime>> Cameras::look(StereoLook context) {
 std::optional<Result<StereoLook>> Cameras::take_look() {
   std::optional<Result<StereoLook>> look = looks_.take();
   if (look) {
+    diagnostics_.note_work("stereo", looks_.took());
     note_look(*look ? Status() : Status(tl::unexpected<Error>(look->error())));
   }
   return look;

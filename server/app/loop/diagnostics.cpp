@@ -35,6 +35,12 @@ void Diagnostics::note_reading(const Status& status, const std::string& id) {
   }
 }
 
+void Diagnostics::note_work(std::string_view work, Duration took) const {
+  if (hooks_.on_work) {
+    hooks_.on_work(work, took);
+  }
+}
+
 void Diagnostics::log(const std::string& kind, const std::string& text, api::Severity severity) {
   emit({.sequence = 0,
         .stamp = clock_->now(),

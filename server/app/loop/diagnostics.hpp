@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "common/api/robot_state.hpp"
 #include "common/core/result.hpp"
@@ -31,6 +32,9 @@ class Diagnostics {
   bool clear(const std::string& id);
   /// Takes the estimator's or the map's answer to a reading: an error raises the warning `id`, success clears it.
   void note_reading(const Status& status, const std::string& id);
+
+  /// Reports the wall time that the work on one picture took (LoopHooks::on_work).
+  void note_work(std::string_view work, Duration took) const;
 
   /// Emits an event that belongs to no mission, stamped with the present robot time.
   void log(const std::string& kind, const std::string& text, api::Severity severity = api::Severity::kInfo);

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <string_view>
 
 #include "common/api/robot_api.hpp"
 #include "common/core/scan.hpp"
@@ -12,10 +13,26 @@
 
 namespace seeker::app {
 
+/// Wall time that the parts of one tick took.
+struct TickTimes {
+  std::chrono::steady_clock::time_point begun;
+  Duration sense{};
+  Duration estimate{};
+  Duration decide{};  ///< and to act
+  Duration publish{};
+};
+
 /// All are called on the loop's thread; one that is empty is not called.
 struct LoopHooks {
   /// Called after every pass of the loop, also of one that only waits for its world: a loop that is stuck is silent.
   std::function<void(std::chrono::steady_clock::time_point)> on_pass;
+  /// Called after every tick.
+  std::function<void(const TickTimes&)> on_tick;
+  /// Called instead while the loop rests on purpose.
+  std::function<void()> on_idle;
+  /// Called with the wall time that the work on one picture took, when its result is taken. `work` says what it was:
+  /// "recogniser", "stereo" or "node-picture".
+  std::function<void(std::string_view work, Duration took)> on_work;
   /// Called with every new odometry as the base measured it, without the calibration of its wheels.
   std::function<void(const drivers::OdometrySample&)> on_odometry;
   /// Called with every new scan, after the odometry of the same tick; the motion of the base is taken out of it.

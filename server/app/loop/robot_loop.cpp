@@ -6,6 +6,22 @@
 #include "server/app/loop/robot_components.hpp"
 
 namespace seeker::app {
+namespace {
+
+/// Wall time from one call to the next.
+class Laps {
+ public:
+  explicit Laps(WallTime start) : last_(start) {}
+  [[nodiscard]] Duration lap() {
+    const WallTime now = std::chrono::steady_clock::now();
+    return now - std::exchange(last_, now);
+  }
+
+ private:
+  WallTime last_;
+};
+
+}  // namespace
 
 RobotLoop::RobotLoop(const LoopParams& params, LoopParts parts, UpdateHub& hub)
     : devices_(parts.devices),
@@ -80,10 +96,19 @@ bool RobotLoop::idle() const {
 }
 
 void RobotLoop::tick(WallTime wall_now) {
+  TickTimes times{.begun = wall_now};
+  Laps laps(wall_now);
   sense();
+  times.sense = laps.lap();
   estimate();
+  times.estimate = laps.lap();
   motion_.act(decide(wall_now));
+  times.decide = laps.lap();
   publish();
+  times.publish = laps.lap();
+  if (hooks_.on_tick) {
+    hooks_.on_tick(times);
+  }
   if (const Status advanced = world_.advance(); !advanced) {
     end_source(advanced.error());
   }
@@ -150,6 +175,9 @@ void RobotLoop::publish() {
 }
 
 void RobotLoop::publish_idle() {
+  if (hooks_.on_idle) {
+    hooks_.on_idle();
+  }
   sensing_.mark_as_used();
   localiser_.map().step();
   publisher_.publish();

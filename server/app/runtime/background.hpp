@@ -2,6 +2,7 @@
 /// Slow work of the loop, one piece at a time: inline in lockstep, on a worker thread when live.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -13,6 +14,7 @@
 
 #include "common/core/assert.hpp"
 #include "common/core/result.hpp"
+#include "common/core/time.hpp"
 
 namespace seeker::app {
 
@@ -49,7 +51,9 @@ class Background {
   void start(Work work) {
     SEEKER_ASSERT(work != nullptr && !busy());
     if (inline_mode_) {
+      const WallTime begun = std::chrono::steady_clock::now();
       answer_ = guarded(work);
+      took_ = std::chrono::steady_clock::now() - begun;
       return;
     }
     {
@@ -63,8 +67,15 @@ class Background {
     const std::lock_guard lock(mutex_);
     return std::exchange(answer_, std::nullopt);
   }
+  /// Wall time that the newest answer took.
+  [[nodiscard]] Duration took() const {
+    const std::lock_guard lock(mutex_);
+    return took_;
+  }
 
  private:
+  using WallTime = std::chrono::steady_clock::time_point;
+
   Result<T> guarded(const Work& work) const {
     try {
       return work();
@@ -82,9 +93,12 @@ class Background {
       const Work work = std::exchange(work_, nullptr);
       working_ = true;
       lock.unlock();
+      const WallTime begun = std::chrono::steady_clock::now();
       Result<T> answer = guarded(work);
+      const Duration took = std::chrono::steady_clock::now() - begun;
       lock.lock();
       working_ = false;
+      took_ = took;
       answer_ = std::move(answer);
     }
   }
@@ -97,6 +111,7 @@ class Background {
   Work work_;
   bool working_ = false;
   std::optional<Result<T>> answer_;
+  Duration took_{};
   std::thread worker_;
 };
 

@@ -15,7 +15,9 @@ namespace seeker::testing {
 
 class TestSite {
  public:
-  TestSite() : folder_(fresh_folder("site")), site_(pki::SiteAuthority::init(folder_, {}, today()).value()) {}
+  TestSite()
+      : folder_(fresh_folder("site-" + std::to_string(++made_))),
+        site_(pki::SiteAuthority::init(folder_, {}, today()).value()) {}
 
   [[nodiscard]] static pki::CalendarTime today() { return std::chrono::system_clock::now(); }
 
@@ -46,6 +48,7 @@ class TestSite {
   [[nodiscard]] pki::SiteAuthority& authority() { return site_; }
 
  private:
+  static inline int made_ = 0;  ///< each has a folder of its own
   std::filesystem::path folder_;
   pki::SiteAuthority site_;
 };

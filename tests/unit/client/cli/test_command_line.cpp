@@ -30,14 +30,14 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
   visit(tree, {});
   EXPECT_EQ(names,
             (std::vector<std::string>{
-                "status",     "watch",  "map",       "export",     "save",       "load",    "list",     "info",
-                "verify",     "delete", "download",  "upload",     "relocalise", "grid",    "topology", "detections",
-                "lines",      "camera", "grab",      "components", "get",        "set",     "exchange", "activate",
-                "deactivate", "search", "recognise", "explore",    "goto",       "survey",  "localise", "landmarks",
-                "info",       "verify", "export",    "prune",      "revert",     "delete",  "fleet",    "status",
-                "merge",      "split",  "map",       "drive",      "lease",      "acquire", "request",  "take-over",
-                "grant",      "deny",   "release",   "stop",       "estop",      "pause",   "resume",   "run",
-                "completion", "version"}));
+                "status",     "watch",  "map",       "export",     "save",       "load",       "list",     "info",
+                "verify",     "delete", "download",  "upload",     "relocalise", "grid",       "topology", "detections",
+                "lines",      "camera", "grab",      "components", "get",        "set",        "exchange", "activate",
+                "deactivate", "search", "recognise", "explore",    "goto",       "survey",     "localise", "landmarks",
+                "info",       "verify", "export",    "prune",      "revert",     "delete",     "fleet",    "status",
+                "merge",      "split",  "map",       "drive",      "lease",      "acquire",    "request",  "take-over",
+                "grant",      "deny",   "release",   "stop",       "estop",      "pause",      "resume",   "pki",
+                "init",       "issue",  "revoke",    "show",       "run",        "completion", "version"}));
 }
 
 TEST(CommandLine, HelpSaysWhatEachStrategyOfAnExplorationIsGoodFor) {
@@ -152,7 +152,8 @@ TEST(Completion, AFlagTakesNoValueAndAnOptionDoes) {
   const CommandTree tree = command_tree();
   for (const CommandTree::Option& option : tree.options) {
     const std::string& name = option.names.front();
-    EXPECT_EQ(option.takes_value, name == "--robot" || name == "--timeout") << name;
+    const bool takes_value = name == "--robot" || name == "--as" || name == "--tls" || name == "--timeout";
+    EXPECT_EQ(option.takes_value, takes_value) << name;
   }
 }
 

@@ -8,13 +8,27 @@ namespace seeker::log {
 namespace {
 
 TEST(Log, LinesForTheJournalBeginWithTheirPriority) {
-  EXPECT_EQ(format_line({Level::kError, "net", "broke"}, true), "<3>net: broke");
-  EXPECT_EQ(format_line({Level::kInfo, "net", "up"}, true), "<6>net: up");
-  EXPECT_EQ(format_line({Level::kWarning, "net", "slow"}, false), "WARNING net: slow");
+  EXPECT_EQ(format_line({Level::kError, "net", "broke"}, Format::kJournald), "<3>net: broke");
+  EXPECT_EQ(format_line({Level::kInfo, "net", "up"}, Format::kJournald), "<6>net: up");
+  EXPECT_EQ(format_line({Level::kWarning, "net", "slow"}, Format::kText), "WARNING net: slow");
 }
 
 TEST(Log, ANewlineFromOutsideForgesNoSecondLine) {
-  EXPECT_EQ(format_line({Level::kInfo, "net", "a\n<0>b"}, true), "<6>net: a <0>b");
+  EXPECT_EQ(format_line({Level::kInfo, "net", "a\n<0>b"}, Format::kJournald), "<6>net: a <0>b");
+}
+
+TEST(Log, LinesForProgramsAreFieldsOfJson) {
+  EXPECT_EQ(format_line({Level::kWarning, "net", "said \"no\"\n"}, Format::kJson),
+            R"("level":"WARNING","part":"net","text":"said \"no\"\n")");
+  EXPECT_EQ(format_line({Level::kInfo, "net", "\xff"}, Format::kJson),
+            "\"level\":\"INFO\",\"part\":\"net\",\"text\":\"\xEF\xBF\xBD\"");
+}
+
+TEST(Log, FormatsAreReadByName) {
+  EXPECT_EQ(parse_format("json"), Format::kJson);
+  EXPECT_EQ(parse_format("text"), Format::kText);
+  EXPECT_EQ(parse_format("journald"), Format::kJournald);
+  EXPECT_EQ(parse_format("xml"), std::nullopt);
 }
 
 TEST(Log, ASinkSeesWhatIsAtOrAboveTheLevelAndIsPutBack) {

@@ -110,7 +110,9 @@ TEST_F(Site, RevokingByNameTakesAllOfThatName) {
   const auto revoked = site_.revoke("anna", now_);
   ASSERT_TRUE(revoked);
   EXPECT_EQ(revoked->size(), 2U);
-  for (const Issued& one : *site_.list()) {
+  const auto listed = site_.list();
+  ASSERT_TRUE(listed);
+  for (const Issued& one : *listed) {
     EXPECT_EQ(one.revoked, one.facts.name == "anna") << one.facts.name;
   }
   const auto list = RevocationList::read(folder_ / kRevocationsName);
@@ -150,7 +152,7 @@ TEST_F(Site, TwoProgramsDoNotChangeItAtOnce) {
 }
 
 TEST_F(Site, AKeyOfAnotherCaIsNoticed) {
-  const fs::path other = testing::fresh_folder("pki") / "site";
+  const fs::path other = testing::fresh_folder("pki-other") / "site";
   ASSERT_TRUE(SiteAuthority::init(other, {}, now_));
   fs::copy_file(other / "ca.key", folder_ / "ca.key", fs::copy_options::overwrite_existing);
   EXPECT_EQ(SiteAuthority::open(folder_).error().code, Errc::kCorrupt);

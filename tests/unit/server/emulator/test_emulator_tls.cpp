@@ -10,8 +10,8 @@
 namespace seeker::emulator {
 namespace {
 
-using ::testing::HasSubstr;
 using ::seeker::testing::TestSite;
+using ::testing::HasSubstr;
 
 class EmulatorTls : public ::testing::Test {
  protected:
