@@ -28,7 +28,8 @@ struct WheelCalibration {
 /// The velocity that a base with these errors has when it reports `twist`.
 [[nodiscard]] Twist2 corrected(const Twist2& twist, const WheelCalibration& calibration);
 
-/// The velocity that a base with these errors must be given as a command, and reports, to move at `twist`: the inverse of the above.
+/// The velocity that a base with these errors must be given as a command, and reports, to move at `twist`: the inverse
+/// of the above.
 [[nodiscard]] Twist2 reported(const Twist2& twist, const WheelCalibration& calibration);
 
 /// The motion that a base with these errors has made when it reports `increment` (the new pose seen from the old one):

@@ -49,7 +49,7 @@ api::Role RobotClient::role() const { return impl_->role(); }
 std::string RobotClient::client_name() const { return impl_->client_name(); }
 LinkState RobotClient::link() const { return impl_->link(); }
 void RobotClient::close() { impl_->shut_down(); }
-void RobotClient::sync_time(api::Reply<TimeSync> reply) { impl_->sync_time(std::move(reply)); }
+void RobotClient::sync_time(const api::Reply<TimeSync>& reply) { impl_->sync_time(reply); }
 
 void RobotClient::get_info(api::Reply<api::RobotInfo> reply) {
   pb::Request request;
@@ -112,7 +112,7 @@ void RobotClient::command_lease(const api::LeaseCommand& command, api::Reply<api
 }
 
 void RobotClient::drive(const api::DriveCommand& command, api::Reply<void> reply) {
-  impl_->drive(command, std::move(reply));
+  impl_->drive(command, reply);
 }
 
 void RobotClient::get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) {

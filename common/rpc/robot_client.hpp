@@ -87,7 +87,7 @@ class RobotClient final : public api::RobotApi {
   /// Ends the session on purpose and all open calls with kCancelled. Further calls have no effect.
   void close();
   /// Compares the clocks once; replies with the best estimate so far.
-  void sync_time(api::Reply<TimeSync> reply);
+  void sync_time(const api::Reply<TimeSync>& reply);
 
   void get_info(api::Reply<api::RobotInfo> reply) override;
   void get_status(api::Reply<api::RobotStatus> reply) override;
