@@ -23,4 +23,12 @@ std::string_view to_string(Errc code) {
   return "internal";
 }
 
+CauseAndRemedy cause_and_remedy(const Error& error) {
+  constexpr std::string_view kApart = "; ";
+  const std::size_t at = error.message.rfind(kApart);
+  return at == std::string::npos
+             ? CauseAndRemedy{error.message, ""}
+             : CauseAndRemedy{error.message.substr(0, at), error.message.substr(at + kApart.size())};
+}
+
 }  // namespace seeker

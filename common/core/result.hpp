@@ -42,6 +42,15 @@ struct Error {
   friend bool operator==(const Error&, const Error&) = default;
 };
 
+/// A failure in two sentences, as faults show it.
+struct CauseAndRemedy {
+  std::string cause;
+  std::string remedy;  ///< empty: the message names none
+};
+
+/// The sentence of an error, apart by its last semicolon.
+[[nodiscard]] CauseAndRemedy cause_and_remedy(const Error& error);
+
 template <class T>
 using Result = tl::expected<T, Error>;
 

@@ -191,9 +191,8 @@ void Robot::record(std::unique_ptr<DriveRecorder> recorder) {
   recorder_ = std::move(recorder);
   recorder_->set_on_error([this](const Error& error) {
     static_cast<void>(mailbox_.post([this, error] {
-      const std::size_t remedy = error.message.rfind("; ");
-      loop_.diagnostics().raise("recording-failed", "recorder", error.message.substr(0, remedy),
-                                error.message.substr(remedy + 2), api::Severity::kWarning);
+      const auto [cause, remedy] = cause_and_remedy(error);
+      loop_.diagnostics().raise("recording-failed", "recorder", cause, remedy, api::Severity::kWarning);
     }));
   });
   recorder_->follow(loop_.hooks());

@@ -5,11 +5,8 @@
 namespace seeker::drivers {
 
 DeviceFault fault_of(std::string id, const Error& error, bool blocking) {
-  const std::size_t last = error.message.rfind("; ");
-  constexpr std::size_t kSeparator = 2;
-  return last == std::string::npos ? DeviceFault{std::move(id), error.message, "see what the device shows", blocking}
-                                   : DeviceFault{std::move(id), error.message.substr(0, last),
-                                                 error.message.substr(last + kSeparator), blocking};
+  auto [cause, remedy] = cause_and_remedy(error);
+  return {std::move(id), std::move(cause), remedy.empty() ? "see what the device shows" : std::move(remedy), blocking};
 }
 
 std::vector<DeviceFault> faults_of(const Status& state, const std::optional<Error>& warning) {
