@@ -62,4 +62,10 @@ Status validate(const SonarScan& scan) {
   return {};
 }
 
+double range_on_line_m(const Point2& a, const Point2& b, double bearing_rad) {
+  const Point2 along = b - a;
+  const Point2 ray(std::cos(bearing_rad), std::sin(bearing_rad));
+  return (a.x() * along.y() - a.y() * along.x()) / (ray.x() * along.y() - ray.y() * along.x());
+}
+
 }  // namespace seeker

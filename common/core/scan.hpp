@@ -69,4 +69,8 @@ struct SonarScan {
 
 [[nodiscard]] Status validate(const SonarScan& scan);
 
+/// The range at which a beam of direction `bearing_rad` meets the straight line through two returns; not finite or
+/// negative where it does not. All from the origin of the beam.
+[[nodiscard]] double range_on_line_m(const Point2& a, const Point2& b, double bearing_rad);
+
 }  // namespace seeker

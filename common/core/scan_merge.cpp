@@ -82,12 +82,9 @@ void Circle::join(const Return& a, const Return& b) {
   const Return& from = gap_rad > 0.0 ? a : b;
   const std::int64_t first = beam_of(from.bearing_rad);
   const std::int64_t last = beam_of(from.bearing_rad + std::abs(gap_rad));
-  const Point2 along = b.p_base - a.p_base;
   for (std::int64_t beam = first + 1; beam < last; ++beam) {
     const double bearing_rad = scan_.angle_min_rad + static_cast<double>(beam) * scan_.angle_step_rad;
-    const Point2 ray(std::cos(bearing_rad), std::sin(bearing_rad));
-    const double cross = ray.x() * along.y() - ray.y() * along.x();
-    const double range_m = (a.p_base.x() * along.y() - a.p_base.y() * along.x()) / cross;
+    const double range_m = range_on_line_m(a.p_base, b.p_base, bearing_rad);
     if (std::isfinite(range_m) && range_m > 0.0) {
       put(beam, range_m, std::min(a.quality, b.quality));
     }

@@ -98,12 +98,11 @@ void RevolutionCollector::join(const Seen& one, const Seen& other) {
   }
   const double first = std::ceil(right.along_rad / step_rad_ - 0.5);
   const double last = std::floor(left.along_rad / step_rad_ - 0.5);
+  const Point2 right_end(right.range_m, 0.0);
+  const Point2 left_end(left.range_m * std::cos(gap_rad), left.range_m * std::sin(gap_rad));
   for (double beam = first; beam <= last; ++beam) {
     const double from_right_rad = (beam + 0.5) * step_rad_ - right.along_rad;
-    // Where the ray meets the straight line through both returns.
-    const double range_m =
-        right.range_m * left.range_m * std::sin(gap_rad) /
-        (right.range_m * std::sin(from_right_rad) + left.range_m * std::sin(gap_rad - from_right_rad));
+    const double range_m = range_on_line_m(right_end, left_end, from_right_rad);
     cells_[static_cast<std::size_t>(beam)] = {static_cast<float>(range_m), std::min(right.quality, left.quality), 0.0};
   }
 }
