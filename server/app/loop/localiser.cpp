@@ -25,6 +25,17 @@ void Localiser::give_odometry(const drivers::OdometrySample& sample) {
   diagnostics_.note_reading(estimator_->on_odometry(sample), "odometry-refused");
 }
 
+LaserScan Localiser::carried(const LaserScan& scan, const OdometryHistory& history) const {
+  const std::optional<drivers::OdometrySample> then = history.at(scan.stamp);
+  const std::optional<drivers::OdometrySample> given = history.at(last_odometry_given_);
+  LaserScan seen = scan;
+  if (!then || !given) {
+    return seen;
+  }
+  seen.base_T_laser = inverse(given->odom_T_base) * then->odom_T_base * scan.base_T_laser;
+  return seen;
+}
+
 /// In the order of the stamps: a sweep arrives later than it was taken.
 void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbours, RobotTime now) {
   const drivers::OdometrySample* odometry = sensing.new_odometry();
@@ -47,7 +58,10 @@ void Localiser::give_readings(const Sensing& sensing, const Neighbours& neighbou
       without_movers_ = nav::without_movers(*scan, Pose2{}, others);
     }
     if (sensing.connections().pose.scan) {
-      diagnostics_.note_reading(estimator_->on_scan(without_movers_ ? *without_movers_ : *scan), "scan-refused");
+      const LaserScan& building = without_movers_ ? *without_movers_ : *scan;
+      const bool overtaken = building.stamp < last_odometry_given_;
+      diagnostics_.note_reading(estimator_->on_scan(overtaken ? carried(building, sensing.history()) : building),
+                                "scan-refused");
     }
   }
   if (late) {

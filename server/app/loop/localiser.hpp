@@ -62,6 +62,9 @@ class Localiser {
 
  private:
   void give_readings(const Sensing& sensing, const Neighbours& neighbours, RobotTime now);
+  /// A scan that is older than the last odometry that the estimator has got, as a scanner on a slow line delivers it,
+  /// seen from where that was measured: estimators take scans as made there.
+  [[nodiscard]] LaserScan carried(const LaserScan& scan, const OdometryHistory& history) const;
   void give_odometry(const drivers::OdometrySample& sample);
   /// The base has moved, nobody knows how far: the robot is looked for about where its driver supposes it to be.
   void look_where_it_stood(const Pose2& odom_T_base, RobotTime now);

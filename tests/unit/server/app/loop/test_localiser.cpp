@@ -54,6 +54,20 @@ TEST_F(LocaliserTest, ASweepThatArrivesLateComesBetweenTheOdometryBeforeAndAfter
   EXPECT_EQ(estimator->scans.size(), 1U);
 }
 
+TEST_F(LocaliserTest, ASweepThatOdometryHasOvertakenIsSeenFromThatOdometry) {
+  for (const double x_m : {0.0, 0.1, 0.2, 0.3}) {
+    base->next = testing::odometry_at(clock->time, Pose2{x_m, 0.0, 0.0});
+    EXPECT_FALSE(tick());
+  }
+  // Made halfway between the second and the third; the newest has come since.
+  const RobotTime sweep = clock->time - milliseconds(250);
+  lidar->next = testing::sweep_at(sweep, 3.0F);
+  EXPECT_FALSE(tick());
+  ASSERT_EQ(estimator->odometry.size(), 4U) << "no time runs backwards";
+  ASSERT_EQ(estimator->scans.size(), 1U);
+  EXPECT_NEAR(estimator->scans[0].base_T_laser.x_m, -0.15, 1e-9);
+}
+
 TEST_F(LocaliserTest, ARefusedReadingIsAWarningAndTheEstimateGoesOn) {
   estimator->odometry_ok = fail(Errc::kInvalidArgument, "time runs backwards");
   base->next = testing::odometry_at(clock->time, {});
