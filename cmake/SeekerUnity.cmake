@@ -25,7 +25,7 @@ set(SEEKER_ALONE
     server/search/fuzzy_planner.cpp server/search/target_visit.cpp
     server/sim/image_chain.cpp server/sim/omni_columns.cpp server/sim/omni_renderer.cpp server/sim/rearrange.cpp
     server/sim/stereo_renderer.cpp server/sim/tank_renderer.cpp
-    server/slam/drive_calibration.cpp server/slam/global_matcher.cpp server/slam/likelihood_pyramid.cpp server/slam/pairwise_consistency.cpp
+    server/calibration/drive_calibration.cpp server/slam/global_matcher.cpp server/slam/likelihood_pyramid.cpp server/slam/pairwise_consistency.cpp
     server/slam/reference_cloud.cpp
     server/store/map_file.cpp server/store/schema.cpp server/store/sealed_file.cpp
     server/vision/bbf_tree.cpp server/vision/place_index.cpp server/vision/stereo_check.cpp

@@ -9,19 +9,19 @@ namespace seeker::lab {
 namespace {
 
 struct LegsOfLog {
-  std::vector<slam::DriveLeg> legs;
+  std::vector<calibration::DriveLeg> legs;
   std::uint64_t unmatched = 0;
   drivers::ReplaySummary log;
 };
 
 Result<LegsOfLog> legs_of(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
-                          slam::PoseTracker& tracker, const slam::DriveLegParams& params,
-                          const slam::DriveCalibration& predicted) {
+                          slam::PoseTracker& tracker, const calibration::DriveLegParams& params,
+                          const calibration::DriveCalibration& predicted) {
   const Result<std::shared_ptr<drivers::ReplaySource>> source = drivers::ReplaySource::open(log, geometry);
   if (!source) {
     return tl::unexpected<Error>(source.error());
   }
-  slam::DriveLegs legs(tracker, params, predicted);
+  calibration::DriveLegs legs(tracker, params, predicted);
   while ((*source)->advance_one()) {
     if (const std::optional<drivers::OdometrySample> odometry = (*source)->take_odometry()) {
       legs.add(odometry->odom_T_base, odometry->stamp);
@@ -34,8 +34,9 @@ Result<LegsOfLog> legs_of(const std::filesystem::path& log, const drivers::Repla
 }
 
 /// Whether two calibrations are the same within a share of the standard deviations.
-bool settled(const slam::DriveCalibration& before, const slam::DriveCalibrationResult& now, double sigmas) {
-  using Fit = slam::DriveCalibrationResult;
+bool settled(const calibration::DriveCalibration& before, const calibration::DriveCalibrationResult& now,
+             double sigmas) {
+  using Fit = calibration::DriveCalibrationResult;
   const WheelCalibration& old = before.wheels;
   const WheelCalibration& wheels = now.calibration.wheels;
   const Eigen::Vector3d moved = offset_of(now.calibration.base_T_laser, before.base_T_laser);
@@ -52,10 +53,10 @@ bool settled(const slam::DriveCalibration& before, const slam::DriveCalibrationR
 }  // namespace
 
 Result<CalibratedDrive> calibrate_drive(const std::filesystem::path& log, const drivers::ReplayParams& geometry,
-                                        const MakeTracker& make_tracker, const slam::DriveCalibration& start,
-                                        slam::CalibrationSubject subject, const CalibrateDriveParams& params) {
+                                        const MakeTracker& make_tracker, const calibration::DriveCalibration& start,
+                                        calibration::CalibrationSubject subject, const CalibrateDriveParams& params) {
   CalibratedDrive drive;
-  slam::DriveCalibration predicted = start;
+  calibration::DriveCalibration predicted = start;
   bool is_settled = false;
   while (drive.passes < params.max_passes && !is_settled) {
     const std::unique_ptr<slam::PoseTracker> tracker = make_tracker();
@@ -63,7 +64,8 @@ Result<CalibratedDrive> calibrate_drive(const std::filesystem::path& log, const 
     if (!legs) {
       return tl::unexpected<Error>(legs.error());
     }
-    const Result<slam::DriveCalibrationResult> fit = slam::calibrate(legs->legs, start, subject, params.fit);
+    const Result<calibration::DriveCalibrationResult> fit =
+        calibration::calibrate(legs->legs, start, subject, params.fit);
     if (!fit) {
       return fail_with_context(log.string(), fit.error());
     }

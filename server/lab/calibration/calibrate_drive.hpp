@@ -8,15 +8,15 @@
 #include <memory>
 
 #include "common/core/result.hpp"
+#include "server/calibration/drive_calibration.hpp"
 #include "server/drivers/replay/replay.hpp"
-#include "server/slam/drive_calibration.hpp"
 #include "server/slam/pose_tracker.hpp"
 
 namespace seeker::lab {
 
 struct CalibrateDriveParams {
-  slam::DriveLegParams legs;
-  slam::DriveCalibrationParams fit;
+  calibration::DriveLegParams legs;
+  calibration::DriveCalibrationParams fit;
   /// The log is read again with what was found until it changes by less than this share of its standard deviations.
   double settled_sigmas = 0.5;
   int max_passes = 5;
@@ -27,15 +27,18 @@ using MakeTracker = std::function<std::unique_ptr<slam::PoseTracker>()>;
 
 /// A calibration and the log that it is from.
 struct CalibratedDrive {
-  slam::DriveCalibrationResult fit;
+  calibration::DriveCalibrationResult fit;
   std::uint64_t unmatched = 0;  ///< legs left out because the estimator was lost
   int passes = 0;               ///< over the log
   drivers::ReplaySummary log;
 };
 
-/// Reads the drive and calibrates from `start`. Errors of the log, and of slam::calibrate().
-[[nodiscard]] Result<CalibratedDrive> calibrate_drive(
-    const std::filesystem::path& log, const drivers::ReplayParams& geometry, const MakeTracker& make_tracker,
-    const slam::DriveCalibration& start, slam::CalibrationSubject subject, const CalibrateDriveParams& params = {});
+/// Reads the drive and calibrates from `start`. Errors of the log, and of calibration::calibrate().
+[[nodiscard]] Result<CalibratedDrive> calibrate_drive(const std::filesystem::path& log,
+                                                      const drivers::ReplayParams& geometry,
+                                                      const MakeTracker& make_tracker,
+                                                      const calibration::DriveCalibration& start,
+                                                      calibration::CalibrationSubject subject,
+                                                      const CalibrateDriveParams& params = {});
 
 }  // namespace seeker::lab

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/core/result.hpp"
-#include "server/slam/drive_calibration.hpp"
+#include "server/calibration/drive_calibration.hpp"
 
 namespace seeker::lab {
 
@@ -25,7 +25,7 @@ struct CalibrationOptions {
 /// Calibrates from the robot file's values, prints what was found to `out` and writes the section. Errors of the files,
 /// and kNotReady where the drive does not show what is asked for; kInvalidArgument for an estimator
 /// without scan matching.
-[[nodiscard]] Status run_calibration(const CalibrationOptions& options, slam::CalibrationSubject subject,
+[[nodiscard]] Status run_calibration(const CalibrationOptions& options, calibration::CalibrationSubject subject,
                                      std::ostream& out);
 
 }  // namespace seeker::lab

@@ -9,7 +9,7 @@
 namespace seeker::lab {
 namespace {
 
-using Fit = slam::DriveCalibrationResult;
+using Fit = calibration::DriveCalibrationResult;
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
@@ -77,12 +77,12 @@ void describe_evidence(config::Fields& f, const CalibratedDrive& drive) {
 }  // namespace
 
 std::string calibration_yaml(const std::filesystem::path& log, const CalibratedDrive& drive,
-                             slam::CalibrationSubject subject) {
+                             calibration::CalibrationSubject subject) {
   const Fit& fit = drive.fit;
   const std::string comment =
       formatted("# from %zu legs of ", fit.legs) + log.filename().string() +
       formatted(", %.0f m straight and %.0f deg of rotation\n", fit.straights_m, rad_to_deg(fit.rotations_rad));
-  if (subject == slam::CalibrationSubject::kWheels) {
+  if (subject == calibration::CalibrationSubject::kWheels) {
     const WheelCalibration& wheels = fit.calibration.wheels;
     return comment +
            formatted("odometry_calibration:\n  track_m: %.6g\n  left_scale: %.6f\n", wheels.track_m,
@@ -95,9 +95,9 @@ std::string calibration_yaml(const std::filesystem::path& log, const CalibratedD
 }
 
 std::string calibration_text(const std::filesystem::path& log, const CalibratedDrive& drive,
-                             slam::CalibrationSubject subject) {
+                             calibration::CalibrationSubject subject) {
   const Fit& fit = drive.fit;
-  const bool wheels = subject == slam::CalibrationSubject::kWheels;
+  const bool wheels = subject == calibration::CalibrationSubject::kWheels;
   return formatted("%zu legs, %.1f m straight, %.0f deg of rotation; ", fit.legs, fit.straights_m,
                    rad_to_deg(fit.rotations_rad)) +
          formatted("%zu outliers, %llu legs left out, read %d times\n", fit.outliers,
@@ -111,11 +111,11 @@ std::string calibration_text(const std::filesystem::path& log, const CalibratedD
 }
 
 std::string calibration_json(const std::filesystem::path& log, const CalibratedDrive& drive,
-                             slam::CalibrationSubject subject) {
+                             calibration::CalibrationSubject subject) {
   return described_lines([&](config::Fields& f) {
     std::string name = log.filename().string();
     f.field("log", name);
-    if (subject == slam::CalibrationSubject::kWheels) {
+    if (subject == calibration::CalibrationSubject::kWheels) {
       describe_wheels(f, drive.fit);
     } else {
       describe_mount(f, drive.fit);

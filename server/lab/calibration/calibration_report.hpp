@@ -11,11 +11,11 @@ namespace seeker::lab {
 
 /// The section of a robot file that states what was found, after a comment that says from where.
 [[nodiscard]] std::string calibration_yaml(const std::filesystem::path& log, const CalibratedDrive& drive,
-                                           slam::CalibrationSubject subject);
+                                           calibration::CalibrationSubject subject);
 /// Figures for people, and the section.
 [[nodiscard]] std::string calibration_text(const std::filesystem::path& log, const CalibratedDrive& drive,
-                                           slam::CalibrationSubject subject);
+                                           calibration::CalibrationSubject subject);
 [[nodiscard]] std::string calibration_json(const std::filesystem::path& log, const CalibratedDrive& drive,
-                                           slam::CalibrationSubject subject);
+                                           calibration::CalibrationSubject subject);
 
 }  // namespace seeker::lab

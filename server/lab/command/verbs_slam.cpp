@@ -37,7 +37,7 @@ std::filesystem::path found_config(const std::filesystem::path& named) {
 }
 
 /// Both calibrations of a recorded drive.
-Verb add_calibration(CLI::App& verb, slam::CalibrationSubject subject) {
+Verb add_calibration(CLI::App& verb, calibration::CalibrationSubject subject) {
   auto o = std::make_shared<CalibrationOptions>();
   verb.add_option("log", o->log, "Log of a drive with straight legs and turns, e.g. of seekerd --record")->required();
   verb.add_option("--out", o->out, "YAML file for the section of the robot file (default: none is written)");
@@ -74,12 +74,12 @@ Verb add_slam(CLI::App& app) {
 Verb add_odometry_calibrate(CLI::App& app) {
   return add_calibration(
       *app.add_subcommand("odometry-calibrate", "Scales of the wheels and their track, from a recorded drive"),
-      slam::CalibrationSubject::kWheels);
+      calibration::CalibrationSubject::kWheels);
 }
 
 Verb add_extrinsics(CLI::App& app) {
   return add_calibration(*app.add_subcommand("extrinsics", "Pose of the laser on the base, from a recorded drive"),
-                         slam::CalibrationSubject::kMount);
+                         calibration::CalibrationSubject::kMount);
 }
 
 Verb add_merge(CLI::App& app) {

@@ -8,7 +8,7 @@
 #include "server/lab/experiments/described_json.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/slam/plot_trajectories.hpp"
-#include "server/lab/slam/slam_command.hpp"
+#include "server/lab/slam/robot_of_log.hpp"
 #include "server/lab/slam/slam_report.hpp"
 
 namespace seeker::lab {
@@ -144,26 +144,22 @@ Result<LineStatistics> measure_lines(const std::filesystem::path& log, const dri
 }
 
 Status run_lines(const LinesOptions& o, std::ostream& out) {
-  const Result<std::filesystem::path> robot_file = find_robot_file(o.robot, o.config, o.log);
-  if (!robot_file) {
-    return tl::unexpected<Error>(robot_file.error());
-  }
   std::vector<std::string> overrides = o.overrides;
   if (!o.extractor.empty()) {
     overrides.push_back("lines.extractor=" + o.extractor);
   }
-  const Result<app::RobotOptions> options = app::load_robot_options(*robot_file, overrides);
-  if (!options) {
-    return tl::unexpected<Error>(options.error());
+  const Result<RobotOfLog> robot = robot_of_log(o.robot, o.config, o.log, overrides);
+  if (!robot) {
+    return tl::unexpected<Error>(robot.error());
   }
   if (o.scan) {
-    const Status drawn = draw_one(o, options->replay.params, options->lines);
+    const Status drawn = draw_one(o, robot->options.replay.params, robot->options.lines);
     if (drawn) {
       out << (o.json ? to_json(DrawnScan{o.out.string()}) : "wrote " + o.out.string() + "\n");
     }
     return drawn;
   }
-  const Result<LineStatistics> statistics = measure_lines(o.log, options->replay.params, options->lines);
+  const Result<LineStatistics> statistics = measure_lines(o.log, robot->options.replay.params, robot->options.lines);
   if (!statistics) {
     return tl::unexpected<Error>(statistics.error());
   }

@@ -10,7 +10,7 @@
 #include "common/image/png.hpp"
 #include "server/app/composition/robot_options.hpp"
 #include "server/fleet/joint_map.hpp"
-#include "server/lab/slam/slam_command.hpp"
+#include "server/lab/slam/robot_of_log.hpp"
 #include "server/lab/slam/slam_estimators.hpp"
 #include "server/store/map_file.hpp"
 
@@ -37,22 +37,19 @@ SlamProgress progress_line(const MergeOptions& o, const std::string& name) {
 }
 
 Result<SlamRun> run_log(const MergeOptions& o, const std::filesystem::path& log, const LogSpan& span) {
-  const Result<std::filesystem::path> robot_file = find_robot_file(o.robot, o.config, log);
-  if (!robot_file) {
-    return tl::unexpected<Error>(robot_file.error());
+  const Result<RobotOfLog> robot = robot_of_log(o.robot, o.config, log, o.overrides);
+  if (!robot) {
+    return tl::unexpected<Error>(robot.error());
   }
-  const Result<app::RobotOptions> options = app::load_robot_options(*robot_file, o.overrides);
-  if (!options) {
-    return tl::unexpected<Error>(options.error());
-  }
-  const auto tracker = make_tracker(name_of(options->estimator), *options);
+  const auto tracker = make_tracker(name_of(robot->options.estimator), robot->options);
   if (!tracker) {
     return tl::unexpected<Error>(tracker.error());
   }
-  Result<SlamRun> run = run_slam(log, options->replay.params, **tracker, progress_line(o, log.filename().string()),
-                                 span, options->loop.odometry_calibration);
+  Result<SlamRun> run =
+      run_slam(log, robot->options.replay.params, **tracker, progress_line(o, log.filename().string()), span,
+               robot->options.loop.odometry_calibration);
   if (run && run->map.nodes.empty()) {
-    return fail(Errc::kInvalidArgument, "the estimator of " + robot_file->string() +
+    return fail(Errc::kInvalidArgument, "the estimator of " + robot->file.string() +
                                             " keeps no map that could be merged; choose line SLAM there");
   }
   return run;

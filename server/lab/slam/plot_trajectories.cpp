@@ -10,7 +10,7 @@
 #include "server/app/composition/robot_options.hpp"
 #include "server/lab/experiments/table.hpp"
 #include "server/lab/scoring/score_reference.hpp"
-#include "server/lab/slam/slam_command.hpp"
+#include "server/lab/slam/robot_of_log.hpp"
 #include "server/lab/slam/slam_run.hpp"
 #include "server/nav/occupancy_map.hpp"
 
@@ -75,17 +75,13 @@ Result<std::optional<Grid<std::uint8_t>>> walls_of(const PlotOptions& o, const T
   if (o.log.empty()) {
     return std::nullopt;
   }
-  const Result<std::filesystem::path> robot_file = find_robot_file(o.robot, o.config, o.log);
-  if (!robot_file) {
-    return tl::unexpected<Error>(robot_file.error());
+  const Result<RobotOfLog> robot = robot_of_log(o.robot, o.config, o.log, o.overrides);
+  if (!robot) {
+    return tl::unexpected<Error>(robot.error());
   }
-  const Result<app::RobotOptions> options = app::load_robot_options(*robot_file, o.overrides);
-  if (!options) {
-    return tl::unexpected<Error>(options.error());
-  }
-  nav::OccupancyMap map(options->occupancy);
+  nav::OccupancyMap map(robot->options.occupancy);
   const Status walked =
-      for_each_scan(o.log, options->replay.params, trajectory,
+      for_each_scan(o.log, robot->options.replay.params, trajectory,
                     [&map](const LaserScan& scan, const Pose2& pose) { (void)map.integrate(scan, pose); });
   if (!walked) {
     return tl::unexpected<Error>(walked.error());

@@ -2,9 +2,7 @@
 
 #include <cstdio>
 
-#include "common/files/config_folder.hpp"
-#include "server/app/composition/robot_options.hpp"
-#include "server/lab/slam/log_geometry.hpp"
+#include "server/lab/slam/robot_of_log.hpp"
 #include "server/lab/slam/slam_estimators.hpp"
 #include "server/lab/slam/slam_report.hpp"
 #include "server/lab/slam/slam_run.hpp"
@@ -23,39 +21,23 @@ SlamProgress progress_line(bool shown) {
 
 }  // namespace
 
-Result<std::filesystem::path> find_robot_file(const std::filesystem::path& robot, const std::filesystem::path& config,
-                                              const std::filesystem::path& log) {
-  if (robot.empty()) {
-    const Result<std::string> name = robot_file_for(log);
-    if (!name) {
-      return tl::unexpected<Error>(name.error());
-    }
-    return config / "robots" / *name;
-  }
-  return files::named_file(robot.string(), config / "robots");
-}
-
 Status run_slam_command(const SlamOptions& o, std::ostream& out) {
-  const Result<std::filesystem::path> robot_file = find_robot_file(o.robot, o.config, o.log);
-  if (!robot_file) {
-    return tl::unexpected<Error>(robot_file.error());
-  }
-  const Result<app::RobotOptions> options = app::load_robot_options(*robot_file, o.overrides);
-  if (!options) {
-    return tl::unexpected<Error>(options.error());
+  const Result<RobotOfLog> robot = robot_of_log(o.robot, o.config, o.log, o.overrides);
+  if (!robot) {
+    return tl::unexpected<Error>(robot.error());
   }
   SlamSource source;
   source.log = o.log;
-  source.robot_file = *robot_file;
-  source.estimator = o.estimator.empty() ? name_of(options->estimator) : o.estimator;
-  source.geometry = options->replay.params;
-  source.occupancy = options->occupancy;
-  const Result<std::unique_ptr<slam::PoseTracker>> tracker = make_tracker(source.estimator, *options);
+  source.robot_file = robot->file;
+  source.estimator = o.estimator.empty() ? name_of(robot->options.estimator) : o.estimator;
+  source.geometry = robot->options.replay.params;
+  source.occupancy = robot->options.occupancy;
+  const Result<std::unique_ptr<slam::PoseTracker>> tracker = make_tracker(source.estimator, robot->options);
   if (!tracker) {
     return tl::unexpected<Error>(tracker.error());
   }
   const Result<SlamRun> run = run_slam(o.log, source.geometry, **tracker, progress_line(o.show_progress), {},
-                                       options->loop.odometry_calibration);
+                                       robot->options.loop.odometry_calibration);
   if (o.show_progress) {
     std::fprintf(stderr, "\n");
   }

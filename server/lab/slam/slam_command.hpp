@@ -25,9 +25,4 @@ struct SlamOptions {
 /// Runs the estimator, saves the results, and prints the figures to `out`. Errors of the files and options.
 [[nodiscard]] Status run_slam_command(const SlamOptions& options, std::ostream& out);
 
-/// The robot file that the options name or that the log requires. Errors of the log.
-[[nodiscard]] Result<std::filesystem::path> find_robot_file(const std::filesystem::path& robot,
-                                                            const std::filesystem::path& config,
-                                                            const std::filesystem::path& log);
-
 }  // namespace seeker::lab

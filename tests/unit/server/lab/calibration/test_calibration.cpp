@@ -18,7 +18,7 @@
 namespace seeker::lab {
 namespace {
 
-using slam::CalibrationSubject;
+using calibration::CalibrationSubject;
 using ::testing::HasSubstr;
 
 class Calibration : public LabFiles {

@@ -1,4 +1,4 @@
-#include "server/slam/drive_calibration.hpp"
+#include "server/calibration/drive_calibration.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include "common/core/angle.hpp"
 #include "server/slam/covariance.hpp"
 
-namespace seeker::slam {
+namespace seeker::calibration {
 namespace {
 
 using Fit = DriveCalibrationResult;
@@ -61,14 +61,14 @@ Jacobian jacobian_of(const DriveLeg& leg, const Vector& at, double track_m) {
 }
 
 /// Inverse covariance of the residual of a leg: of the match, and of the random errors of the odometry.
-Matrix3 weight_of(const DriveLeg& leg, const DriveCalibration& calibration, const OdometryParams& params) {
+Matrix3 weight_of(const DriveLeg& leg, const DriveCalibration& calibration, const slam::OdometryParams& params) {
   UncertainPose from_T_to;
   for (const Pose2& increment : leg.increments) {
     from_T_to = compose(from_T_to, {increment, increment_covariance(increment, params)});
   }
   const UncertainPose seen = compose({inverse(calibration.base_T_laser), Matrix3::Zero()},
                                      compose(from_T_to, {calibration.base_T_laser, Matrix3::Zero()}));
-  return information_of(seen.covariance + leg.from_T_to.covariance);
+  return slam::information_of(seen.covariance + leg.from_T_to.covariance);
 }
 
 struct Rms {
@@ -259,4 +259,4 @@ Result<DriveCalibrationResult> calibrate(const std::vector<DriveLeg>& legs, cons
   return certain ? Result<Fit>(fit) : Result<Fit>(tl::unexpected<Error>(certain.error()));
 }
 
-}  // namespace seeker::slam
+}  // namespace seeker::calibration

@@ -10,7 +10,7 @@
 #include "common/core/wheel_calibration.hpp"
 #include "server/slam/pose_tracker.hpp"
 
-namespace seeker::slam {
+namespace seeker::calibration {
 
 /// What is calibrated of a robot: its wheels, and the place of its laser.
 struct DriveCalibration {
@@ -44,7 +44,7 @@ struct DriveLegParams {
 class DriveLegs {
  public:
   /// `tracker` begins with the first reading and must outlive this.
-  DriveLegs(PoseTracker& tracker, const DriveLegParams& params, const DriveCalibration& predicted);
+  DriveLegs(slam::PoseTracker& tracker, const DriveLegParams& params, const DriveCalibration& predicted);
 
   /// Takes the newest odometry, uncorrected. Stamps rise.
   void add(const Pose2& odom_T_base, RobotTime stamp);
@@ -61,7 +61,7 @@ class DriveLegs {
   [[nodiscard]] bool leg_is_complete() const;
   void end_leg(const PoseEstimate& estimate);
 
-  PoseTracker& tracker_;
+  slam::PoseTracker& tracker_;
   DriveLegParams params_;
   DriveCalibration predicted_;
   std::optional<Pose2> measured_T_base_;
@@ -76,4 +76,4 @@ class DriveLegs {
   std::uint64_t unmatched_ = 0;
 };
 
-}  // namespace seeker::slam
+}  // namespace seeker::calibration

@@ -10,16 +10,16 @@
 #include <Eigen/Core>
 
 #include "common/core/result.hpp"
-#include "server/slam/drive_legs.hpp"
+#include "server/calibration/drive_legs.hpp"
 #include "server/slam/odometry_tracker.hpp"
 
-namespace seeker::slam {
+namespace seeker::calibration {
 
 /// What is asked of a drive. The other parameters are kept near their start, with a prior.
 enum class CalibrationSubject : std::uint8_t { kWheels, kMount };
 
 struct DriveCalibrationParams {
-  OdometryParams odometry;            ///< random errors of the odometry, for the weights
+  slam::OdometryParams odometry;      ///< random errors of the odometry, for the weights
   double wheel_prior_sigma = 0.02;    ///< of each of the three scales where the mount is asked for
   double mount_prior_sigma_m = 0.02;  ///< of the laser's place where the wheels are asked for
   double mount_prior_sigma_rad = 0.03;
@@ -63,4 +63,4 @@ struct DriveCalibrationResult {
                                                        CalibrationSubject subject,
                                                        const DriveCalibrationParams& params = {});
 
-}  // namespace seeker::slam
+}  // namespace seeker::calibration

@@ -1,17 +1,17 @@
-#include "server/slam/drive_legs.hpp"
+#include "server/calibration/drive_legs.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/core/angle.hpp"
 #include "tests/support/matchers.hpp"
 
-namespace seeker::slam {
+namespace seeker::calibration {
 namespace {
 
 const DriveCalibration kRobot{{0.357, 1.02, 0.99, 0.98}, {0.15, -0.05, deg_to_rad(12.0)}};
 
 /// Knows the truth, and keeps what it was told.
-class Oracle final : public PoseTracker {
+class Oracle final : public slam::PoseTracker {
  public:
   Status predict(const Pose2& odom_T_base, RobotTime /*stamp*/) override {
     told = odom_T_base;
@@ -128,4 +128,4 @@ TEST(DriveLegs, DoNotEndAtAScanThatTheTrackerRefuses) {
 }
 
 }  // namespace
-}  // namespace seeker::slam
+}  // namespace seeker::calibration

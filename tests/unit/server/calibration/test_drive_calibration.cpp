@@ -1,4 +1,4 @@
-#include "server/slam/drive_calibration.hpp"
+#include "server/calibration/drive_calibration.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include "common/core/angle.hpp"
 #include "common/core/rng.hpp"
 
-namespace seeker::slam {
+namespace seeker::calibration {
 namespace {
 
 /// Wheels that differ by 3 %, a track that is 2 % off, and a laser ahead of the base, to the right and turned.
@@ -136,4 +136,4 @@ TEST(DriveCalibration, RefusesMotionsThatDoNotBelongTogether) {
 }
 
 }  // namespace
-}  // namespace seeker::slam
+}  // namespace seeker::calibration

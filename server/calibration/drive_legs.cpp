@@ -1,13 +1,13 @@
-#include "server/slam/drive_legs.hpp"
+#include "server/calibration/drive_legs.hpp"
 
 #include <cmath>
 #include <utility>
 
 #include "server/slam/covariance.hpp"
 
-namespace seeker::slam {
+namespace seeker::calibration {
 
-DriveLegs::DriveLegs(PoseTracker& tracker, const DriveLegParams& params, const DriveCalibration& predicted)
+DriveLegs::DriveLegs(slam::PoseTracker& tracker, const DriveLegParams& params, const DriveCalibration& predicted)
     : tracker_(tracker), params_(params), predicted_(predicted) {}
 
 void DriveLegs::add(const Pose2& odom_T_base, RobotTime stamp) {
@@ -61,7 +61,7 @@ void DriveLegs::end_leg(const PoseEstimate& estimate) {
   const Pose2& base_T_laser = predicted_.base_T_laser;
   const Pose2 moved_laser = inverse(first_->map_T_base * base_T_laser) * estimate.map_T_base * base_T_laser;
   legs_.push_back(
-      {std::move(increments_), {moved_laser, with_floor(Matrix3::Zero(), params_.sigma_m, params_.sigma_rad)}});
+      {std::move(increments_), {moved_laser, slam::with_floor(Matrix3::Zero(), params_.sigma_m, params_.sigma_rad)}});
 }
 
-}  // namespace seeker::slam
+}  // namespace seeker::calibration
