@@ -17,6 +17,11 @@ constexpr double kStandingSpeed_m_s = 1e-4;
 /// Shares of the rotation speed that are tried where the whole of it leads to a contact, the largest first.
 constexpr std::array kReducedRotations{0.75, 0.5, 0.25, 0.0};
 
+/// Places of the arc, evenly spread over the time that braking takes, at which the command may end.
+constexpr int kCutPlaces = 4;
+/// Shares of the wanted velocity that are tried, in equal steps down to none.
+constexpr int kSpeedSteps = 10;
+
 /// Distance along +x until a disc of `radius_m` touches p. Nothing: it never does.
 std::optional<double> straight_contact(const Point2& p, double radius_m) {
   if (p.x() <= 0.0 || std::abs(p.y()) >= radius_m) {
@@ -45,6 +50,27 @@ std::optional<double> arc_contact(const Point2& p, double turn_radius_m, double 
   const double cosine =
       (rho * rho + turn_radius_abs_m * turn_radius_abs_m - radius_m * radius_m) / (2.0 * rho * turn_radius_abs_m);
   return turn_radius_abs_m * std::max(0.0, ahead_rad - std::acos(std::clamp(cosine, -1.0, 1.0)));
+}
+
+/// Whether a base that turns at `omega_rad_s` while it brakes from `v_m_s` may go straight on at any time.
+bool may_go_straight_on(double v_m_s, double omega_rad_s, const std::vector<Point2>& points_base,
+                        const ClearanceParams& params) {
+  for (int place = 0; place < kCutPlaces; ++place) {
+    const double braked = static_cast<double>(place) / kCutPlaces;
+    const double v_then_m_s = v_m_s * (1.0 - braked);
+    // The way so far, as the time it takes at the full speed.
+    const double way_s = std::abs(v_m_s) / params.decel_m_s2 * (braked - braked * braked / 2.0);
+    const Pose2 then_T_base = inverse(integrate({v_m_s, omega_rad_s}, way_s));
+    std::vector<Point2> points_then(points_base.size());
+    std::transform(points_base.begin(), points_base.end(), points_then.begin(),
+                   [&](const Point2& p_base) { return then_T_base * p_base; });
+    const double needed_m = std::abs(v_then_m_s) * params.reaction_s +
+                            v_then_m_s * v_then_m_s / (2.0 * params.decel_m_s2) + params.slow_margin_m;
+    if (free_arc_m({v_then_m_s, 0.0}, points_then, params) < std::min(needed_m, params.horizon_m)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -107,6 +133,19 @@ Twist2 limit_rotation_while_rolling(const Twist2& allowed, const Twist2& present
     }
   }
   return {allowed.v_m_s, best * allowed.omega_rad_s};
+}
+
+Twist2 limit_for_sudden_stop(const Twist2& wanted, const Twist2& present, const std::vector<Point2>& points_base,
+                             const ClearanceParams& params) {
+  for (int step = kSpeedSteps; step > 0; --step) {
+    const double share = static_cast<double>(step) / kSpeedSteps;
+    const Twist2 slower{share * wanted.v_m_s, share * wanted.omega_rad_s};
+    if (may_go_straight_on(slower.v_m_s, slower.omega_rad_s, points_base, params) &&
+        may_go_straight_on(slower.v_m_s, present.omega_rad_s, points_base, params)) {
+      return slower;
+    }
+  }
+  return {0.0, wanted.omega_rad_s};
 }
 
 }  // namespace seeker::nav

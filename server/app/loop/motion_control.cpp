@@ -24,6 +24,7 @@ SafetyVerdict MotionControl::verdict_on(const Twist2& wanted) const {
   const SonarScan* sonar = sensing_.sonar_for(sensing_.connections().safety);
   const OdometryHistory& history = sensing_.history();
   return supervise({.wanted = wanted,
+                    .may_be_cut = authority_.drive_velocity(world_.now()).has_value(),
                     .armed = authority_.armed(),
                     .estop = authority_.estop(),
                     .blocking = diagnostics_.faults().blocking(),

@@ -63,7 +63,9 @@ SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params) {
   const Twist2 clamped{std::clamp(input.wanted.v_m_s, -params.max_v_m_s, params.max_v_m_s),
                        std::clamp(input.wanted.omega_rad_s, -params.max_omega_rad_s, params.max_omega_rad_s)};
   const std::vector<Point2> points_base = obstacle_points(input, params);
-  const Twist2 limited = nav::limit_for_clearance(clamped, points_base, params.clearance);
+  const Twist2 free = nav::limit_for_clearance(clamped, points_base, params.clearance);
+  const Twist2 limited =
+      input.may_be_cut ? nav::limit_for_sudden_stop(free, input.velocity, points_base, params.clearance) : free;
   const Twist2 apart = nav::limit_for_movers(limited, input.velocity, input.movers_base, params.clearance);
   const Twist2 allowed = nav::limit_rotation_while_rolling(apart, input.velocity, points_base, params.clearance);
   if (apart != limited) {

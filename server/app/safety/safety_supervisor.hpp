@@ -24,6 +24,7 @@ struct SafetyParams {
 
 struct SafetyInput {
   Twist2 wanted = {};
+  bool may_be_cut = false;  ///< a client's command, which ends at any moment when the link breaks
   bool armed = false;
   bool estop = false;
   const api::Fault* blocking = nullptr;  ///< a fault that forbids motion

@@ -44,6 +44,22 @@ TEST(SafetySupervisor, WallAheadStopsTheRobotButLetsItTurn) {
   EXPECT_EQ(supervise({.wanted = turn, .armed = true, .scan = &scan}, {}).allowed, turn);
 }
 
+TEST(SafetySupervisor, AClientsCommandMayEndInTheMiddleOfTheArcThatPassesTheWall) {
+  // The arc clears a post half a metre ahead; a robot whose command ends rolls straight into it at full speed.
+  LaserScan scan;
+  scan.angle_step_rad = 0.01;
+  scan.range_max_m = 8.0;
+  scan.ranges_m = {0.5F};
+  SafetyInput input{.wanted = {0.4, 1.2}, .armed = true, .scan = &scan};
+  EXPECT_EQ(supervise(input, {}).allowed, input.wanted) << "a mission of the robot's own drives the arc to its end";
+  input.may_be_cut = true;
+  const Twist2 allowed = supervise(input, {}).allowed;
+  EXPECT_GT(allowed.v_m_s, 0.1);
+  // 0.24 m are free: 0.2 s of reaction, braking at 0.3 m/s^2 and 3 cm of margin fit into it at 0.3 m/s.
+  EXPECT_LE(allowed.v_m_s, 0.3);
+  EXPECT_NEAR(allowed.omega_rad_s / allowed.v_m_s, 3.0, 1e-9) << "along the same arc";
+}
+
 TEST(SafetySupervisor, ARobotThatStillRollsDoesNotTurnIntoTheCornerThatItPasses) {
   // A corner that the robot passes with 1 cm to spare, and a follower that has stopped the way but not the turn.
   const Point2 corner(0.1, -0.27);
