@@ -23,18 +23,33 @@ SafetyVerdict MotionControl::verdict_on(const Twist2& wanted) const {
   const LaserScan* scan = sensing_.scan_for(sensing_.connections().safety);
   const SonarScan* sonar = sensing_.sonar_for(sensing_.connections().safety);
   const OdometryHistory& history = sensing_.history();
-  return supervise({.wanted = wanted,
-                    .may_be_cut = authority_.drive_velocity(world_.now()).has_value(),
-                    .armed = authority_.armed(),
-                    .estop = authority_.estop(),
-                    .blocking = diagnostics_.faults().blocking(),
-                    .scan = scan,
-                    .sonar = sonar,
-                    .base_T_scan = scan != nullptr ? history.now_T_then(scan->stamp) : Pose2{},
-                    .base_T_sonar = sonar != nullptr ? history.now_T_then(sonar->stamp) : Pose2{},
-                    .velocity = sensing_.velocity(),
-                    .movers_base = situation_.movers_base()},
-                   params_);
+  // Ahead the laser looks by itself.
+  const bool backwards = wanted.v_m_s < 0.0;
+  return supervise(
+      {.wanted = wanted,
+       .may_be_cut = authority_.drive_velocity(world_.now()).has_value(),
+       .armed = authority_.armed(),
+       .estop = authority_.estop(),
+       .blocking = diagnostics_.faults().blocking(),
+       .scan = scan,
+       .sonar = sonar,
+       .base_T_scan = scan != nullptr ? history.now_T_then(scan->stamp) : Pose2{},
+       .base_T_sonar = sonar != nullptr ? history.now_T_then(sonar->stamp) : Pose2{},
+       .velocity = sensing_.velocity(),
+       .movers_base = situation_.movers_base(),
+       .remembered_base = backwards ? recent_.in_base(sensing_.odom_T_base(), world_.now()) : std::vector<Point2>()},
+      params_);
+}
+
+void MotionControl::look_around() {
+  const drivers::OdometrySample* odometry = sensing_.new_odometry();
+  if (odometry != nullptr && odometry->discontinued) {
+    recent_.forget();
+  }
+  const LaserScan* scan = sensing_.new_scan();
+  if (scan != nullptr && sensing_.motion_known() && sensing_.odometry() != nullptr) {
+    recent_.see(*scan, sensing_.history().at(scan->stamp)->odom_T_base);
+  }
 }
 
 Twist2 MotionControl::commanded(const Twist2& velocity) const {

@@ -14,6 +14,7 @@
 #include "server/app/loop/situation_source.hpp"
 #include "server/app/loop/world_link.hpp"
 #include "server/app/safety/motion_authority.hpp"
+#include "server/app/safety/recent_obstacles.hpp"
 #include "server/app/safety/safety_supervisor.hpp"
 #include "server/drivers/interfaces/drivers.hpp"
 
@@ -28,6 +29,8 @@ class MotionControl {
                 std::shared_ptr<drivers::BaseDriver> base, const Sensing& sensing, const SituationSource& situation,
                 WorldLink& world, Diagnostics& diagnostics);
 
+  /// Takes in what Sensing has read; call it after each read.
+  void look_around();
   /// Powers the motors where that is allowed, and commands what the supervisor allows of `wanted`.
   void act(const Twist2& wanted);
   /// Commands the base to stand and voids the velocity commands that have been sent and not yet carried out.
@@ -66,6 +69,7 @@ class MotionControl {
   WorldLink& world_;
   Diagnostics& diagnostics_;
   MotionAuthority authority_;
+  RecentObstacles recent_;
   std::string safety_reason_;
   bool motors_on_ = false;
 };

@@ -116,6 +116,7 @@ void RobotLoop::tick(WallTime wall_now) {
 
 void RobotLoop::sense() {
   sensing_.read();
+  motion_.look_around();
   // A recording cannot be slowed, and is to give the map that it gives offline.
   const LaserScan* scan = sensing_.new_scan();
   if (hooks_.on_odometry && sensing_.new_measured_odometry() != nullptr) {

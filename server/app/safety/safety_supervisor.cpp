@@ -26,10 +26,11 @@ std::vector<Point2> obstacle_points(const SafetyInput& input, const SafetyParams
   std::vector<Point2> points = input.scan != nullptr ? points_in_base(*input.scan) : std::vector<Point2>();
   std::transform(points.begin(), points.end(), points.begin(),
                  [&](const Point2& p_then) { return input.base_T_scan * p_then; });
+  const std::vector<Point2> seen_by_lidar = points;
+  points.insert(points.end(), input.remembered_base.begin(), input.remembered_base.end());
   if (input.sonar == nullptr) {
     return points;
   }
-  const std::vector<Point2> seen_by_lidar = points;
   for (const SonarReading& reading : input.sonar->readings) {
     const Pose2 base_T_transducer = input.base_T_sonar * reading.base_T_sonar;
     const double range = reading.range_m;

@@ -34,6 +34,7 @@ struct SafetyInput {
   Pose2 base_T_sonar = {};  ///< and the echoes
   Twist2 velocity = {};     ///< of the robot now
   std::vector<nav::Mover> movers_base = {};  ///< other robots, frame `base`
+  std::vector<Point2> remembered_base = {};  ///< obstacles where no sensor looks now, frame `base`; see RecentObstacles
 };
 
 struct SafetyVerdict {
@@ -41,7 +42,7 @@ struct SafetyVerdict {
   std::string reason;  ///< why less than wanted is allowed; empty when all is
 };
 
-/// Obstacles around the base now: lidar returns, and echoes that the lidar cannot explain.
+/// Obstacles around the base now: lidar returns, echoes that the lidar cannot explain, and what is remembered.
 [[nodiscard]] std::vector<Point2> obstacle_points(const SafetyInput& input, const SafetyParams& params);
 
 [[nodiscard]] SafetyVerdict supervise(const SafetyInput& input, const SafetyParams& params);

@@ -60,6 +60,14 @@ TEST(SafetySupervisor, AClientsCommandMayEndInTheMiddleOfTheArcThatPassesTheWall
   EXPECT_NEAR(allowed.omega_rad_s / allowed.v_m_s, 3.0, 1e-9) << "along the same arc";
 }
 
+TEST(SafetySupervisor, WhatItRemembersBehindItStopsARobotThatBacksUp) {
+  const LaserScan scan = wall_ahead(6.0);
+  SafetyInput input{.wanted = {-0.3, 0.0}, .armed = true, .scan = &scan};
+  EXPECT_EQ(supervise(input, {}).allowed, input.wanted);
+  input.remembered_base = {{-0.28, 0.05}};
+  EXPECT_DOUBLE_EQ(supervise(input, {}).allowed.v_m_s, 0.0);
+}
+
 TEST(SafetySupervisor, ARobotThatStillRollsDoesNotTurnIntoTheCornerThatItPasses) {
   // A corner that the robot passes with 1 cm to spare, and a follower that has stopped the way but not the turn.
   const Point2 corner(0.1, -0.27);
