@@ -154,6 +154,15 @@ struct LandmarksDeleteVerb {
   std::string name;
   bool yes = false;
 };
+struct LandmarksDownloadVerb {
+  std::string name;
+  std::string file;
+};
+struct LandmarksUploadVerb {
+  std::string file;
+  std::string name;
+  bool replace = false;
+};
 struct FleetOptions {
   std::string main;  ///< HOST[:PORT] of the fleet; empty: the robot's host and the usual port
 };
@@ -223,14 +232,14 @@ struct CompletionVerb {
 };
 struct VersionVerb {};
 
-using Verb =
-    std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb, RecogniseVerb,
-                 DriveVerb, LeaseVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb, MapExportVerb, MapSaveVerb,
-                 MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb, MapDownloadVerb, MapUploadVerb,
-                 RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb, LandmarksPruneVerb, LandmarksRevertVerb,
-                 LandmarksDeleteVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
-                 TopologyVerb, DetectionsVerb, LinesVerb, CameraGrabVerb, ComponentsVerb, PkiInitVerb, PkiIssueVerb,
-                 PkiRevokeVerb, PkiShowVerb, RunVerb, CompletionVerb, VersionVerb>;
+using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb,
+                          RecogniseVerb, DriveVerb, LeaseVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb,
+                          MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb,
+                          MapDownloadVerb, MapUploadVerb, RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb,
+                          LandmarksPruneVerb, LandmarksRevertVerb, LandmarksDeleteVerb, LandmarksDownloadVerb,
+                          LandmarksUploadVerb, FleetStatusVerb, FleetMergeVerb, FleetSplitVerb, FleetMapVerb, GridVerb,
+                          TopologyVerb, DetectionsVerb, LinesVerb, CameraGrabVerb, ComponentsVerb, PkiInitVerb,
+                          PkiIssueVerb, PkiRevokeVerb, PkiShowVerb, RunVerb, CompletionVerb, VersionVerb>;
 
 struct CommandLine {
   GlobalOptions global;

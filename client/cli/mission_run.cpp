@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client/cli/transfer.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/values_json.hpp"
 
@@ -62,9 +63,12 @@ Result<MissionRun> MissionRun::start(const Context& context, const api::MissionR
   }
   run.stream_ = std::move(*stream);
   run.started_ = SteadyClock::now();
+  const Result<api::MissionRequest> sent = send_pictures(context, request);
+  if (!sent) {
+    return tl::unexpected<Error>(sent.error());
+  }
   Result<api::MissionAccepted> accepted = ask<api::MissionAccepted>(
-      context,
-      [&](api::Reply<api::MissionAccepted> reply) { context.robot->start_mission(request, std::move(reply)); });
+      context, [&](api::Reply<api::MissionAccepted> reply) { context.robot->start_mission(*sent, std::move(reply)); });
   if (!accepted) {
     return tl::unexpected<Error>(accepted.error());
   }

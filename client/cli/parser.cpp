@@ -205,9 +205,23 @@ void add_survey(Parse& parse) {
   add_mission_options(*localise, *l);
 }
 
+void add_landmark_files(Parse& parse, CLI::App& landmarks) {
+  auto [download, o] =
+      add_verb<LandmarksDownloadVerb>(parse, landmarks, "download", "Copy a database of the robot to a file here",
+                                      "seeker landmarks download lab lab.seekerlm");
+  download->add_option("name", o->name, "Name of the database")->required();
+  download->add_option("file", o->file, "File to write")->required();
+  auto [upload, u] =
+      add_verb<LandmarksUploadVerb>(parse, landmarks, "upload", "Give the robot a database from a file here",
+                                    "seeker landmarks upload lab.seekerlm --name lab-copy");
+  upload->add_option("file", u->file, "File of a database")->required();
+  upload->add_option("--name", u->name, "Name to keep it under (default: that of the file)");
+  upload->add_flag("--replace", u->replace, "Replace an existing database of that name");
+}
+
 void add_landmarks(Parse& parse) {
   CLI::App* landmarks =
-      parse.app.add_subcommand("landmarks", "Databases of landmarks: look into, check, export, prune, revert");
+      parse.app.add_subcommand("landmarks", "Databases of landmarks: look into, check, copy, export, prune");
   landmarks->require_subcommand(1);
   landmarks->fallthrough();
   landmarks->footer("Example:\n  seeker landmarks info\n  seeker landmarks export lab out/lab.csv");
@@ -237,6 +251,7 @@ void add_landmarks(Parse& parse) {
                                                    "seeker landmarks delete lab --yes");
   remove->add_option("name", d->name, "Name of the database")->required();
   remove->add_flag("--yes", d->yes, "Really: it does not come back");
+  add_landmark_files(parse, *landmarks);
 }
 
 void add_main(CLI::App& verb, FleetOptions& options) {

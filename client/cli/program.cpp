@@ -80,16 +80,16 @@ class Dispatch {
     return with_robot([&] { return list_maps(context_); });
   }
   VerbResult operator()(const MapInspectVerb& verb) {
-    return with_robot([&] { return inspect_map(context_, verb); });
+    return with_robot([&] { return inspect_map(context_, verb); }, verb.verify);
   }
   VerbResult operator()(const MapDeleteVerb& verb) {
     return with_robot([&] { return delete_map(context_, verb); });
   }
   VerbResult operator()(const MapDownloadVerb& verb) {
-    return with_robot([&] { return download_map(context_, verb); });
+    return with_robot([&] { return download_map(context_, verb); }, true);
   }
   VerbResult operator()(const MapUploadVerb& verb) {
-    return with_robot([&] { return upload_map(context_, verb); });
+    return with_robot([&] { return upload_map(context_, verb); }, true);
   }
   VerbResult operator()(const RelocaliseVerb& verb) {
     return with_robot([&] { return relocalise(context_, verb); }, verb.wait);
@@ -108,6 +108,12 @@ class Dispatch {
   }
   VerbResult operator()(const LandmarksDeleteVerb& verb) {
     return with_robot([&] { return delete_landmarks(context_, verb); });
+  }
+  VerbResult operator()(const LandmarksDownloadVerb& verb) {
+    return with_robot([&] { return download_landmarks(context_, verb); }, true);
+  }
+  VerbResult operator()(const LandmarksUploadVerb& verb) {
+    return with_robot([&] { return upload_landmarks(context_, verb); }, true);
   }
   VerbResult operator()(const FleetStatusVerb& verb) const { return fleet(context_, robot_, verb); }
   VerbResult operator()(const FleetMergeVerb& verb) const { return fleet(context_, robot_, verb); }

@@ -48,6 +48,8 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] VerbResult prune_landmarks(const Context& context, const LandmarksPruneVerb& verb);
 [[nodiscard]] VerbResult revert_landmarks(const Context& context, const LandmarksRevertVerb& verb);
 [[nodiscard]] VerbResult delete_landmarks(const Context& context, const LandmarksDeleteVerb& verb);
+[[nodiscard]] VerbResult download_landmarks(const Context& context, const LandmarksDownloadVerb& verb);
+[[nodiscard]] VerbResult upload_landmarks(const Context& context, const LandmarksUploadVerb& verb);
 // The calls to a fleet; `robot` is the address given with --robot.
 [[nodiscard]] Result<api::FleetStatus> fleet_status(const Context& context, const std::string& robot,
                                                     const FleetOptions& options);

@@ -7,6 +7,7 @@
 
 #include "client/cli/export_check.hpp"
 #include "client/cli/show_done.hpp"
+#include "client/cli/transfer.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
@@ -148,6 +149,26 @@ VerbResult delete_landmarks(const Context& context, const LandmarksDeleteVerb& v
       context,
       ask<void>(context, [&](api::Reply<void> reply) { context.robot->delete_landmarks(verb.name, std::move(reply)); }),
       "database '" + verb.name + "' is deleted");
+}
+
+VerbResult download_landmarks(const Context& context, const LandmarksDownloadVerb& verb) {
+  return show_done(context, fetch_file(context, api::FileKind::kLandmarks, verb.name, verb.file), "wrote " + verb.file);
+}
+
+VerbResult upload_landmarks(const Context& context, const LandmarksUploadVerb& verb) {
+  const std::string name = verb.name.empty() ? fs::path(verb.file).stem().string() : verb.name;
+  if (const Status ok = validate_map_name(name); !ok) {
+    return fail(Errc::kInvalidArgument,
+                "'" + name + "' cannot name a database (" + ok.error().message + "); give another one with --name");
+  }
+  bool too_old = false;
+  const Result<api::UploadedFile> taken =
+      send_file(context, verb.file, {api::FileKind::kLandmarks, {}, name, verb.replace, false}, too_old);
+  if (!taken) {
+    return tl::unexpected<Error>(taken.error());
+  }
+  return taken->landmarks ? show(context, *taken->landmarks, "")
+                          : fail(Errc::kInternal, "the robot's answer has no summary of the database");
 }
 
 }  // namespace seeker::cli

@@ -8,6 +8,7 @@
 #include "client/cli/export_files.hpp"
 #include "client/cli/show_done.hpp"
 #include "client/cli/targets.hpp"
+#include "client/cli/transfer.hpp"
 #include "client/cli/values.hpp"
 #include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
@@ -44,8 +45,9 @@ VerbResult show(const Context& context, const Result<api::MapSummary>& map, cons
   return ExitCode::kOk;
 }
 
-Result<api::MapSummary> upload(const Context& context, const std::string& file, const std::string& name, bool replace,
-                               bool check_only) {
+/// By robots of older software, in one message.
+Result<api::MapSummary> upload_at_once(const Context& context, const std::string& file, const std::string& name,
+                                       bool replace, bool check_only) {
   Result<std::vector<std::uint8_t>> bytes = files::read_file(file, api::kMaxMapTransferBytes);
   if (!bytes) {
     return fail_as_usage(bytes.error());
@@ -53,8 +55,22 @@ Result<api::MapSummary> upload(const Context& context, const std::string& file, 
   const api::MapUpload upload{name, std::move(*bytes), replace, check_only};
   Result<api::MapSummary> map = ask<api::MapSummary>(
       context, [&](api::Reply<api::MapSummary> reply) { context.robot->upload_map(upload, std::move(reply)); });
-  // That the file is damaged is said by the robot, which alone can read it; its own disk may fail too.
   return map || map.error().code != Errc::kCorrupt ? std::move(map) : fail_as_usage(map.error());
+}
+
+Result<api::MapSummary> upload(const Context& context, const std::string& file, const std::string& name, bool replace,
+                               bool check_only) {
+  bool too_old = false;
+  const Result<api::UploadedFile> taken =
+      send_file(context, file, {api::FileKind::kMap, {}, name, replace, check_only}, too_old);
+  if (too_old) {
+    return upload_at_once(context, file, name, replace, check_only);
+  }
+  if (!taken) {
+    return tl::unexpected<Error>(taken.error());
+  }
+  return taken->map ? Result<api::MapSummary>(*taken->map)
+                    : fail(Errc::kInternal, "the robot's answer has no summary of the map");
 }
 
 /// "x,y,theta" in metres and degrees.
@@ -186,13 +202,14 @@ VerbResult delete_map(const Context& context, const MapDeleteVerb& verb) {
 }
 
 VerbResult download_map(const Context& context, const MapDownloadVerb& verb) {
-  const auto bytes = ask<std::vector<std::uint8_t>>(context, [&](api::Reply<std::vector<std::uint8_t>> reply) {
-    context.robot->download_map(verb.name, std::move(reply));
-  });
-  if (!bytes) {
-    return tl::unexpected<Error>(bytes.error());
+  Status done = fetch_file(context, api::FileKind::kMap, verb.name, verb.file);
+  if (!done && done.error().code == Errc::kUnsupportedVersion) {  // older software: in one message
+    const auto bytes = ask<std::vector<std::uint8_t>>(context, [&](api::Reply<std::vector<std::uint8_t>> reply) {
+      context.robot->download_map(verb.name, std::move(reply));
+    });
+    done = bytes ? files::write_file(verb.file, *bytes) : Status(tl::unexpected<Error>(bytes.error()));
   }
-  return show_done(context, files::write_file(verb.file, *bytes), "wrote " + verb.file);
+  return show_done(context, done, "wrote " + verb.file);
 }
 
 VerbResult upload_map(const Context& context, const MapUploadVerb& verb) {

@@ -59,9 +59,13 @@ Status validate(const TargetSpec& target) {
                 "target name '" + target.name.substr(0, kMaxName) + "' must be 1 to 32 of a-z, 0-9 and '-'");
   }
   if (target.recogniser == RecogniserKind::kSolid) {
-    if (!target.picture.empty() || target.solid > kSolidKinds.back()) {
+    if (!target.picture.empty() || target.picture_hash || target.solid > kSolidKinds.back()) {
       return fail(Errc::kInvalidArgument,
                   "target '" + target.name + "' is a solid: name which one, and give no picture");
+    }
+  } else if (target.picture_hash) {
+    if (!target.picture.empty()) {
+      return fail(Errc::kInvalidArgument, "target '" + target.name + "' has a picture and the hash of one; give one");
     }
   } else if (Status ok = validate_picture(target); !ok) {
     return ok;
@@ -243,6 +247,14 @@ std::string_view task_name(const MissionTask& task) {
     std::string_view operator()(const RecogniseMission&) const { return "recognise"; }
   };
   return std::visit(Name{}, task);
+}
+
+std::vector<TargetSpec>* targets_of(MissionTask& task) {
+  if (auto* search = std::get_if<SearchMission>(&task)) {
+    return &search->targets;
+  }
+  auto* recognise = std::get_if<RecogniseMission>(&task);
+  return recognise != nullptr ? &recognise->targets : nullptr;
 }
 
 std::string_view to_string(Outcome outcome) {

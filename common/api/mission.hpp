@@ -13,6 +13,7 @@
 
 #include "common/api/link_policy.hpp"
 #include "common/api/perception.hpp"
+#include "common/api/transfer.hpp"
 #include "common/core/explore_decision.hpp"
 #include "common/core/image.hpp"
 #include "common/core/polygon.hpp"
@@ -42,6 +43,8 @@ struct TargetSpec {
   double depth_m = 0.0;  ///< of a solid that shows the picture on its sides; 0: flat. Its position is its centre
   RecogniserKind recogniser = RecogniserKind::kTemplate;
   SolidKind solid = SolidKind::kSphere;  ///< for the recogniser of solids; the others ignore it
+  /// In place of the picture: the hash of one that was uploaded before.
+  std::optional<FileHash> picture_hash = std::nullopt;
 
   friend bool operator==(const TargetSpec&, const TargetSpec&) = default;
 };
@@ -150,6 +153,8 @@ using MissionTask = std::variant<SearchMission, GotoMission, ReturnMission, Expl
                                  LocaliseMission, RecogniseMission>;
 
 [[nodiscard]] std::string_view task_name(const MissionTask& task);
+/// The targets of a task; nullptr where its kind has none.
+[[nodiscard]] std::vector<TargetSpec>* targets_of(MissionTask& task);
 
 struct MissionRequest {
   MissionId id;

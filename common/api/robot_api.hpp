@@ -19,6 +19,7 @@
 #include "common/api/perception.hpp"
 #include "common/api/robot_state.hpp"
 #include "common/api/scan_lines.hpp"
+#include "common/api/transfer.hpp"
 #include "common/core/result.hpp"
 #include "common/core/topology.hpp"
 
@@ -176,6 +177,22 @@ class RobotApi {
   /// present one; kRefused: the robot localises by this database.
   virtual void revert_landmarks(const std::string& name, Reply<LandmarkSummary> reply) = 0;
   virtual void delete_landmarks(const std::string& name, Reply<void> reply) = 0;
+
+  // Files of any size, in pieces. kNotReady: there is no folder to keep them in.
+
+  /// Answers with the number of bytes, from the first one on, that the robot has of a file already; send on from there.
+  /// Harmless when repeated. kTooLarge; kIo: the disk is full.
+  virtual void begin_upload(const FileOffer& offer, Reply<std::uint64_t> reply) = 0;
+  /// Adds bytes of a file that was begun, and answers as begin_upload() does; what the robot has already is left out.
+  /// kNotFound: it was not begun, or was deleted to make room for others; kRefused: bytes before the piece are missing;
+  /// kInvalidArgument: it ends beyond the file; kCorrupt: with it the file has another hash, and was deleted; kIo: the
+  /// disk is full, what was sent before stays.
+  virtual void upload_piece(const UploadPiece& piece, Reply<std::uint64_t> reply) = 0;
+  /// Keeps a file that has arrived under its name, whole or not at all, after the checks of upload_map(), or only
+  /// checks it. Harmless when repeated. kNotFound: it is not here as a whole.
+  virtual void finish_upload(const UploadEnd& end, Reply<UploadedFile> reply) = 0;
+  /// Some bytes of a map or a database. kRefused: the file has another hash than the one named; begin again.
+  virtual void read_file(const FileRead& wish, Reply<FilePiece> reply) = 0;
 
   [[nodiscard]] virtual Result<std::unique_ptr<Subscription>> subscribe(const std::vector<TopicRequest>& topics,
                                                                         UpdateSink sink) = 0;

@@ -2,58 +2,16 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <string>
-#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/files/file_descriptor.hpp"
+
 namespace seeker::files {
 namespace {
-
-tl::unexpected<Error> cannot(const std::string& what, const std::filesystem::path& path, int number,
-                             const std::string& remedy = "") {
-  return fail(Errc::kIo, "cannot " + what + " " + path.string() + ": " + std::strerror(number) + remedy);
-}
-
-tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int number) {
-  return cannot("write", path, number, "; check that the folder exists, is writable and has space");
-}
-
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  ~FileDescriptor() {
-    if (fd_ >= 0) {
-      ::close(fd_);
-    }
-  }
-  [[nodiscard]] int get() const { return fd_; }
-  /// Some file systems report a failed write only here.
-  [[nodiscard]] bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
-
- private:
-  int fd_;
-};
-
-/// Everything, over interrupted and short writes.
-bool write_all(int fd, std::span<const std::uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) {
-      continue;
-    }
-    if (n <= 0) {
-      return false;
-    }
-    bytes = bytes.subspan(static_cast<std::size_t>(n));
-  }
-  return true;
-}
 
 bool write_and_close(FileDescriptor& file, std::span<const std::uint8_t> bytes, bool sync, ReadableBy readers) {
   constexpr mode_t kForAll = 0644;

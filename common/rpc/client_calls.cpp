@@ -61,13 +61,14 @@ void RobotClient::Impl::on_thread(std::function<void()> work, const std::functio
   closed();
 }
 
-void RobotClient::Impl::call(pb::Request request, const wire::ClientSession::Answer& answer) {
+void RobotClient::Impl::call(pb::Request request, const wire::ClientSession::Answer& answer, Duration at_least) {
   const auto shared = std::make_shared<pb::Request>(std::move(request));
-  on_thread([self = shared_from_this(), shared, answer] { self->call_now(std::move(*shared), answer); },
-            [answer] { answer(fail(Errc::kCancelled, "the client was closed")); });
+  on_thread(
+      [self = shared_from_this(), shared, answer, at_least] { self->call_now(std::move(*shared), answer, at_least); },
+      [answer] { answer(fail(Errc::kCancelled, "the client was closed")); });
 }
 
-void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answer answer) {
+void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answer answer, Duration at_least) {
   if (closing_ || !session_ || !session_->open()) {
     answer(closing_ ? fail(Errc::kCancelled, "the client was closed")
                     : fail(Errc::kLinkLost, "there is no connection to the robot now; it is tried again"));
@@ -78,7 +79,7 @@ void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answe
     return;
   }
   const pb::Envelope envelope =
-      session_->call(std::move(request), net::wall_now(), params_.call_timeout, std::move(answer));
+      session_->call(std::move(request), net::wall_now(), std::max(params_.call_timeout, at_least), std::move(answer));
   if (!send(envelope)) {
     end_connection({Errc::kLinkLost, "the robot does not read: too many requests wait to be sent"}, false);
   }

@@ -34,7 +34,9 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   /// Ends the session on purpose and ends the thread. Called on the client's own thread, it does not wait for that.
   void shut_down();
 
-  void call(seeker::v1::Request request, const wire::ClientSession::Answer& answer);
+  /// The answer has `at_least` the time, where that is more than ClientParams::call_timeout.
+  void call(seeker::v1::Request request, const wire::ClientSession::Answer& answer,
+            Duration at_least = Duration::zero());
   void sync_time(const api::Reply<TimeSync>& reply);
   void drive(const api::DriveCommand& command, const api::Reply<void>& reply);
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
@@ -63,7 +65,7 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   void on_thread(std::function<void()> work, const std::function<void()>& closed);
   void sync_now(api::Reply<TimeSync> reply);
   void drive_now(const api::DriveCommand& command, Duration given, const api::Reply<void>& reply);
-  void call_now(seeker::v1::Request request, wire::ClientSession::Answer answer);
+  void call_now(seeker::v1::Request request, wire::ClientSession::Answer answer, Duration at_least = Duration::zero());
   void send_subscription(const std::shared_ptr<ClientStream>& stream);
   void catch_up_segments(const std::shared_ptr<ClientStream>& stream, const seeker::v1::SubscribeResponse& response);
   void catch_up_tiles(const std::shared_ptr<ClientStream>& stream, bool restarted);

@@ -127,6 +127,11 @@ class RobotClient final : public api::RobotApi {
   void revert_landmarks(const std::string& name, api::Reply<api::LandmarkSummary> reply) override;
   void delete_landmarks(const std::string& name, api::Reply<void> reply) override;
   void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override;
+  /// These four wait for an answer for a minute at least.
+  void begin_upload(const api::FileOffer& offer, api::Reply<std::uint64_t> reply) override;
+  void upload_piece(const api::UploadPiece& piece, api::Reply<std::uint64_t> reply) override;
+  void finish_upload(const api::UploadEnd& end, api::Reply<api::UploadedFile> reply) override;
+  void read_file(const api::FileRead& wish, api::Reply<api::FilePiece> reply) override;
   /// Returns at once. Fails (kInvalidArgument) for an empty list, a topic named twice or a negative rate.
   [[nodiscard]] Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                                      api::UpdateSink sink) override;

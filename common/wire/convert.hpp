@@ -110,6 +110,19 @@ void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check);
 void read(const pb::Event& from, api::Event& to, Check& check);
 void read(const pb::DriveCommand& from, api::DriveCommand& to, Check& check);
 
+void write(const api::FileOffer& from, pb::BeginUploadRequest* to);
+void write(const api::UploadPiece& from, pb::UploadPieceRequest* to);
+void write(const api::UploadEnd& from, pb::FinishUploadRequest* to);
+void write(const api::UploadedFile& from, pb::FinishUploadResponse* to);
+void write(const api::FileRead& from, pb::ReadFileRequest* to);
+void write(const api::FilePiece& from, pb::ReadFileResponse* to);
+void read(const pb::BeginUploadRequest& from, api::FileOffer& to, Check& check);
+void read(const pb::UploadPieceRequest& from, api::UploadPiece& to, Check& check);
+void read(const pb::FinishUploadRequest& from, api::UploadEnd& to, Check& check);
+void read(const pb::FinishUploadResponse& from, api::UploadedFile& to, Check& check);
+void read(const pb::ReadFileRequest& from, api::FileRead& to, Check& check);
+void read(const pb::ReadFileResponse& from, api::FilePiece& to, Check& check);
+
 /// Writes an update except its subscription id and drop count, which differ between receivers.
 void write(const api::Update& from, pb::StreamUpdate* to);
 /// Reads an update; its `subscription_id` is not a part of the value.

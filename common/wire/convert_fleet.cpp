@@ -4,27 +4,18 @@
 
 #include "common/wire/convert.hpp"
 #include "common/wire/fleet_fields.hpp"
+#include "common/wire/hash_field.hpp"
 
 namespace seeker::wire {
 namespace {
 
 constexpr int kCovarianceRows = 3;
 
-std::string bytes_of(const api::PieceHash& hash) { return {hash.begin(), hash.end()}; }
-
-void read_hash(const std::string& from, api::PieceHash& to, Check& check) {
-  if (from.size() != to.size()) {
-    check.refuse("sha256", Errc::kInvalidArgument, "does not have 32 bytes");
-    return;
-  }
-  std::copy(from.begin(), from.end(), to.begin());
-}
-
 void read_node(const pb::FleetNode& from, api::FleetNode& to, Check& check) {
   to.node.id = from.id();
   read_required(from.has_map_t_node(), from.map_t_node(), to.node.map_T_node, "map_t_node", check);
   to.node.created = RobotTime(Duration(from.created_ns()));
-  read_hash(from.sha256(), to.hash, check);
+  read_hash("sha256", from.sha256(), to.hash, check);
   to.piece_bytes = from.piece_bytes();
   if (to.piece_bytes == 0 || to.piece_bytes > api::kMaxFleetPieceBytes) {
     check.refuse("piece_bytes", Errc::kTooLarge, "must be from 1 to 8 MiB");
@@ -32,7 +23,7 @@ void read_node(const pb::FleetNode& from, api::FleetNode& to, Check& check) {
 }
 
 void read_picture(const pb::FleetPicture& from, api::FleetPicture& to, Check& check) {
-  read_hash(from.sha256(), to.hash, check);
+  read_hash("sha256", from.sha256(), to.hash, check);
   to.piece_bytes = from.piece_bytes();
   if (to.piece_bytes == 0 || to.piece_bytes > api::kMaxFleetPictureBytes) {
     check.refuse("piece_bytes", Errc::kTooLarge, "must be from 1 to 256 KiB");
@@ -246,7 +237,7 @@ void write(const api::FleetMissing& from, pb::FleetMissing* to) {
 }
 
 void read(const pb::FleetMissing& from, api::FleetMissing& to, Check& check) {
-  read_hash(from.sha256(), to.hash, check);
+  read_hash("sha256", from.sha256(), to.hash, check);
   to.offset = from.offset();
 }
 
@@ -262,7 +253,7 @@ void read(const pb::FleetChunk& from, api::FleetChunk& to, Check& check) {
     return;
   }
   to.robot_id = read_robot_id(from.robot_id(), check);
-  read_hash(from.sha256(), to.hash, check);
+  read_hash("sha256", from.sha256(), to.hash, check);
   to.offset = from.offset();
   to.data.assign(from.data().begin(), from.data().end());
 }

@@ -1,4 +1,5 @@
 #include "common/wire/convert.hpp"
+#include "common/wire/hash_field.hpp"
 
 namespace seeker::wire {
 namespace {
@@ -48,6 +49,8 @@ void write_target(const api::TargetSpec& from, pb::Target* to) {
   to->set_name(clean_text(from.name, kMaxNameBytes));
   if (from.recogniser == api::RecogniserKind::kSolid) {
     to->set_solid(static_cast<pb::Solid>(wire_enum(from.solid)));
+  } else if (from.picture_hash) {
+    to->set_picture_sha256(bytes_of(*from.picture_hash));
   } else {
     write(from.picture, to->mutable_picture());
   }
@@ -68,6 +71,8 @@ void read_target(const pb::Target& from, api::TargetSpec& to, Check& check) {
   check.enumerator("recogniser", from.recogniser(), api::RecogniserKind::kSolid, to.recogniser);
   if (to.recogniser == api::RecogniserKind::kSolid) {
     check.enumerator("solid", from.solid(), kSolidKinds.back(), to.solid);
+  } else if (!from.picture_sha256().empty()) {
+    read_hash("picture_sha256", from.picture_sha256(), to.picture_hash.emplace(), check);
   } else {
     read_required(from.has_picture(), from.picture(), to.picture, "picture", check);
   }

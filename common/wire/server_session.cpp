@@ -53,6 +53,9 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kLoadMap:
     case pb::Request::kDeleteMap:
     case pb::Request::kUploadMap:
+    case pb::Request::kBeginUpload:
+    case pb::Request::kUploadPiece:
+    case pb::Request::kFinishUpload:
     case pb::Request::kPruneLandmarks:
     case pb::Request::kDeleteLandmarks:
     case pb::Request::kRevertLandmarks:
@@ -78,6 +81,7 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kListMaps:
     case pb::Request::kInspectMap:
     case pb::Request::kDownloadMap:
+    case pb::Request::kReadFile:
     case pb::Request::kGetSegments:
     case pb::Request::kListLandmarks:
     case pb::Request::kInspectLandmarks:

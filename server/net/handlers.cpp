@@ -249,7 +249,7 @@ void handle(const SessionPtr& session, const pb::Request& request, RobotTime rec
     default: break;
   }
   if (!handle_map_call(responder, s, request) && !handle_landmark_call(responder, s, request) &&
-      !handle_component_call(responder, s, request)) {
+      !handle_component_call(responder, s, request) && !handle_transfer_call(responder, s, request)) {
     read_call(responder, s, request);
   }
 }

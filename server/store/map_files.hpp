@@ -26,6 +26,8 @@ class MapFiles {
 
   /// Lists all files by name; an absent folder has none. kIo.
   [[nodiscard]] Result<std::vector<MapListing>> list() const;
+  /// kNotFound names the maps that are there; kInvalidArgument: not a valid name.
+  [[nodiscard]] Status check_present(const std::string& name) const { return files_.check_present(name); }
   /// Reads the header of one map. kNotFound names the maps that are there; errors of decode_map_header().
   [[nodiscard]] Result<MapListing> inspect(const std::string& name) const;
   [[nodiscard]] Result<MapFile> read(const std::string& name) const;

@@ -58,6 +58,18 @@ Status check_structure(Database& database) {
   return {};
 }
 
+/// A file from elsewhere may hold what runs when it is read, and never ends: no file of this program does.
+Status check_plain(Database& database) {
+  const Result<std::int64_t> others = database.query_integer(
+      "SELECT count(*) FROM sqlite_master WHERE type NOT IN ('table', 'index') OR sql LIKE 'CREATE VIRTUAL%'");
+  if (!others) {
+    return tl::unexpected(others.error());
+  }
+  return *others == 0 ? Status()
+                      : fail(Errc::kInvalidArgument,
+                             "the file holds views, triggers or virtual tables, which no file of this program does");
+}
+
 Status create_tables(Database& database, const Schema& schema) {
   Result<Transaction> transaction = Transaction::begin(database);
   if (!transaction) {
@@ -96,6 +108,9 @@ Status prepare_schema(Database& database, const Schema& schema) {
   }
   if (*application != schema.application_id) {
     return fail(Errc::kInvalidArgument, "the file is a database of another kind; choose another folder");
+  }
+  if (Status plain = check_plain(database); !plain) {
+    return plain;
   }
   if (*version > schema.version) {
     return fail(Errc::kUnsupportedVersion, "the file has version " + std::to_string(*version) +

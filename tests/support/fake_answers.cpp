@@ -1,5 +1,9 @@
 #include "tests/support/fake_answers.hpp"
 
+#include <algorithm>
+
+#include "common/digest/sha256.hpp"
+
 namespace seeker::testing {
 namespace {
 
@@ -47,6 +51,24 @@ Result<api::LeaseState> fake_lease(api::LeaseState& state, api::LeaseAction acti
   }
   state.requested_by.clear();
   return state;
+}
+
+void fake_end_mission(FakeRobotValues& values) {
+  values.mission->state = api::MissionState::kEnded;
+  values.mission->end = api::MissionEnd{api::Outcome::kOperator, "stopped by an operator", "", {}};
+}
+
+tl::unexpected<Error> fake_no_such_map(const std::string& name) {
+  return fail(Errc::kNotFound, "there is no map '" + name + "'; none has been saved yet");
+}
+
+Result<api::MapSummary> fake_find_map(const FakeRobotValues& values, const std::string& name) {
+  for (const api::MapSummary& map : values.maps) {
+    if (map.name == name) {
+      return map;
+    }
+  }
+  return fake_no_such_map(name);
 }
 
 std::vector<api::LandmarkSummary> fake_list_landmarks(const FakeRobotValues& values) {
@@ -113,6 +135,72 @@ Result<api::MissionAccepted> fake_start_mission(FakeRobotValues& v, const api::M
                                 : request.link_steps;
   }
   return api::MissionAccepted{request.id, v.mission->link_steps};
+}
+
+Result<std::uint64_t> fake_begin_upload(FakeRobotValues& values, const api::FileOffer& offer) {
+  if (values.too_old_for_pieces) {
+    return fail(Errc::kUnsupportedVersion, "this robot does not know the call; it speaks protocol 1.5");
+  }
+  FakeRobotValues::Incoming& incoming = values.incoming[offer.hash];
+  incoming.size_bytes = offer.size_bytes;
+  return incoming.bytes.size();
+}
+
+Result<std::uint64_t> fake_upload_piece(FakeRobotValues& values, const api::UploadPiece& piece) {
+  const auto found = values.incoming.find(piece.hash);
+  if (found == values.incoming.end()) {
+    return fail(Errc::kNotFound, "the file was not begun");
+  }
+  std::vector<std::uint8_t>& bytes = found->second.bytes;
+  if (piece.offset > bytes.size()) {
+    return fail(Errc::kRefused, "bytes before the piece are missing");
+  }
+  values.piece_bytes += piece.bytes.size();
+  const auto known = std::min(bytes.size() - static_cast<std::size_t>(piece.offset), piece.bytes.size());
+  bytes.insert(bytes.end(), piece.bytes.begin() + static_cast<std::ptrdiff_t>(known), piece.bytes.end());
+  return bytes.size();
+}
+
+Result<api::UploadedFile> fake_finish_upload(FakeRobotValues& values, const api::UploadEnd& end) {
+  const auto found = values.incoming.find(end.hash);
+  if (found == values.incoming.end() || found->second.bytes.size() != found->second.size_bytes) {
+    return fail(Errc::kNotFound, "the file is not here as a whole");
+  }
+  api::UploadedFile file;
+  const std::vector<std::uint8_t>& bytes = found->second.bytes;
+  if (end.kind == api::FileKind::kMap) {
+    values.uploads.push_back({end.name, bytes, end.replace, end.check_only});
+    file.map.emplace();
+    file.map->name = end.name;
+    file.map->file_bytes = bytes.size();
+  } else if (end.kind == api::FileKind::kLandmarks) {
+    values.landmark_files[end.name] = bytes;
+    file.landmarks.emplace();
+    file.landmarks->name = end.name;
+    file.landmarks->file_bytes = bytes.size();
+  }
+  return file;
+}
+
+Result<api::FilePiece> fake_read_file(const FakeRobotValues& values, const api::FileRead& wish) {
+  if (values.too_old_for_pieces) {
+    return fail(Errc::kUnsupportedVersion, "this robot does not know the call; it speaks protocol 1.5");
+  }
+  const auto& files = wish.kind == api::FileKind::kMap ? values.map_files : values.landmark_files;
+  const auto found = files.find(wish.name);
+  if (found == files.end()) {
+    return fail(Errc::kNotFound, "there is no file '" + wish.name + "'");
+  }
+  const std::vector<std::uint8_t>& bytes = found->second;
+  api::FilePiece piece{digest::sha256_of(bytes), bytes.size(), {}};
+  if (wish.hash && *wish.hash != piece.hash) {
+    return fail(Errc::kRefused, "'" + wish.name + "' has changed since the download began; begin again");
+  }
+  const std::size_t from = std::min(static_cast<std::size_t>(wish.offset), bytes.size());
+  const std::size_t to = std::min(from + wish.max_bytes, bytes.size());
+  piece.bytes.assign(bytes.begin() + static_cast<std::ptrdiff_t>(from),
+                     bytes.begin() + static_cast<std::ptrdiff_t>(to));
+  return piece;
 }
 
 Status fake_component(FakeRobotValues& values, const std::string& name,

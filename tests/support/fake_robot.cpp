@@ -98,7 +98,7 @@ class FakeRobot final : public api::RobotApi {
         return fail(Errc::kNotFound, "no mission runs");
       }
       if (command == api::MissionCommand::kStop) {
-        end_mission(v);
+        fake_end_mission(v);
       } else {
         v.mission->state =
             command == api::MissionCommand::kPause ? api::MissionState::kPaused : api::MissionState::kRunning;
@@ -117,7 +117,7 @@ class FakeRobot final : public api::RobotApi {
   void stop(api::Reply<void> reply) override {
     change("stop", reply, [](FakeRobotValues& v) -> Status {
       if (v.mission && !v.mission->end) {
-        end_mission(v);
+        fake_end_mission(v);
       }
       v.lease.epoch += v.lease.owner.empty() ? 0 : 1;  // commands that are on their way are void
       return {};
@@ -186,7 +186,7 @@ class FakeRobot final : public api::RobotApi {
       if (!v.segments) {
         return no_map();
       }
-      if (find_map(v, name) && !replace) {
+      if (fake_find_map(v, name) && !replace) {
         return fail(Errc::kRefused, "there is a map '" + name + "' already; take another name, or --replace it");
       }
       std::erase_if(v.maps, [&](const api::MapSummary& map) { return map.name == name; });
@@ -197,18 +197,18 @@ class FakeRobot final : public api::RobotApi {
   }
   void load_map(const std::string& name, api::MapUse use, api::Reply<api::MapSummary> reply) override {
     read<api::MapSummary>("load_map " + name + " " + std::string(api::to_string(use)), reply,
-                          [&](const FakeRobotValues& v) { return find_map(v, name); });
+                          [&](const FakeRobotValues& v) { return fake_find_map(v, name); });
   }
   void list_maps(api::Reply<std::vector<api::MapSummary>> reply) override {
     read<std::vector<api::MapSummary>>("list_maps", reply, [](const FakeRobotValues& v) { return v.maps; });
   }
   void inspect_map(const std::string& name, bool verify, api::Reply<api::MapSummary> reply) override {
     read<api::MapSummary>("inspect_map " + name + (verify ? " verify" : ""), reply,
-                          [&](const FakeRobotValues& v) { return find_map(v, name); });
+                          [&](const FakeRobotValues& v) { return fake_find_map(v, name); });
   }
   void delete_map(const std::string& name, api::Reply<void> reply) override {
     change("delete_map " + name, reply, [&](FakeRobotValues& v) -> Status {
-      const auto known = find_map(v, name);
+      const auto known = fake_find_map(v, name);
       std::erase_if(v.maps, [&](const api::MapSummary& map) { return map.name == name; });
       return known ? Status() : Status(tl::unexpected<Error>(known.error()));
     });
@@ -217,7 +217,7 @@ class FakeRobot final : public api::RobotApi {
     read<std::vector<std::uint8_t>>(
         "download_map " + name, reply, [&](const FakeRobotValues& v) -> Result<std::vector<std::uint8_t>> {
           const auto found = v.map_files.find(name);
-          return found != v.map_files.end() ? found->second : Result<std::vector<std::uint8_t>>(no_such_map(name));
+          return found != v.map_files.end() ? found->second : Result<std::vector<std::uint8_t>>(fake_no_such_map(name));
         });
   }
   void upload_map(const api::MapUpload& upload, api::Reply<api::MapSummary> reply) override {
@@ -234,6 +234,20 @@ class FakeRobot final : public api::RobotApi {
       v.relocalisations.push_back(map_T_base);
       return v.segments ? Status() : Status(no_map());
     });
+  }
+  void begin_upload(const api::FileOffer& offer, api::Reply<std::uint64_t> reply) override {
+    read<std::uint64_t>("begin_upload", reply, [&](FakeRobotValues& v) { return fake_begin_upload(v, offer); });
+  }
+  void upload_piece(const api::UploadPiece& piece, api::Reply<std::uint64_t> reply) override {
+    read<std::uint64_t>("upload_piece", reply, [&](FakeRobotValues& v) { return fake_upload_piece(v, piece); });
+  }
+  void finish_upload(const api::UploadEnd& end, api::Reply<api::UploadedFile> reply) override {
+    read<api::UploadedFile>("finish_upload " + end.name, reply,
+                            [&](FakeRobotValues& v) { return fake_finish_upload(v, end); });
+  }
+  void read_file(const api::FileRead& wish, api::Reply<api::FilePiece> reply) override {
+    read<api::FilePiece>("read_file " + wish.name, reply,
+                         [&](const FakeRobotValues& v) { return fake_read_file(v, wish); });
   }
   void list_landmarks(api::Reply<std::vector<api::LandmarkSummary>> reply) override {
     read<std::vector<api::LandmarkSummary>>("list_landmarks", reply, fake_list_landmarks);
@@ -287,21 +301,6 @@ class FakeRobot final : public api::RobotApi {
   }
   static tl::unexpected<Error> no_map() {
     return fail(Errc::kNotReady, "the estimator keeps no map of segments; start the robot with estimator: line_slam");
-  }
-  static tl::unexpected<Error> no_such_map(const std::string& name) {
-    return fail(Errc::kNotFound, "there is no map '" + name + "'; none has been saved yet");
-  }
-  static Result<api::MapSummary> find_map(const FakeRobotValues& v, const std::string& name) {
-    for (const api::MapSummary& map : v.maps) {
-      if (map.name == name) {
-        return map;
-      }
-    }
-    return no_such_map(name);
-  }
-  static void end_mission(FakeRobotValues& v) {
-    v.mission->state = api::MissionState::kEnded;
-    v.mission->end = api::MissionEnd{api::Outcome::kOperator, "stopped by an operator", "", {}};
   }
 
   std::shared_ptr<FakeRobotHost::Shared> shared_;

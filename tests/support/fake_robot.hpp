@@ -32,6 +32,15 @@ struct FakeRobotValues {
   std::map<std::string, std::vector<api::LandmarkPoint>> landmarks_before;  ///< the version before, where there is one
   std::map<std::string, std::vector<std::uint8_t>> map_files;
   std::vector<api::MapUpload> uploads;
+  std::map<std::string, std::vector<std::uint8_t>> landmark_files;
+  /// A file that arrives in pieces, as far as it is here, and the size that was announced.
+  struct Incoming {
+    std::uint64_t size_bytes = 0;
+    std::vector<std::uint8_t> bytes;
+  };
+  std::map<api::FileHash, Incoming> incoming;
+  std::uint64_t piece_bytes = 0;  ///< of all pieces that have come, those that were here already included
+  bool too_old_for_pieces = false;
   std::vector<std::optional<Pose2>> relocalisations;
   std::map<std::string, api::ImageFrame> cameras;
   api::LeaseState lease;

@@ -137,7 +137,8 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
   }
   Robot robot(
       {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
-      options.loop, std::move(assembly.parts), std::move(*journal), state / "maps", std::move(assembly.landmarks));
+      options.loop, std::move(assembly.parts), std::move(*journal), state / "maps", std::move(assembly.landmarks),
+      state / "incoming");
   robot.loop().hooks().on_pass = [&robot, &service](WallTime now) {
     service.passed(now, [&robot] { return service_state(robot.loop().status()); });
   };

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "common/wire/sha256.hpp"
+#include "common/digest/sha256.hpp"
 
 namespace seeker::app {
 namespace {
@@ -71,7 +71,7 @@ Result<AnnouncedMap::Receipt> AnnouncedMap::receive(const api::FleetChunk& chunk
   }
   const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(begun));
   partial_.erase(chunk.hash);
-  if (wire::sha256_of(*bytes) != chunk.hash) {
+  if (digest::sha256_of(*bytes) != chunk.hash) {
     return fail(Errc::kCorrupt, "the piece does not have the hash that was announced; it was thrown away");
   }
   pieces_[chunk.hash] = bytes;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/core/angle.hpp"
-#include "common/wire/sha256.hpp"
+#include "common/digest/sha256.hpp"
 #include "server/app/fleet/picture_piece.hpp"
 #include "server/fleet/merge_memory.hpp"
 #include "server/store/map_file.hpp"
@@ -44,7 +44,7 @@ void add_pictures(const LineMap& map, const fleet::NodePictures& pictures, Packe
         std::any_of(map.nodes.begin(), map.nodes.end(), [&](const MapNode& node) { return node.id == picture->node; });
     if (placed && packed.manifest.pictures.size() < api::kMaxFleetPictures) {
       std::vector<std::uint8_t> bytes = encode_picture(*picture);
-      const api::PieceHash hash = wire::sha256_of(bytes);
+      const api::PieceHash hash = digest::sha256_of(bytes);
       packed.manifest.pictures.push_back({hash, bytes.size()});
       packed.pieces[hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
     }
@@ -76,7 +76,7 @@ Result<PackedMap> pack_map(const LineMap& map, const std::string& robot_id, cons
     if (bytes->size() > api::kMaxFleetPieceBytes) {
       return fail(Errc::kTooLarge, "a local map has more than 8 MiB");
     }
-    const api::PieceHash hash = wire::sha256_of(*bytes);
+    const api::PieceHash hash = digest::sha256_of(*bytes);
     manifest.nodes.push_back({node, hash, bytes->size()});
     packed.pieces[hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*bytes));
   }

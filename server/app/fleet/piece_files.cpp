@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/digest/sha256.hpp"
 #include "common/files/files.hpp"
 #include "common/log/log.hpp"
-#include "common/wire/sha256.hpp"
 #include "server/app/fleet/fleet_settings.hpp"
 
 namespace seeker::app {
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPieceSuffix = ".piece";
 
-std::string piece_name(const api::PieceHash& hash) { return wire::to_hex(hash) + kPieceSuffix; }
+std::string piece_name(const api::PieceHash& hash) { return digest::to_hex(hash) + kPieceSuffix; }
 
 }  // namespace
 
@@ -26,7 +26,7 @@ Pieces PieceFiles::load(const api::FleetManifest& manifest) const {
     for (const auto& one : named) {
       Result<std::vector<std::uint8_t>> piece =
           files::read_file(folder / piece_name(one.hash), api::kMaxFleetPieceBytes);
-      if (piece && wire::sha256_of(*piece) == one.hash) {
+      if (piece && digest::sha256_of(*piece) == one.hash) {
         pieces[one.hash] = std::make_shared<const std::vector<std::uint8_t>>(std::move(*piece));
       }
     }

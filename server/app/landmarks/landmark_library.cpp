@@ -142,6 +142,38 @@ Result<api::LandmarkSummary> LandmarkLibrary::create(const std::string& name,
   return inspect(name);
 }
 
+Result<api::LandmarkSummary> LandmarkLibrary::take(const std::filesystem::path& file, const std::string& name,
+                                                   bool replace, bool check_only) {
+  if (const Status ok = check_folder(); !ok) {
+    return tl::unexpected<Error>(ok.error());
+  }
+  const Result<store::LandmarkFile> given = store::read_landmark_file(file);
+  const Result<localize::LandmarkDatabase> database =
+      given ? database_of(given->content) : tl::unexpected<Error>(given.error());
+  if (!database) {
+    return fail_with_context("the database that was sent", database.error());
+  }
+  if (check_only) {
+    return summary_of(name, given->header);
+  }
+  const Result<store::LandmarkFile> present = store::read_landmark_file(files_.path_of(name));
+  if (present && present->content == given->content && present->header.origin == given->header.origin) {
+    return summary_of(name, present->header);
+  }
+  Status ok = check_free(name, replace);
+  ok = ok ? files_.make_folder() : ok;
+  ok = ok ? store::write_landmark_file(files_.path_of(name), given->header.origin, given->content) : ok;
+  if (!ok) {
+    return fail_with_context(quoted(name) + " was not kept", ok.error());
+  }
+  return inspect(name);
+}
+
+Result<std::filesystem::path> LandmarkLibrary::path_of(const std::string& name) const {
+  const Status ok = check_present(name);
+  return ok ? Result<std::filesystem::path>(files_.path_of(name)) : tl::unexpected<Error>(ok.error());
+}
+
 Result<LoadedLandmarks> LandmarkLibrary::load(const std::string& name) const {
   if (const Status ok = check_present(name); !ok) {
     return tl::unexpected<Error>(ok.error());

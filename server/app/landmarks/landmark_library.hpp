@@ -39,6 +39,13 @@ class LandmarkLibrary {
   /// Keeps a new database, whole or not at all; `map_name` is the map whose frame it is in.
   [[nodiscard]] Result<api::LandmarkSummary> create(const std::string& name, const localize::LandmarkDatabase& database,
                                                     const std::string& map_name, bool replace);
+  /// Keeps the database in `file`, which came from elsewhere, or only checks it: a new file is written from what was
+  /// read, so that nothing else in it gets here. Changes nothing where the same database is kept already. Errors as of
+  /// load() and create().
+  [[nodiscard]] Result<api::LandmarkSummary> take(const std::filesystem::path& file, const std::string& name,
+                                                  bool replace, bool check_only);
+  /// Where a database is; kNotFound.
+  [[nodiscard]] Result<std::filesystem::path> path_of(const std::string& name) const;
   /// Reads and checks a whole database; nothing is written. kNotFound, kCorrupt, kUnsupportedVersion, kIo.
   [[nodiscard]] Result<LoadedLandmarks> load(const std::string& name) const;
   /// By name; damaged ones with their problem.

@@ -103,4 +103,34 @@ void LandmarkService::remove(const std::string& name, const api::Reply<void>& re
   on_worker<void>(reply, [name](LandmarkLibrary& library) { return library.remove(name); });
 }
 
+void LandmarkService::take(const std::filesystem::path& file, const api::UploadEnd& end,
+                           const api::Reply<api::LandmarkSummary>& reply) {
+  const auto work = [file, end](LandmarkLibrary& library) {
+    return library.take(file, end.name, end.replace, end.check_only);
+  };
+  if (end.check_only) {
+    on_worker<api::LandmarkSummary>(reply, work);
+  } else {
+    change(end.name, reply, work);
+  }
+}
+
+void LandmarkService::read(const api::FileRead& wish, const api::Reply<api::FilePiece>& reply) {
+  on_worker<api::FilePiece>(reply, [this, wish](LandmarkLibrary& library) -> Result<api::FilePiece> {
+    const Result<std::filesystem::path> path = library.path_of(wish.name);
+    if (!path) {
+      return tl::unexpected<Error>(path.error());
+    }
+    Result<store::OutgoingPiece> piece =
+        outgoing_.read(*path, {wish.offset, wish.max_bytes, wish.hash}, [&library, &wish] {
+          const Result<LoadedLandmarks> sound = library.load(wish.name);
+          return sound ? Status() : Status(tl::unexpected<Error>(sound.error()));
+        });
+    if (!piece) {
+      return tl::unexpected<Error>(piece.error());
+    }
+    return api::FilePiece{piece->hash, piece->size_bytes, std::move(piece->bytes)};
+  });
+}
+
 }  // namespace seeker::app

@@ -2,6 +2,7 @@
 /// The robot's databases of landmarks as clients see them. Files are read and written on a worker.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 #include "common/api/robot_api.hpp"
 #include "server/app/landmarks/landmark_library.hpp"
 #include "server/app/runtime/disk_worker.hpp"
+#include "server/store/outgoing_files.hpp"
 
 namespace seeker::app {
 
@@ -24,6 +26,10 @@ class LandmarkService {
   void prune(const std::string& name, int min_views, const api::Reply<api::LandmarkSummary>& reply);
   void revert(const std::string& name, const api::Reply<api::LandmarkSummary>& reply);
   void remove(const std::string& name, const api::Reply<void>& reply);
+  /// Keeps, or only checks, the database in `file`.
+  void take(const std::filesystem::path& file, const api::UploadEnd& end,
+            const api::Reply<api::LandmarkSummary>& reply);
+  void read(const api::FileRead& wish, const api::Reply<api::FilePiece>& reply);
 
  private:
   template <class T>
@@ -34,6 +40,7 @@ class LandmarkService {
   [[nodiscard]] Status may_change(const std::string& name) const;
 
   std::shared_ptr<LandmarkLibrary> library_;
+  store::OutgoingFiles outgoing_;  ///< the worker's
   DiskWorker disk_;
 };
 

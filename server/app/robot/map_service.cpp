@@ -1,7 +1,9 @@
 #include "server/app/robot/map_service.hpp"
 
+#include <span>
 #include <utility>
 
+#include "common/files/files.hpp"
 #include "server/fleet/joint_map.hpp"
 
 namespace seeker::app {
@@ -33,6 +35,27 @@ Result<api::MapSummary> summary_of(const Result<store::MapListing>& listing) {
 Error with_disk_remedy(const Error& error) {
   return error.code == Errc::kIo ? Error{error.code, error.message + "; free space on the disk of the state folder"}
                                  : error;
+}
+
+/// What an upload has brought, under its name; of the present file where that is the same already.
+Result<api::MapSummary> kept_map(const store::MapFiles& files, std::span<const std::uint8_t> bytes,
+                                 const std::string& name, bool replace, bool check_only) {
+  Result<store::MapFile> file = store::decode_map_file(bytes);
+  if (!file) {
+    return tl::unexpected<Error>(file.error());
+  }
+  if (check_only) {
+    return summary_of(
+        store::MapListing{store::decode_map_header(bytes).value_or(store::MapFileHeader()), bytes.size(), ""});
+  }
+  file->origin.name = name;
+  const Result<store::MapFile> present = files.read(name);
+  if (present && *present == *file) {
+    return summary_of(files.inspect(name));
+  }
+  const Result<store::MapListing> written = files.write(*file, replace);
+  return written ? summary_of(*written)
+                 : Result<api::MapSummary>(tl::unexpected<Error>(with_disk_remedy(written.error())));
 }
 
 }  // namespace
@@ -167,28 +190,54 @@ void MapService::download(const std::string& name, const api::Reply<std::vector<
 }
 
 void MapService::upload(const api::MapUpload& upload, const api::Reply<api::MapSummary>& reply) {
-  const bool posted = mailbox_.post([this, upload, reply] {
-    if (const Status free = upload.check_only ? Status() : loop_.maps().not_in_use(upload.name); !free) {
+  const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(upload.bytes);
+  keep(
+      upload.name, upload.replace, upload.check_only, [bytes] { return Result<std::vector<std::uint8_t>>(*bytes); },
+      reply);
+}
+
+void MapService::take(const std::filesystem::path& file, const api::UploadEnd& end,
+                      const api::Reply<api::MapSummary>& reply) {
+  keep(
+      end.name, end.replace, end.check_only,
+      [file] { return files::read_file(file, store::MapFileLimits().file_bytes); }, reply);
+}
+
+void MapService::keep(const std::string& name, bool replace, bool check_only,
+                      const std::function<Result<std::vector<std::uint8_t>>()>& fetch,
+                      const api::Reply<api::MapSummary>& reply) {
+  const bool posted = mailbox_.post([this, name, replace, check_only, fetch, reply] {
+    if (const Status free = check_only ? Status() : loop_.maps().not_in_use(name); !free) {
       reply(tl::unexpected<Error>(free.error()));
       return;
     }
-    on_worker<api::MapSummary>(reply, [upload](const store::MapFiles& files) -> Result<api::MapSummary> {
-      Result<store::MapFile> file = store::decode_map_file(upload.bytes);
-      if (!file) {
-        return tl::unexpected<Error>(file.error());
-      }
-      if (upload.check_only) {
-        store::MapListing listing{store::decode_map_header(upload.bytes).value_or(store::MapFileHeader()),
-                                  upload.bytes.size(), ""};
-        return summary_of(listing);
-      }
-      file->origin.name = upload.name;
-      return summary_of(files.write(*file, upload.replace));
-    });
+    on_worker<api::MapSummary>(
+        reply, [name, replace, check_only, fetch](const store::MapFiles& files) -> Result<api::MapSummary> {
+          const Result<std::vector<std::uint8_t>> bytes = fetch();
+          return bytes ? kept_map(files, *bytes, name, replace, check_only)
+                       : Result<api::MapSummary>(tl::unexpected<Error>(bytes.error()));
+        });
   });
   if (!posted) {
     reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
   }
+}
+
+void MapService::read(const api::FileRead& wish, const api::Reply<api::FilePiece>& reply) {
+  on_worker<api::FilePiece>(reply, [this, wish](const store::MapFiles& files) -> Result<api::FilePiece> {
+    if (const Status there = files.check_present(wish.name); !there) {
+      return tl::unexpected<Error>(there.error());
+    }
+    Result<store::OutgoingPiece> piece =
+        outgoing_.read(files.path_of(wish.name), {wish.offset, wish.max_bytes, wish.hash}, [&] {
+          const Result<store::MapFile> sound = files.read(wish.name);
+          return sound ? Status() : Status(tl::unexpected<Error>(sound.error()));
+        });
+    if (!piece) {
+      return tl::unexpected<Error>(piece.error());
+    }
+    return api::FilePiece{piece->hash, piece->size_bytes, std::move(piece->bytes)};
+  });
 }
 
 }  // namespace seeker::app

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "server/app/robot/map_store.hpp"
 #include "server/app/runtime/mailbox.hpp"
 #include "server/store/map_files.hpp"
+#include "server/store/outgoing_files.hpp"
 
 namespace seeker::app {
 
@@ -32,16 +34,23 @@ class MapService {
   void remove(const std::string& name, const api::Reply<void>& reply);
   void download(const std::string& name, const api::Reply<std::vector<std::uint8_t>>& reply);
   void upload(const api::MapUpload& upload, const api::Reply<api::MapSummary>& reply);
+  /// Keeps, or only checks, the map in `file`, which is read on the worker.
+  void take(const std::filesystem::path& file, const api::UploadEnd& end, const api::Reply<api::MapSummary>& reply);
+  void read(const api::FileRead& wish, const api::Reply<api::FilePiece>& reply);
 
  private:
   template <class T>
   void on_worker(const api::Reply<T>& reply, std::function<Result<T>(const store::MapFiles&)> work);
+  /// Keeps the bytes that `fetch` gives on the worker.
+  void keep(const std::string& name, bool replace, bool check_only,
+            const std::function<Result<std::vector<std::uint8_t>>()>& fetch, const api::Reply<api::MapSummary>& reply);
   void write(const store::MapFiles& files, const LoopMap& from, const std::string& name, bool replace,
              const api::Reply<api::MapSummary>& reply);
 
   MapStore& store_;
   RobotLoop& loop_;
   Mailbox& mailbox_;
+  store::OutgoingFiles outgoing_;  ///< the worker's
 };
 
 }  // namespace seeker::app

@@ -47,7 +47,8 @@ LoopParams of_robot(LoopParams params, const RobotIdentity& identity) {
 }  // namespace
 
 Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal,
-             const std::filesystem::path& maps, std::shared_ptr<LandmarkLibrary> landmarks)
+             const std::filesystem::path& maps, std::shared_ptr<LandmarkLibrary> landmarks,
+             const std::filesystem::path& incoming)
     : identity_(std::move(identity)),
       loop_(of_robot(params, identity_), std::move(parts), hub_),
       mailbox_(kMailboxCapacity),
@@ -55,7 +56,8 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
       map_store_({maps, identity_.robot_id, identity_.software_version}),
       maps_(map_store_, loop_, mailbox_),
       checkpoints_(map_store_, loop_, mailbox_),
-      landmarks_(std::move(landmarks)) {
+      landmarks_(std::move(landmarks)),
+      transfers_(incoming, maps_, landmarks_) {
   loop_.hooks().on_event = [this](const api::Event& event) {
     tell_log(event);
     if (journal_ && !event.mission.empty()) {

@@ -16,6 +16,7 @@
 #include "server/app/robot/drive_recorder.hpp"
 #include "server/app/robot/loop_clock.hpp"
 #include "server/app/robot/map_service.hpp"
+#include "server/app/robot/transfer_service.hpp"
 #include "server/app/runtime/mailbox.hpp"
 #include "server/app/state/journal.hpp"
 
@@ -31,9 +32,11 @@ struct RobotIdentity {
 class Robot final : public api::RobotHost {
  public:
   /// `journal` may be null: nothing is kept over a restart then. An empty `maps` folder: no maps are kept.
+  /// An empty `incoming` folder: nothing is taken that arrives in pieces.
   Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, std::unique_ptr<Journal> journal = nullptr,
         const std::filesystem::path& maps = {},
-        std::shared_ptr<LandmarkLibrary> landmarks = std::make_shared<LandmarkLibrary>(LandmarkStorage{}));
+        std::shared_ptr<LandmarkLibrary> landmarks = std::make_shared<LandmarkLibrary>(LandmarkStorage{}),
+        const std::filesystem::path& incoming = {});
   ~Robot() override;
 
   /// Records what the robot drives on from its start, which comes later. A recording that fails is a warning.
@@ -83,6 +86,7 @@ class Robot final : public api::RobotHost {
   MapService maps_;
   CheckpointService checkpoints_;
   LandmarkService landmarks_;
+  TransferService transfers_;
   std::vector<std::string> link_faults_;  ///< ids of those that are raised; the loop's thread
   std::thread thread_;
   std::atomic<bool> client_seen_{false};

@@ -2,6 +2,7 @@
 /// The robot as one client sees it. A part of robot.cpp.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -45,13 +46,18 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
         [this, component, assignments] { return loop().commands().components().set(component, assignments); });
   }
   void start_mission(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) override {
-    ask(std::move(reply), [this, request]() -> Result<api::MissionAccepted> {
-      Result<api::MissionId> id = loop().commands().start_mission(request, client_);
-      if (!id) {
-        return tl::unexpected<Error>(id.error());
-      }
-      return api::MissionAccepted{std::move(*id), loop().missions().last()->link_steps};
-    });
+    if (!by_hash(request)) {
+      start(request, std::move(reply));
+      return;
+    }
+    robot_.transfers_.add_pictures(
+        request, [self = shared_from_this(), reply = std::move(reply)](Result<api::MissionRequest> whole) {
+          if (whole) {
+            self->start(*whole, reply);
+          } else {
+            reply(tl::unexpected<Error>(whole.error()));
+          }
+        });
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     if (command == api::MissionCommand::kResume) {
@@ -148,6 +154,18 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   void delete_landmarks(const std::string& name, api::Reply<void> reply) override {
     robot_.landmarks_.remove(name, reply);
   }
+  void begin_upload(const api::FileOffer& offer, api::Reply<std::uint64_t> reply) override {
+    robot_.transfers_.begin(offer, reply);
+  }
+  void upload_piece(const api::UploadPiece& piece, api::Reply<std::uint64_t> reply) override {
+    robot_.transfers_.append(piece, reply);
+  }
+  void finish_upload(const api::UploadEnd& end, api::Reply<api::UploadedFile> reply) override {
+    robot_.transfers_.finish(end, reply);
+  }
+  void read_file(const api::FileRead& wish, api::Reply<api::FilePiece> reply) override {
+    robot_.transfers_.read(wish, reply);
+  }
   void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
     ask(std::move(reply), [this, map_T_base] { return loop().commands().relocalise(map_T_base); });
   }
@@ -161,6 +179,28 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
 
  private:
   [[nodiscard]] RobotLoop& loop() { return robot_.loop_; }
+  /// Whether a target's picture is named by its hash.
+  [[nodiscard]] static bool by_hash(const api::MissionRequest& request) {
+    const auto named = [](const api::TargetSpec& target) { return target.picture_hash.has_value(); };
+    return std::visit(
+        [&](const auto& task) {
+          if constexpr (requires { task.targets; }) {
+            return std::any_of(task.targets.begin(), task.targets.end(), named);
+          } else {
+            return false;
+          }
+        },
+        request.task);
+  }
+  void start(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) {
+    ask(std::move(reply), [this, request]() -> Result<api::MissionAccepted> {
+      Result<api::MissionId> id = loop().commands().start_mission(request, client_);
+      if (!id) {
+        return tl::unexpected<Error>(id.error());
+      }
+      return api::MissionAccepted{std::move(*id), loop().missions().last()->link_steps};
+    });
+  }
 
   template <class T, class Work>
   void ask(api::Reply<T> reply, Work work) {

@@ -2,7 +2,7 @@
 
 #include <future>
 
-#include "common/wire/sha256.hpp"
+#include "common/digest/sha256.hpp"
 #include "server/store/map_file.hpp"
 #include "tests/integration/fleet/fleet_world.hpp"
 #include "tests/integration/fleet/toy_robot.hpp"
@@ -117,14 +117,14 @@ TEST(FleetLeader, ThrowsAwayAPieceThatIsNotWhatItsHashSays) {
   EXPECT_EQ(leader.announce(robot.manifest)->missing.front().offset, 0U);
   altered.push_back(0);
   EXPECT_EQ(leader.receive({"r1", hash, 0, altered}).error().code, Errc::kTooLarge);
-  EXPECT_EQ(leader.receive({"r1", wire::sha256_of(altered), 0, altered}).error().code, Errc::kNotFound);
+  EXPECT_EQ(leader.receive({"r1", digest::sha256_of(altered), 0, altered}).error().code, Errc::kNotFound);
 }
 
 TEST(FleetLeader, ARobotThatLiesAboutItsPiecesIsNotMerged) {
   FleetLeader leader(leader_params("fleet_liar"), holds(west()));
   PackedMap liar = packed(east());
   const std::vector<std::uint8_t> noise(100, 7);
-  liar.manifest.nodes.front().hash = wire::sha256_of(noise);
+  liar.manifest.nodes.front().hash = digest::sha256_of(noise);
   liar.manifest.nodes.front().piece_bytes = noise.size();
   liar.pieces[liar.manifest.nodes.front().hash] = std::make_shared<const std::vector<std::uint8_t>>(noise);
   join(leader, liar);

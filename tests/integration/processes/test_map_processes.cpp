@@ -34,6 +34,12 @@ TEST(MapProcesses, SavedMapSurvivesAKillAndTheRobotFindsItsPlaceInIt) {
   Daemon again(kWithMap, folder);
   EXPECT_EQ(seeker(again, {"map", "verify", "demo"}, &output), 0) << output;
   EXPECT_EQ(seeker(again, {"map", "verify", file}, &output), 0) << output;
+  EXPECT_EQ(seeker(again, {"map", "download", "demo", folder / "copy.seekermap"}, &output), 0) << output;
+  EXPECT_EQ(content(folder / "copy.seekermap"), saved);
+  for (int times = 0; times < 2; ++times) {
+    EXPECT_EQ(seeker(again, {"map", "upload", folder / "copy.seekermap"}, &output), 0) << "repeating it: " << output;
+  }
+  EXPECT_EQ(seeker(again, {"map", "upload", folder / "copy.seekermap", "--name", "demo"}, &output), 0) << output;
   ASSERT_EQ(seeker(again, {"map", "load", "demo", "--localise"}, &output), 0) << output;
   // The simulated robot stands at its start again: the origin of the map.
   ASSERT_EQ(seeker(again, {"relocalise", "--at", "0,0,0", "--wait", "--json"}, &output), 0) << output;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <set>
@@ -28,12 +29,31 @@ struct Rules {
   bool stalled = false;
   bool refusing = false;
   std::size_t trickle = 0;
+  std::deque<std::size_t> cuts;  ///< bytes of the client until each of them
+  std::atomic<std::size_t> cuts_left{0};
+  std::atomic<std::size_t> from_clients{0};
+
+  /// How many of so many bytes pass before the connection breaks; all of them: it does not.
+  std::size_t pass(std::size_t bytes) {
+    if (cuts.empty() || bytes < cuts.front()) {
+      from_clients += bytes;
+      if (!cuts.empty()) {
+        cuts.front() -= bytes;
+      }
+      return bytes;
+    }
+    const std::size_t last = cuts.front();
+    from_clients += last;
+    cuts.pop_front();
+    cuts_left = cuts.size();
+    return last;
+  }
 };
 
 /// Two sockets and the bytes between them.
 class Pair : public std::enable_shared_from_this<Pair> {
  public:
-  Pair(tcp::socket client, asio::io_context& io, const Rules& rules)
+  Pair(tcp::socket client, asio::io_context& io, Rules& rules)
       : client_(std::move(client)), server_(io), rules_(rules) {}
 
   void start(std::uint16_t port, std::function<void()> on_end) {
@@ -82,9 +102,10 @@ class Pair : public std::enable_shared_from_this<Pair> {
       return;
     }
     tcp::socket& to = way == 0 ? server_ : client_;
-    asio::async_write(to, asio::buffer(buffers_[way].data(), n),
-                      [self = shared_from_this(), way](error_code failed, std::size_t) {
-                        if (failed) {
+    const std::size_t passing = way == 0 ? rules_.pass(n) : n;
+    asio::async_write(to, asio::buffer(buffers_[way].data(), passing),
+                      [self = shared_from_this(), way, cut = passing < n](error_code failed, std::size_t) {
+                        if (failed || cut) {
                           self->close();
                         } else {
                           self->pump(way);
@@ -94,7 +115,7 @@ class Pair : public std::enable_shared_from_this<Pair> {
 
   tcp::socket client_;
   tcp::socket server_;
-  const Rules& rules_;
+  Rules& rules_;
   std::function<void()> on_end_;
   std::vector<char> buffers_[2] = {std::vector<char>(kBufferBytes), std::vector<char>(kBufferBytes)};
   bool waiting_[2] = {false, false};
@@ -163,6 +184,12 @@ std::uint16_t ChaosProxy::port() const { return impl_->port_; }
 void ChaosProxy::cut() {
   impl_->post([impl = impl_.get()] { impl->cut(); });
 }
+void ChaosProxy::cut_after(std::vector<std::size_t> bytes) {
+  impl_->rules_.cuts_left = bytes.size();
+  impl_->post([impl = impl_.get(), bytes = std::move(bytes)] { impl->rules_.cuts.assign(bytes.begin(), bytes.end()); });
+}
+std::size_t ChaosProxy::cuts_left() const { return impl_->rules_.cuts_left; }
+std::size_t ChaosProxy::bytes_from_clients() const { return impl_->rules_.from_clients; }
 void ChaosProxy::stall(bool on) {
   impl_->post([impl = impl_.get(), on] {
     impl->rules_.stalled = on;

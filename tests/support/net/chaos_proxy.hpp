@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace seeker::testing {
 
@@ -19,6 +20,13 @@ class ChaosProxy {
   [[nodiscard]] std::uint16_t port() const;
   /// Breaks all connections now; new ones are served.
   void cut();
+  /// Breaks the connection when so many more bytes of the client have passed, then again after the next number of the
+  /// list, and so on.
+  void cut_after(std::vector<std::size_t> bytes);
+  /// Cuts of the list that are still to come.
+  [[nodiscard]] std::size_t cuts_left() const;
+  /// Bytes that clients have sent through.
+  [[nodiscard]] std::size_t bytes_from_clients() const;
   /// Passes nothing any more but keeps the connections, until stall(false).
   void stall(bool on);
   /// Refuses new connections (they are accepted and closed).

@@ -66,6 +66,8 @@ TEST(CommandLine, EveryKindOfWrongUseIsCodeTwoWithASentence) {
       {"survey", "lab", "--headings", "0"},
       {"localise"},
       {"landmarks"},
+      {"landmarks", "upload"},
+      {"landmarks", "download", "lab"},
       {"fleet"},
       {"fleet", "split"},
       {"fleet", "merge", "r2", "--hypothesis", "-1"},

@@ -44,7 +44,7 @@ TEST(RequiredRole, CallsThatChangeSomethingNeedAnOperator) {
       "get_info",          "get_status",     "list_components", "get_mission",  "stop",         "get_tiles",
       "get_grid",          "get_detections", "get_trajectory",  "grab_image",   "subscribe",    "unsubscribe",
       "time_sync",         "list_maps",      "inspect_map",     "download_map", "get_segments", "list_landmarks",
-      "inspect_landmarks", "get_landmarks",  "get_settings"};
+      "inspect_landmarks", "get_landmarks",  "get_settings",    "read_file"};
   const google::protobuf::OneofDescriptor* calls = pb::Request::descriptor()->FindOneofByName("call");
   ASSERT_NE(calls, nullptr);
   for (int k = 0; k < calls->field_count(); ++k) {

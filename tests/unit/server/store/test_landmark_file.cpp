@@ -108,6 +108,15 @@ TEST_F(LandmarkFileTest, AnotherKindOfDatabaseIsNotTakenForOne) {
   EXPECT_EQ(read_landmark_file(folder_.path() / "none").error().code, Errc::kNotFound);
 }
 
+TEST_F(LandmarkFileTest, WhatRunsWhenItIsReadIsRefusedBeforeItRuns) {
+  ASSERT_TRUE(write_landmark_file(file(), origin_, some_landmarks(4, 5)));
+  sql("DROP TABLE sides");
+  sql("CREATE VIEW sides AS WITH RECURSIVE n(generation) AS (SELECT 0 UNION ALL SELECT 0 FROM n) SELECT generation, "
+      "1 AS landmark, 1 AS side, 0.0 AS eye_x, 0.0 AS eye_y, 0.0 AS eye_z, 1 AS seen, x'00' AS descriptor FROM n");
+  EXPECT_EQ(read_landmark_file(file()).error().code, Errc::kInvalidArgument);
+  EXPECT_EQ(read_landmark_header(file()).error().code, Errc::kInvalidArgument);
+}
+
 TEST_F(LandmarkFileTest, AChangedNumberIsFound) {
   ASSERT_TRUE(write_landmark_file(file(), origin_, some_landmarks(1, 5)));
   sql("UPDATE landmarks SET x = x + 0.001 WHERE id = 3");

@@ -1,6 +1,6 @@
 #include "server/app/fleet/announced_map.hpp"
 
-#include "common/wire/sha256.hpp"
+#include "common/digest/sha256.hpp"
 #include "tests/unit/server/app/fleet/fleet_fixture.hpp"
 
 namespace seeker::testing {
@@ -44,7 +44,7 @@ TEST(AnnouncedMap, DropsAPieceThatIsNotWhatWasAnnounced) {
   altered.push_back(0);
   EXPECT_EQ(map.receive({"r1", hash, 0, altered}).error().code, Errc::kTooLarge);
   EXPECT_EQ(map.receive({"r1", hash, 0, {}}).error().code, Errc::kTooLarge);
-  EXPECT_EQ(map.receive({"r1", wire::sha256_of(altered), 0, altered}).error().code, Errc::kNotFound);
+  EXPECT_EQ(map.receive({"r1", digest::sha256_of(altered), 0, altered}).error().code, Errc::kNotFound);
   EXPECT_EQ(map.missing().front().offset, 0U);
 }
 
