@@ -18,6 +18,9 @@ namespace pb = ::seeker::v1;
 /// Cuts a text to `limit` bytes of valid UTF-8.
 [[nodiscard]] std::string clean_text(std::string_view text, std::size_t limit = kMaxTextBytes);
 
+/// As clean_text(), on one line: what others send goes into logs.
+[[nodiscard]] std::string one_line(std::string_view text, std::size_t limit = kMaxTextBytes);
+
 template <class E>
 [[nodiscard]] int wire_enum(E value) {
   return static_cast<int>(value) + 1;
@@ -109,6 +112,13 @@ void read(const pb::LeaseState& from, api::LeaseState& to, Check& check);
 void read(const pb::RobotStatus& from, api::RobotStatus& to, Check& check);
 void read(const pb::Event& from, api::Event& to, Check& check);
 void read(const pb::DriveCommand& from, api::DriveCommand& to, Check& check);
+
+void write(const api::Finding& from, pb::Finding* to);
+/// Writes the outcome of a command into its record.
+void set_outcome(api::AuditRecord& record, const Status& outcome);
+void write(const api::AuditRecord& from, pb::AuditRecord* to);
+void read(const pb::Finding& from, api::Finding& to, Check& check);
+void read(const pb::AuditRecord& from, api::AuditRecord& to, Check& check);
 
 /// Writes an update except its subscription id and drop count, which differ between receivers.
 void write(const api::Update& from, pb::StreamUpdate* to);
