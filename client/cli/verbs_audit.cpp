@@ -9,7 +9,7 @@
 namespace seeker::cli {
 namespace {
 
-std::string text_of(const api::AuditRecord& record) {
+std::string audit_line(const api::AuditRecord& record) {
   std::string who = record.client.empty() ? "somebody" : record.client;
   if (!record.role.empty()) {
     who += " (" + record.role + (record.serial.empty() ? "" : ", certificate " + record.serial) + ")";
@@ -33,7 +33,7 @@ VerbResult show_audit(const Context& context, const AuditVerb& verb) {
     return ExitCode::kOk;
   }
   for (const api::AuditRecord& record : *records) {
-    *context.out << text_of(record) << '\n';
+    *context.out << audit_line(record) << '\n';
   }
   if (records->empty()) {
     say(context, "nobody has commanded anything yet");

@@ -9,11 +9,11 @@
 namespace seeker::store {
 namespace {
 
-constexpr const char* kFileName = "audit.db";
+constexpr const char* kAuditFileName = "audit.db";
 constexpr std::int64_t kAuditVersion = 1;
 
 // AUTOINCREMENT: a number is not used again when all rows have been removed.
-constexpr const char* kTables = R"sql(
+constexpr const char* kAuditTables = R"sql(
 CREATE TABLE commands (
   number INTEGER PRIMARY KEY AUTOINCREMENT,
   client TEXT NOT NULL,
@@ -23,14 +23,14 @@ CREATE TABLE commands (
 
 const Schema& audit_schema() {
   constexpr std::int64_t kApplicationId = 0x53454155;  // "SEAU"
-  static const Schema kSchema{kTables, kApplicationId, kAuditVersion};
+  static const Schema kSchema{kAuditTables, kApplicationId, kAuditVersion};
   return kSchema;
 }
 
 }  // namespace
 
 Result<AuditFile> AuditFile::open(const std::filesystem::path& folder, std::size_t max_rows) {
-  Result<Database> database = open_state_file(folder, kFileName, audit_schema());
+  Result<Database> database = open_state_file(folder, kAuditFileName, audit_schema());
   if (!database) {
     return tl::unexpected(database.error());
   }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kPart = "audit";
 /// Records that wait for the disk: hundreds of clients that all command something within a second.
-constexpr std::size_t kMaxWaiting = 10'000;
+constexpr std::size_t kMaxUnwritten = 10'000;
 /// Writes and enquiries that wait; one write takes all records that wait.
 constexpr std::size_t kMaxWork = 64;
 
@@ -73,7 +73,7 @@ AuditTrail::~AuditTrail() {
 void AuditTrail::note(const api::AuditRecord& record) {
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= kMaxWaiting) {
+    if (waiting_.size() >= kMaxUnwritten) {
       ++lost_;
       ++lost_untold_;
       return;
