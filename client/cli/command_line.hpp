@@ -24,6 +24,11 @@ struct GlobalOptions {
 };
 
 struct StatusVerb {};
+struct DoctorVerb {};
+struct AuditVerb {
+  std::uint32_t last = 20;  ///< newest records
+  std::string client;       ///< of this client alone; empty: of all
+};
 struct WatchVerb {
   std::vector<std::string> topics;
   double rate_hz = 2.0;
@@ -232,7 +237,7 @@ struct CompletionVerb {
 };
 struct VersionVerb {};
 
-using Verb = std::variant<StatusVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb,
+using Verb = std::variant<StatusVerb, DoctorVerb, AuditVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb,
                           RecogniseVerb, DriveVerb, LeaseVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb,
                           MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb,
                           MapDownloadVerb, MapUploadVerb, RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb,

@@ -89,7 +89,8 @@ Result<Connection> connect_robot(const ConnectRequest& request) {
   if (!robot) {
     return tl::unexpected<Error>(robot.error());
   }
-  return Connection{*robot, (*robot)->client_name(), [watch] { return watch->error(); }};
+  return Connection{*robot, (*robot)->client_name(), [watch] { return watch->error(); }, (*robot)->role(),
+                    [client = *robot](const api::Reply<rpc::TimeSync>& reply) { client->sync_time(reply); }};
 }
 
 }  // namespace seeker::cli

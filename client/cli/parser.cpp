@@ -10,6 +10,7 @@
 #include "client/cli/names.hpp"
 #include "client/cli/parser_errors.hpp"
 #include "client/cli/targets.hpp"
+#include "common/api/audit.hpp"
 #include "common/config/number_text.hpp"
 #include "common/pki/role.hpp"
 
@@ -436,6 +437,15 @@ void add_components(Parse& parse) {
 
 void add_reports(Parse& parse) {
   add_verb<StatusVerb>(parse, parse.app, "status", "Where the robot is, what it does, what is wrong", "seeker status");
+  add_verb<DoctorVerb>(parse, parse.app, "doctor",
+                       "What is wrong between here and a robot that works, and what to do; 1 when a check failed",
+                       "seeker doctor --robot 10.0.0.5");
+  auto [audit, a] = add_verb<AuditVerb>(parse, parse.app, "audit", "Who commanded what, also what was refused",
+                                        "seeker audit --last 100 --client anna");
+  audit->add_option("--last", a->last, "How many of the newest records")
+      ->check(CLI::Range(1U, api::kMaxAuditRecords))
+      ->capture_default_str();
+  audit->add_option("--client", a->client, "Of this client alone; a name stands for all of its programs, too");
   auto [watch, w] = add_verb<WatchVerb>(parse, parse.app, "watch", "Follow the robot live until Ctrl-C or --timeout",
                                         "seeker watch --topics status,event --json");
   watch->add_option("--topics", w->topics, "Of " + listed(all_topics()))

@@ -40,6 +40,14 @@ class Dispatch {
   VerbResult operator()(const StatusVerb&) {
     return with_robot([&] { return show_status(context_); });
   }
+  VerbResult operator()(const DoctorVerb&) const {
+    return examine(context_, {robot_, SEEKER_VERSION}, [&] {
+      return connect_({robot_, context_.tls, context_.timeout, false, client_name_});
+    });
+  }
+  VerbResult operator()(const AuditVerb& verb) {
+    return with_robot([&] { return show_audit(context_, verb); });
+  }
   VerbResult operator()(const WatchVerb& verb) {
     return with_robot([&] { return watch(context_, verb); }, true);
   }

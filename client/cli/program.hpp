@@ -10,16 +10,10 @@
 #include <vector>
 
 #include "client/cli/command_line.hpp"
+#include "client/cli/connection.hpp"
 #include "client/cli/context.hpp"
 
 namespace seeker::cli {
-
-/// A connected robot.
-struct Connection {
-  std::shared_ptr<api::RobotApi> robot;
-  std::string client_name = "seeker";
-  std::function<std::optional<Error>()> link_error = [] { return std::optional<Error>(); };
-};
 
 struct ConnectRequest {
   std::string robot;                ///< HOST[:PORT]

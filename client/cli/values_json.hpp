@@ -38,6 +38,8 @@ void to_json(nlohmann::ordered_json& json, const ComponentLink& link);
 void to_json(nlohmann::ordered_json& json, const ComponentInfo& component);
 void to_json(nlohmann::ordered_json& json, const ComponentSetting& setting);
 void to_json(nlohmann::ordered_json& json, const Event& event);
+void to_json(nlohmann::ordered_json& json, const Finding& finding);
+void to_json(nlohmann::ordered_json& json, const AuditRecord& record);
 void to_json(nlohmann::ordered_json& json, const GridReport& grid);
 void to_json(nlohmann::ordered_json& json, const MapSummary& map);
 void to_json(nlohmann::ordered_json& json, const LandmarkSummary& database);
@@ -61,6 +63,9 @@ template <class T, class Document = Json>
 [[nodiscard]] Document or_null(const std::optional<T>& value) {
   return value ? Document(*value) : Document();
 }
+
+/// A wall clock, since 1970 and UTC, as "2027-03-01T12:00:00.250Z".
+[[nodiscard]] std::string wall_time_text(std::int64_t unix_ns);
 
 /// One document on one line. A number that is not finite becomes null, and bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string json_line(const Json& json);

@@ -3,10 +3,12 @@
 /// an error becomes a sentence on stderr and its exit code (see exit_code.hpp).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "client/cli/command_line.hpp"
+#include "client/cli/connection.hpp"
 #include "client/cli/context.hpp"
 #include "client/cli/held_lease.hpp"
 #include "client/cli/mission_run.hpp"
@@ -25,6 +27,15 @@ using VerbResult = Result<ExitCode>;
 [[nodiscard]] Result<api::MissionRequest> make_request(const RecogniseVerb& verb);
 
 [[nodiscard]] VerbResult show_status(const Context& context);
+/// Makes the connection to the robot.
+using Dial = std::function<Result<Connection>()>;
+struct Patient {
+  std::string robot;        ///< the address given with --robot
+  std::string own_version;  ///< of this program
+};
+/// Checks the way to the robot and the robot, as far as it comes. The exit code is 1 when a check has failed.
+[[nodiscard]] VerbResult examine(const Context& context, const Patient& patient, const Dial& dial);
+[[nodiscard]] VerbResult show_audit(const Context& context, const AuditVerb& verb);
 [[nodiscard]] VerbResult show_components(const Context& context, const ComponentsVerb& verb);
 [[nodiscard]] VerbResult show_detections(const Context& context);
 [[nodiscard]] VerbResult show_grid(const Context& context, const GridVerb& verb);

@@ -357,6 +357,24 @@ std::string_view to_string(Severity severity) {
   return "CRITICAL";
 }
 
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kOk: return "OK";
+    case Verdict::kWarning: return "WARNING";
+    case Verdict::kFailed: return "FAILED";
+  }
+  return "FAILED";
+}
+
+std::string_view to_string(Role role) {
+  switch (role) {
+    case Role::kObserver: return "observer";
+    case Role::kOperator: return "operator";
+    case Role::kAdmin: return "admin";
+  }
+  return "observer";
+}
+
 StreamClass stream_class(Topic topic) {
   switch (topic) {
     case Topic::kMission:

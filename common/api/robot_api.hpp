@@ -12,7 +12,9 @@
 #include <variant>
 #include <vector>
 
+#include "common/api/audit.hpp"
 #include "common/api/component.hpp"
+#include "common/api/diagnosis.hpp"
 #include "common/api/landmarks.hpp"
 #include "common/api/map.hpp"
 #include "common/api/mission.hpp"
@@ -194,11 +196,19 @@ class RobotApi {
   /// Some bytes of a map or a database. kRefused: the file has another hash than the one named; begin again.
   virtual void read_file(const FileRead& wish, Reply<FilePiece> reply) = 0;
 
+  /// What the robot finds out about its machine: disk, memory, clock, journal, certificates. kNotReady: this robot does
+  /// not check it.
+  virtual void get_diagnosis(Reply<std::vector<Finding>> reply) = 0;
+  /// The newest records of who commanded what, in the order in which they were kept. kNotReady: this robot keeps none.
+  virtual void get_audit(const AuditQuery& query, Reply<std::vector<AuditRecord>> reply) = 0;
+
   [[nodiscard]] virtual Result<std::unique_ptr<Subscription>> subscribe(const std::vector<TopicRequest>& topics,
                                                                         UpdateSink sink) = 0;
 };
 
 enum class Role : std::uint8_t { kObserver, kOperator, kAdmin };
+/// "observer", "operator" or "admin".
+[[nodiscard]] std::string_view to_string(Role role);
 
 /// The client on the other end of a session.
 struct Caller {
@@ -225,6 +235,8 @@ class RobotHost {
   virtual void closed(const Caller& caller) = 0;
   /// The client is silent or its connection broke; link policies apply. A later open() with the same name undoes it.
   virtual void lost(const Caller& caller, const std::string& why) = 0;
+  /// A client has commanded something, or was refused. To be kept; must return at once. By default nothing is done.
+  virtual void commanded(const AuditRecord& /*record*/) {}
 };
 
 }  // namespace seeker::api

@@ -26,4 +26,14 @@ Transport::Socket Transport::take_socket() {
   return std::move(*plain_);
 }
 
+std::string peer_address(Transport& transport) {
+  boost::system::error_code error;
+  const auto peer = transport.socket().remote_endpoint(error);
+  if (error) {
+    return {};
+  }
+  const std::string host = peer.address().to_string();
+  return (peer.address().is_v6() ? "[" + host + "]" : host) + ":" + std::to_string(peer.port());
+}
+
 }  // namespace seeker::net

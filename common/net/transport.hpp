@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -43,7 +44,14 @@ class Transport {
   std::shared_ptr<const pki::Certificate> peer_;
 };
 
+/// Address and port of the other side, "10.0.0.7:51234" or "[::1]:51234"; empty: it is gone.
+[[nodiscard]] std::string peer_address(Transport& transport);
+
 /// Reads the wall clock for the network threads; all code that they call takes the time as an argument.
 [[nodiscard]] inline wire::WallTime wall_now() { return std::chrono::steady_clock::now(); }
+/// The calendar clock for what people read, and for comparing it with that of another machine: since 1970, UTC.
+[[nodiscard]] inline std::int64_t unix_ns_now() {
+  return std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
 
 }  // namespace seeker::net

@@ -19,6 +19,8 @@ namespace seeker::pki {
 
 /// Certificates are dated by the calendar.
 using CalendarTime = std::chrono::system_clock::time_point;
+/// Time before the end of a certificate from which on people are warned.
+inline constexpr std::chrono::hours kExpiryWarning{30 * 24};
 
 /// What people and programs want to know of a certificate.
 struct CertificateFacts {

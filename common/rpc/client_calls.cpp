@@ -106,7 +106,12 @@ void RobotClient::Impl::sync_now(api::Reply<TimeSync> reply) {
     const Duration t2(header.robot_received_time_ns());
     const Duration t3(header.robot_sent_time_ns());
     const Duration t4 = net::wall_now().time_since_epoch();
-    const TimeSync now{((t2 - t1) + (t3 - t4)) / 2, (t4 - t1) - (t3 - t2), responses->front().time_sync().realtime()};
+    const pb::TimeSyncResponse& answer = responses->front().time_sync();
+    TimeSync now{((t2 - t1) + (t3 - t4)) / 2, (t4 - t1) - (t3 - t2), answer.realtime()};
+    if (answer.has_unix_ns()) {
+      const Duration here = std::chrono::system_clock::now().time_since_epoch();
+      now.robot_wall_minus_local = Duration(answer.unix_ns()) + now.round_trip / 2 - here;
+    }
     const bool old = t4 - self->synced_at_ > kSyncAge;
     if (!self->best_sync_ || old || now.round_trip < self->best_sync_->round_trip || !now.realtime) {
       self->best_sync_ = now;

@@ -59,6 +59,9 @@ struct TimeSync {
   Duration robot_minus_local = Duration::zero();  ///< robot time = local steady clock + this
   Duration round_trip = Duration::zero();
   bool realtime = true;  ///< false: robot time does not run with the wall clock, and the offset has no meaning
+  /// Wall clock of the robot minus that of this machine, known to half the round trip; nothing: the robot speaks less
+  /// than 1.6.
+  std::optional<Duration> robot_wall_minus_local = std::nullopt;
 };
 
 /// RobotApi over TCP or TLS. Calls may come from any thread; replies, sinks and link events are called on the client's
@@ -132,6 +135,8 @@ class RobotClient final : public api::RobotApi {
   void upload_piece(const api::UploadPiece& piece, api::Reply<std::uint64_t> reply) override;
   void finish_upload(const api::UploadEnd& end, api::Reply<api::UploadedFile> reply) override;
   void read_file(const api::FileRead& wish, api::Reply<api::FilePiece> reply) override;
+  void get_diagnosis(api::Reply<std::vector<api::Finding>> reply) override;
+  void get_audit(const api::AuditQuery& query, api::Reply<std::vector<api::AuditRecord>> reply) override;
   /// Returns at once. Fails (kInvalidArgument) for an empty list, a topic named twice or a negative rate.
   [[nodiscard]] Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                                      api::UpdateSink sink) override;

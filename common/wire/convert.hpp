@@ -18,6 +18,9 @@ namespace pb = ::seeker::v1;
 /// Cuts a text to `limit` bytes of valid UTF-8.
 [[nodiscard]] std::string clean_text(std::string_view text, std::size_t limit = kMaxTextBytes);
 
+/// As clean_text(), on one line: what others send goes into logs.
+[[nodiscard]] std::string one_line(std::string_view text, std::size_t limit = kMaxTextBytes);
+
 template <class E>
 [[nodiscard]] int wire_enum(E value) {
   return static_cast<int>(value) + 1;
@@ -122,6 +125,12 @@ void read(const pb::FinishUploadRequest& from, api::UploadEnd& to, Check& check)
 void read(const pb::FinishUploadResponse& from, api::UploadedFile& to, Check& check);
 void read(const pb::ReadFileRequest& from, api::FileRead& to, Check& check);
 void read(const pb::ReadFileResponse& from, api::FilePiece& to, Check& check);
+void write(const api::Finding& from, pb::Finding* to);
+/// Writes the outcome of a command into its record.
+void set_outcome(api::AuditRecord& record, const Status& outcome);
+void write(const api::AuditRecord& from, pb::AuditRecord* to);
+void read(const pb::Finding& from, api::Finding& to, Check& check);
+void read(const pb::AuditRecord& from, api::AuditRecord& to, Check& check);
 
 /// Writes an update except its subscription id and drop count, which differ between receivers.
 void write(const api::Update& from, pb::StreamUpdate* to);

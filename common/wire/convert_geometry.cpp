@@ -42,6 +42,14 @@ std::string clean_text(std::string_view text, std::size_t limit) {
   return clean;
 }
 
+std::string one_line(std::string_view text, std::size_t limit) {
+  std::string line = clean_text(text, limit);
+  constexpr char kDelete = 0x7f;
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == kDelete; }, ' ');
+  return line;
+}
+
 void write(const Pose2& from, pb::Pose2* to) {
   to->set_x_m(from.x_m);
   to->set_y_m(from.y_m);

@@ -87,6 +87,8 @@ api::Role required_role(const pb::Request& request) {
     case pb::Request::kInspectLandmarks:
     case pb::Request::kGetLandmarks:
     case pb::Request::kGetSettings:
+    case pb::Request::kGetDiagnosis:
+    case pb::Request::kGetAudit:
     case pb::Request::CALL_NOT_SET: return api::Role::kObserver;
   }
   return api::Role::kAdmin;  // a number that this version does not know
@@ -205,13 +207,14 @@ ServerStep ServerSession::on_hello(const pb::Hello& hello) {
   return step;
 }
 
-ServerStep ServerSession::refuse_request(const pb::Request& request, RobotTime robot_now, pb::CommonError::Code code,
+ServerStep ServerSession::refuse_request(pb::Request& request, RobotTime robot_now, pb::CommonError::Code code,
                                          const std::string& message) {
   ++refused_total_;
   ServerStep step;
   pb::Response* response = step.send.emplace().mutable_response();
   begin_response(request.header(), params_.robot.robot_id, robot_now, robot_now, *response);
   set_common_error(*response, code, message);
+  step.refused = std::move(request);
   return step;
 }
 

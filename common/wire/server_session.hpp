@@ -44,6 +44,7 @@ struct Ending {
 struct ServerStep {
   std::optional<seeker::v1::Envelope> send;
   std::optional<seeker::v1::Request> request;  ///< to be carried out, and then reported with answered()
+  std::optional<seeker::v1::Request> refused;  ///< will not be carried out; `send` is its response
   bool opened = false;                         ///< true: hello was accepted
   std::optional<Ending> end;
 };
@@ -74,7 +75,7 @@ class ServerSession {
   [[nodiscard]] ServerStep on_hello(const seeker::v1::Hello& hello);
   [[nodiscard]] ServerStep on_request(seeker::v1::Request& request, WallTime now, RobotTime robot_now);
   [[nodiscard]] ServerStep refuse_hello(seeker::v1::HelloReply::Status status, std::string message) const;
-  [[nodiscard]] ServerStep refuse_request(const seeker::v1::Request& request, RobotTime robot_now,
+  [[nodiscard]] ServerStep refuse_request(seeker::v1::Request& request, RobotTime robot_now,
                                           seeker::v1::CommonError::Code code, const std::string& message);
   [[nodiscard]] seeker::v1::HelloReply reply_base() const;
 

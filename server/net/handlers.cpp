@@ -184,6 +184,7 @@ void time_sync(const Responder& responder, Session& session) {
   pb::Response response = responder.begin(session, {});
   session.note_time_sync();
   response.mutable_time_sync()->set_realtime(session.hub().robot.realtime);
+  response.mutable_time_sync()->set_unix_ns(net::unix_ns_now());
   session.respond(response, responder.call);
 }
 
@@ -249,7 +250,8 @@ void handle(const SessionPtr& session, const pb::Request& request, RobotTime rec
     default: break;
   }
   if (!handle_map_call(responder, s, request) && !handle_landmark_call(responder, s, request) &&
-      !handle_component_call(responder, s, request) && !handle_transfer_call(responder, s, request)) {
+      !handle_component_call(responder, s, request) && !handle_transfer_call(responder, s, request) &&
+      !handle_diagnosis_call(responder, s, request)) {
     read_call(responder, s, request);
   }
 }

@@ -10,9 +10,6 @@
 
 namespace seeker::server_net {
 
-/// Time before the end of the robot's own certificate from which on there is a warning.
-inline constexpr std::chrono::hours kExpiryWarning{30 * 24};
-
 /// The faults at `now`, without onset: `link-insecure` (warning) for plain TCP beyond loopback, `certificate-files`
 /// (warning) where the newest files are not in use, `certificate-expiry`: a warning for 30 days, then an error, which
 /// forbids motion, since nobody can connect to stop the robot any more.

@@ -79,10 +79,12 @@ void with_name(const Responder& responder, const std::string& name, Go go) {
 }
 
 /// Handles calls about maps of segments (map_handlers.cpp), landmarks (landmark_handlers.cpp), components
-/// (component_handlers.cpp) and files in pieces (transfer_handlers.cpp); false when the request is none of them.
+/// (component_handlers.cpp), files in pieces (transfer_handlers.cpp), and what was checked and recorded
+/// (diagnosis_handlers.cpp); false when the request is none of them.
 [[nodiscard]] bool handle_map_call(const Responder& responder, Session& session, const pb::Request& request);
 [[nodiscard]] bool handle_landmark_call(const Responder& responder, Session& session, const pb::Request& request);
 [[nodiscard]] bool handle_component_call(const Responder& responder, Session& session, const pb::Request& request);
 [[nodiscard]] bool handle_transfer_call(const Responder& responder, Session& session, const pb::Request& request);
+[[nodiscard]] bool handle_diagnosis_call(const Responder& responder, Session& session, const pb::Request& request);
 
 }  // namespace seeker::server_net

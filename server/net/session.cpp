@@ -61,6 +61,8 @@ Session::Session(SessionHub& hub, net::Transport transport, bool full)
     : hub_(hub),
       since_(net::wall_now()),
       certificate_(transport.peer()),
+      audit_([&hub](const api::AuditRecord& record) { hub.host.commanded(record); }, net::peer_address(transport),
+             certificate_ ? &certificate_->facts() : nullptr),
       session_(session_params(hub, certificate_.get(), full), since_),
       outbox_(hub.params.session.queued_replies, hub.params.session.queued_bytes),
       streams_(hub.backlogs, hub.stream_id, &hub.stats.dropped),
@@ -86,6 +88,7 @@ void Session::on_payload(std::string_view payload) {
 
 void Session::tick(wire::WallTime now) {
   if (!ended_) {
+    audit_.tick(now);
     act(session_.on_tick(now, hub_.robot_now(), hub_.loop_pass(), streams_.subscriptions() > 0));
   }
 }
@@ -100,9 +103,13 @@ void Session::act(wire::ServerStep step) {
   }
   if (step.send) {
     hub_.stats.refused_requests += step.send->has_response() ? 1 : 0;
+    if (step.refused) {
+      audit_.refused(*step.refused, step.send->response(), session_.caller(), clocks());
+    }
     send(*step.send);
   }
   if (step.request && !ended_) {
+    audit_.asked(*step.request, session_.caller(), clocks());
     handle(shared_from_this(), *step.request, hub_.robot_now());
   }
   if (step.end) {
@@ -125,6 +132,7 @@ void Session::send(const pb::Envelope& envelope) {
 void Session::respond(const pb::Response& response, wire::CallNumber call, bool last) {
   if (last) {
     session_.answered();
+    audit_.answered(response, clocks());
   }
   pb::Envelope envelope;
   *envelope.mutable_response() = response;
@@ -180,11 +188,14 @@ void Session::wake() {
   connection_->wake();
 }
 
+AuditClocks Session::clocks() const { return {net::unix_ns_now(), hub_.robot_now(), net::wall_now()}; }
+
 void Session::end(const wire::Ending& ending) {
   if (std::exchange(ended_, true)) {
     return;
   }
   due_.cancel();
+  audit_.end(clocks());
   if (ending.send_close) {
     pb::Envelope envelope;
     envelope.mutable_close()->set_reason(ending.reason);

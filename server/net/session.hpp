@@ -17,6 +17,7 @@
 #include "common/wire/server_session.hpp"
 #include "common/wire/stream_sender.hpp"
 #include "server/net/server.hpp"
+#include "server/net/session_audit.hpp"
 
 namespace seeker::server_net {
 
@@ -85,10 +86,12 @@ class Session : public std::enable_shared_from_this<Session> {
   void send(const seeker::v1::Envelope& envelope);
   [[nodiscard]] std::optional<wire::OutFrame> next_frame();
   void wake_at(wire::WallTime due);
+  [[nodiscard]] AuditClocks clocks() const;
 
   SessionHub& hub_;
   wire::WallTime since_;  ///< when it connected
   std::shared_ptr<const pki::Certificate> certificate_;
+  SessionAudit audit_;
   wire::ServerSession session_;
   wire::Outbox outbox_;
   wire::StreamSender streams_;

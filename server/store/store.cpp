@@ -1,11 +1,10 @@
 #include "server/store/store.hpp"
 
-#include <system_error>
 #include <utility>
 
-#include "common/files/files.hpp"
 #include "server/store/pack.hpp"
 #include "server/store/schema.hpp"
+#include "server/store/state_file.hpp"
 #include "server/store/store_body.hpp"
 
 namespace seeker::store {
@@ -17,38 +16,6 @@ namespace fs = std::filesystem;
 constexpr const char* kFileName = "seeker.db";
 constexpr const char* kMissionColumns =
     "SELECT id, kind, request, started_ns, ended_ns, outcome, cause, remedy FROM missions ";
-
-/// Moves a damaged file aside, under the first free name; its log belongs to it.
-Result<fs::path> set_aside(const fs::path& file) {
-  for (int n = 1;; ++n) {
-    const fs::path kept = file.string() + ".damaged-" + std::to_string(n);
-    std::error_code error;
-    if (fs::exists(kept, error)) {
-      continue;
-    }
-    for (const char* part : {"-wal", "-shm", ""}) {
-      const fs::path from = file.string() + part;
-      if (fs::exists(from, error)) {
-        fs::rename(from, kept.string() + part, error);
-      }
-      if (error) {
-        return fail(Errc::kIo, "and cannot be moved to '" + kept.string() + "': " + error.message());
-      }
-    }
-    return kept;
-  }
-}
-
-tl::unexpected<Error> open_failure(const fs::path& file, const Error& cause) {
-  if (cause.code != Errc::kCorrupt) {
-    return fail_with_context("state file '" + file.string() + "'", cause);
-  }
-  const Result<fs::path> kept = set_aside(file);
-  return fail(Errc::kCorrupt,
-              cause.message + ": '" + file.string() + "' " +
-                  (kept ? "was moved to '" + kept->string() + "'; start again to begin with an empty one"
-                        : kept.error().message));
-}
 
 MissionRecord read_mission(const Statement& row) {
   MissionRecord mission{row.text(0), row.text(1), row.blob(2), row.integer(3), std::nullopt};
@@ -104,24 +71,9 @@ Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
 Result<Store> Store::open(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error)) {
-    return fail(Errc::kIo, "the state folder '" + folder.string() + "' cannot be made (" +
-                               (error ? error.message() : "a file of that name exists already") +
-                               "); choose another one with --state");
-  }
-  const fs::path file = folder / kFileName;
-  Result<Database> database = Database::open(file);
+  Result<Database> database = open_state_file(folder, kFileName, state_schema());
   if (!database) {
-    return open_failure(file, database.error());
-  }
-  if (const Status ok = prepare_schema(*database); !ok) {
-    { const Database closed = std::move(*database); }
-    return open_failure(file, ok.error());
-  }
-  if (const Status ok = files::sync_folder(folder); !ok) {
-    return tl::unexpected(ok.error());
+    return tl::unexpected(database.error());
   }
   return Store(std::make_unique<Body>(Body{std::move(*database)}));
 }

@@ -275,6 +275,19 @@ class FakeRobot final : public api::RobotApi {
       return known ? Status() : Status(tl::unexpected<Error>(known.error()));
     });
   }
+  void get_diagnosis(api::Reply<std::vector<api::Finding>> reply) override {
+    read<std::vector<api::Finding>>("get_diagnosis", reply, [](const FakeRobotValues& v) {
+      return v.diagnosis ? Result<std::vector<api::Finding>>(*v.diagnosis)
+                         : fail(Errc::kNotReady, "this robot does not check its machine");
+    });
+  }
+  void get_audit(const api::AuditQuery& query, api::Reply<std::vector<api::AuditRecord>> reply) override {
+    read<std::vector<api::AuditRecord>>("get_audit", reply, [&](FakeRobotValues& v) {
+      v.audit_queries.push_back(query);
+      return v.audit ? Result<std::vector<api::AuditRecord>>(*v.audit)
+                     : fail(Errc::kNotReady, "this robot keeps no records");
+    });
+  }
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                        api::UpdateSink sink) override;
 

@@ -43,6 +43,11 @@ struct FakeRobotValues {
   bool too_old_for_pieces = false;
   std::vector<std::optional<Pose2>> relocalisations;
   std::map<std::string, api::ImageFrame> cameras;
+  /// What get_diagnosis and get_audit answer; nothing: kNotReady.
+  std::optional<std::vector<api::Finding>> diagnosis = std::vector<api::Finding>{};
+  std::optional<std::vector<api::AuditRecord>> audit = std::vector<api::AuditRecord>{};
+  std::vector<api::AuditQuery> audit_queries;
+  std::vector<api::AuditRecord> commanded;  ///< what the server has told of commands
   api::LeaseState lease;
   bool estop = false;
   /// When set, every call fails with it.
@@ -77,6 +82,9 @@ class FakeRobotHost : public api::RobotHost {
     edit([&](FakeRobotValues& v) { v.returned.push_back(caller); });
   }
   void lost(const api::Caller& caller, const std::string& why) override;
+  void commanded(const api::AuditRecord& record) override {
+    edit([&](FakeRobotValues& v) { v.commanded.push_back(record); });
+  }
 
   /// A copy of the values as they are now.
   [[nodiscard]] FakeRobotValues values() const;

@@ -15,6 +15,7 @@
 #include "server/app/metrics/metrics_service.hpp"
 #include "server/app/robot/robot.hpp"
 #include "server/app/runtime/termination_signals.hpp"
+#include "server/app/state/audit_trail.hpp"
 #include "server/net/server.hpp"
 
 namespace seeker::app {
@@ -121,6 +122,21 @@ Status run(const DaemonArguments& arguments, const RobotOptions& options, const 
   return {};
 }
 
+/// Has the robot keep in its folder who commands what, and say what there is to say of its machine.
+Status make_answerable(const RobotOptions& options, const std::filesystem::path& folder, Robot& robot) {
+  Result<std::unique_ptr<AuditTrail>> audit = AuditTrail::open(folder);
+  if (!audit) {
+    return tl::unexpected<Error>(audit.error());
+  }
+  robot.keep_audit(std::move(*audit));
+  robot.diagnose({.version = SEEKER_VERSION,
+                  .folder = folder,
+                  .certificate = link_security(options).files.certificate,
+                  .journal = {},
+                  .audit_lost = {}});
+  return {};
+}
+
 int serve(const DaemonArguments& arguments, const RobotOptions& options, const std::filesystem::path& state,
           const TerminationSignals& signals, Assembly assembly) {
   Result<std::unique_ptr<Journal>> journal = Journal::open(state / options.robot_id);
@@ -139,6 +155,10 @@ int serve(const DaemonArguments& arguments, const RobotOptions& options, const s
       {.robot_id = options.robot_id, .software_version = SEEKER_VERSION, .robot_radius_m = options.robot_radius_m},
       options.loop, std::move(assembly.parts), std::move(*journal), state / "maps", std::move(assembly.landmarks),
       state / "incoming");
+  if (const Status answerable = make_answerable(options, state / options.robot_id, robot); !answerable) {
+    log::error(kPart, answerable.error().message);
+    return EXIT_FAILURE;
+  }
   robot.loop().hooks().on_pass = [&robot, &service](WallTime now) {
     service.passed(now, [&robot] { return service_state(robot.loop().status()); });
   };

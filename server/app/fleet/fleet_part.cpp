@@ -8,8 +8,9 @@
 namespace seeker::app {
 namespace {
 
-Status lead(const FleetSettings& settings, const std::filesystem::path& folder, FleetPart& part) {
-  part.server = std::make_unique<FleetServer>(*part.leader, settings.share_period);
+Status lead(const FleetSettings& settings, const std::filesystem::path& folder, const wire::AuditRows::Sink& decided,
+            FleetPart& part) {
+  part.server = std::make_unique<FleetServer>(*part.leader, settings.share_period, decided);
   const Result<std::uint16_t> port = part.server->start(settings.address, settings.port, settings.security);
   if (!port) {
     return fail_with_context("fleet", port.error());
@@ -39,7 +40,7 @@ Result<FleetPart> start_fleet(const FleetSettings& settings, const std::string& 
     params.search_age = settings.search_age;
     params.merge = settings.merge;
     part.leader = std::make_unique<FleetLeader>(std::move(params), host);
-    if (const Status started = lead(settings, folder, part); !started) {
+    if (const Status started = lead(settings, folder, host.decided, part); !started) {
       return tl::unexpected<Error>(started.error());
     }
   } else if (!settings.join.empty()) {

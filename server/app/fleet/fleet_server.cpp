@@ -81,6 +81,14 @@ Status serve(FleetLeader& leader, const v1::FleetRequest& request, v1::FleetRepl
   }
 }
 
+std::string essentials_of(const v1::FleetDecision& decision) {
+  const std::string verb = decision.verb() == v1::FLEET_VERB_MERGE
+                               ? "merge by hypothesis " + std::to_string(decision.hypothesis()) + ": "
+                           : decision.verb() == v1::FLEET_VERB_SPLIT ? "split: "
+                                                                     : "?: ";
+  return wire::one_line(verb + "'" + decision.robot_id() + "'", api::kMaxAuditEssentials_bytes);
+}
+
 /// The robot in whose name a request speaks; nothing: in nobody's.
 std::optional<std::string> sender_of(const v1::FleetRequest& request) {
   switch (request.call_case()) {
@@ -127,17 +135,22 @@ v1::FleetReply answer_of(FleetLeader& leader, const v1::FleetRequest& request) {
 
 /// One connection.
 struct FleetServer::Peer {
+  explicit Peer(wire::AuditRows::Sink sink) : rows(std::move(sink)) {}
+
   std::shared_ptr<net::Connection> connection;
   std::shared_ptr<const pki::Certificate> certificate;  ///< null: plain TCP
+  std::string address;
+  wire::AuditRows rows;  ///< of its decisions
   net::FrameQueue outgoing{kMaxQueued};
 };
 
-FleetServer::FleetServer(FleetLeader& leader, Duration refresh_period)
+FleetServer::FleetServer(FleetLeader& leader, Duration refresh_period, wire::AuditRows::Sink audit)
     : leader_(leader),
       listener_(io_, kFleetPart,
                 {[this](net::Transport transport) { admit(std::move(transport)); }, [this] { check_certificates(); }}),
       timer_(io_),
-      refresh_period_(refresh_period) {}
+      refresh_period_(refresh_period),
+      audit_(audit ? std::move(audit) : [](const api::AuditRecord&) {}) {}
 
 FleetServer::~FleetServer() {
   if (thread_.joinable()) {
@@ -159,6 +172,9 @@ Result<std::uint16_t> FleetServer::start(const std::string& address, std::uint16
 
 void FleetServer::refresh() {
   leader_.refresh();
+  for (const auto& peer : peers_) {
+    peer->rows.tick(net::wall_now());
+  }
   timer_.expires_after(refresh_period_);
   timer_.async_wait([this](const boost::system::error_code& error) {
     if (!error && !stopping_) {
@@ -173,6 +189,7 @@ void FleetServer::close_all() {
   listener_.close();
   for (const auto& peer : std::exchange(peers_, {})) {
     peer->connection->close();
+    peer->rows.end();
   }
 }
 
@@ -191,8 +208,9 @@ void FleetServer::admit(net::Transport transport) {
   }
   net::ConnectionParams params;
   params.max_frame_bytes = kMaxRequestBytes;
-  const auto peer = std::make_shared<Peer>();
+  const auto peer = std::make_shared<Peer>(audit_);
   peer->certificate = transport.peer();
+  peer->address = net::peer_address(transport);
   peer->connection = std::make_shared<net::Connection>(std::move(transport), params);
   // The handlers hold the peer until its connection is closed.
   net::Connection::Handlers handlers;
@@ -213,11 +231,14 @@ void FleetServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_view p
   if (const Status allowed = may_ask(peer->certificate.get(), request); !allowed) {
     v1::FleetReply refusal;
     wire::set_error(*refusal.mutable_error(), allowed);
+    record(*peer, request, refusal.error());
     send(peer, refusal);
     return;
   }
   if (request.call_case() != v1::FleetRequest::kMap) {
-    send(peer, answer_of(leader_, request));
+    const v1::FleetReply reply = answer_of(leader_, request);
+    record(*peer, request, reply.error());
+    send(peer, reply);
     return;
   }
   leader_.map([this, peer](const Result<std::vector<std::uint8_t>>& file) {
@@ -226,6 +247,27 @@ void FleetServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_view p
                     report(file, [&](const auto& bytes) { reply.set_file(bytes.data(), bytes.size()); }));
     asio::post(io_, [this, peer, reply = std::move(reply)] { send(peer, reply); });
   });
+}
+
+void FleetServer::record(Peer& peer, const v1::FleetRequest& request, const v1::CommonError& outcome) const {
+  if (request.call_case() != v1::FleetRequest::kDecide) {
+    return;
+  }
+  api::AuditRecord record;
+  record.unix_ns = net::unix_ns_now();
+  if (peer.certificate) {
+    const pki::CertificateFacts& facts = peer.certificate->facts();
+    record.client = facts.name;
+    record.certificate = facts.name;
+    record.serial = facts.serial;
+    record.role = facts.role ? pki::to_string(*facts.role) : "";
+  }
+  record.address = peer.address;
+  record.call = "fleet_decide";
+  record.essentials = essentials_of(request.decide());
+  wire::set_outcome(record, wire::status_of(outcome));
+  const std::string kind = record.call + " " + record.essentials;
+  peer.rows.add(std::move(record), kind, net::wall_now());
 }
 
 void FleetServer::send(const std::shared_ptr<Peer>& peer, const v1::FleetReply& reply) {
@@ -242,6 +284,7 @@ void FleetServer::send(const std::shared_ptr<Peer>& peer, const v1::FleetReply& 
 
 void FleetServer::drop(const std::shared_ptr<Peer>& peer) {
   peer->connection->close();
+  peer->rows.end();
   peers_.erase(peer);
 }
 

@@ -12,6 +12,7 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "common/net/listen.hpp"
+#include "common/wire/audit_rows.hpp"
 #include "seeker/v1/fleet.pb.h"
 #include "server/app/fleet/fleet_leader.hpp"
 
@@ -23,7 +24,8 @@ namespace seeker::app {
 class FleetServer {
  public:
   /// `leader` must outlive this; its own robot receives a view of the others every `refresh_period` of wall time.
-  FleetServer(FleetLeader& leader, Duration refresh_period);
+  /// `audit` receives each decision of an operator, also those that are refused; it may be empty.
+  FleetServer(FleetLeader& leader, Duration refresh_period, wire::AuditRows::Sink audit = {});
   FleetServer(const FleetServer&) = delete;
   FleetServer& operator=(const FleetServer&) = delete;
   /// Closes all connections.
@@ -40,6 +42,8 @@ class FleetServer {
   void check_certificates();
   void on_frame(const std::shared_ptr<Peer>& peer, std::string_view payload);
   void send(const std::shared_ptr<Peer>& peer, const v1::FleetReply& reply);
+  /// Has a decision recorded; other requests are left out.
+  static void record(Peer& peer, const v1::FleetRequest& request, const v1::CommonError& outcome);
   void drop(const std::shared_ptr<Peer>& peer);
   void close_all();
   void refresh();
@@ -49,6 +53,7 @@ class FleetServer {
   net::Listener listener_;
   boost::asio::steady_timer timer_;
   Duration refresh_period_;
+  wire::AuditRows::Sink audit_;  ///< not empty
   std::set<std::shared_ptr<Peer>> peers_;
   bool stopping_ = false;
   std::thread thread_;

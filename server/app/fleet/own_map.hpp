@@ -47,6 +47,8 @@ struct FleetHost {
   std::function<void(std::optional<FleetView>)> take_view;
   /// An event of the robot; returns at once and calls nobody back.
   std::function<void(const std::string& kind, const std::string& text, api::Severity)> notify_operator;
+  /// Somebody has decided about another robot, or was refused: to be kept, without robot time; returns at once.
+  std::function<void(const api::AuditRecord&)> decided;
 };
 
 }  // namespace seeker::app

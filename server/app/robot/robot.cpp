@@ -84,6 +84,9 @@ Robot::~Robot() {
   if (journal_) {
     journal_->set_on_error(nullptr);
   }
+  if (audit_) {
+    audit_->set_on_error(nullptr);
+  }
 }
 
 FleetHost Robot::fleet_host() {
@@ -98,6 +101,11 @@ FleetHost Robot::fleet_host() {
   };
   host.notify_operator = [this](const std::string& kind, const std::string& text, api::Severity severity) {
     static_cast<void>(mailbox_.post([this, kind, text, severity] { loop_.diagnostics().log(kind, text, severity); }));
+  };
+  host.decided = [this](const api::AuditRecord& record) {
+    api::AuditRecord stamped = record;
+    stamped.stamp = now();
+    commanded(stamped);
   };
   return host;
 }
@@ -200,6 +208,27 @@ void Robot::record(std::unique_ptr<DriveRecorder> recorder) {
   recorder_->follow(loop_.hooks());
 }
 
+void Robot::keep_audit(std::unique_ptr<AuditTrail> audit) {
+  audit_ = std::move(audit);
+  audit_->set_on_error([this](const Error& error) {
+    static_cast<void>(mailbox_.post([this, error] {
+      loop_.diagnostics().raise("audit-failed", "audit", "who commands what cannot be recorded: " + error.message,
+                                "free space on the disk of the state folder; commands are carried out unrecorded",
+                                api::Severity::kWarning);
+    }));
+  });
+}
+
+void Robot::diagnose(HostSources sources) {
+  if (journal_) {
+    sources.journal = [this] { return journal_->health(); };
+  }
+  if (audit_) {
+    sources.audit_lost = [this] { return audit_->lost(); };
+  }
+  diagnosis_ = std::make_unique<DiagnosisService>(std::move(sources));
+}
+
 /// Answers when it is on the disk. That it is not is a fault of the journal; the robot has stopped in any case.
 void Robot::keep_estop(bool engaged, const api::Reply<void>& reply) {
   if (!journal_) {
@@ -280,6 +309,12 @@ void Robot::silent(const api::Caller& caller, Duration silence) {
 
 void Robot::returned(const api::Caller& caller) {
   static_cast<void>(mailbox_.post([this, name = caller.client_name] { loop_.commands().client_back(name); }));
+}
+
+void Robot::commanded(const api::AuditRecord& record) {
+  if (audit_) {
+    audit_->note(record);
+  }
 }
 
 void Robot::lost(const api::Caller& caller, const std::string& why) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/api/robot_api.hpp"
+#include "server/app/diagnosis/diagnosis_service.hpp"
 #include "server/app/fleet/own_map.hpp"
 #include "server/app/landmarks/landmark_service.hpp"
 #include "server/app/loop/robot_loop.hpp"
@@ -18,6 +19,7 @@
 #include "server/app/robot/map_service.hpp"
 #include "server/app/robot/transfer_service.hpp"
 #include "server/app/runtime/mailbox.hpp"
+#include "server/app/state/audit_trail.hpp"
 #include "server/app/state/journal.hpp"
 
 namespace seeker::app {
@@ -41,6 +43,10 @@ class Robot final : public api::RobotHost {
 
   /// Records what the robot drives on from its start, which comes later. A recording that fails is a warning.
   void record(std::unique_ptr<DriveRecorder> recorder);
+  /// Keeps who commanded what, and answers for it. A record that cannot be written is a warning.
+  void keep_audit(std::unique_ptr<AuditTrail> audit);
+  /// Answers what there is to say of the machine; `sources` without journal and audit trail, which are the robot's.
+  void diagnose(HostSources sources);
   /// Starts the components, then the thread. With `wait_for_client` a replay begins with the first session.
   void start(bool wait_for_client = false);
   /// Halts the robot, answers what was asked, joins the thread. Harmless when repeated.
@@ -63,6 +69,7 @@ class Robot final : public api::RobotHost {
   void silent(const api::Caller& caller, Duration silence) override;
   void returned(const api::Caller& caller) override;
   void lost(const api::Caller& caller, const std::string& why) override;
+  void commanded(const api::AuditRecord& record) override;
 
  private:
   class Session;
@@ -81,6 +88,8 @@ class Robot final : public api::RobotHost {
   RobotLoop loop_;
   Mailbox mailbox_;
   std::unique_ptr<Journal> journal_;
+  std::unique_ptr<AuditTrail> audit_;
+  std::unique_ptr<DiagnosisService> diagnosis_;
   std::unique_ptr<DriveRecorder> recorder_;
   MapStore map_store_;
   MapService maps_;

@@ -169,6 +169,20 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   void relocalise(const std::optional<Pose2>& map_T_base, api::Reply<void> reply) override {
     ask(std::move(reply), [this, map_T_base] { return loop().commands().relocalise(map_T_base); });
   }
+  void get_diagnosis(api::Reply<std::vector<api::Finding>> reply) override {
+    if (!robot_.diagnosis_) {
+      reply(fail(Errc::kNotReady, "this robot does not check its machine; start it with seekerd"));
+      return;
+    }
+    robot_.diagnosis_->ask(reply);
+  }
+  void get_audit(const api::AuditQuery& query, api::Reply<std::vector<api::AuditRecord>> reply) override {
+    if (!robot_.audit_) {
+      reply(fail(Errc::kNotReady, "this robot keeps no records of who commanded what; start it with seekerd"));
+      return;
+    }
+    robot_.audit_->newest(query, reply);
+  }
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
                                                        api::UpdateSink sink) override {
     std::unique_ptr<api::Subscription> subscription = robot_.hub_.subscribe(topics, std::move(sink));

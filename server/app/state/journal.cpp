@@ -99,6 +99,11 @@ std::uint64_t Journal::dropped() const {
   return dropped_;
 }
 
+JournalHealth Journal::health() const {
+  const std::lock_guard lock(mutex_);
+  return {queue_.size() + urgent_.size(), dropped_, failed_};
+}
+
 void Journal::enqueue(Write write) {
   {
     const std::lock_guard lock(mutex_);
@@ -196,6 +201,9 @@ void Journal::work() {
     lock.unlock();
     const Status written = write(store_);
     lock.lock();
+    if (!written && !failed_) {
+      failed_ = written.error();
+    }
     if (!written && !error_reported_ && on_error_) {
       error_reported_ = true;
       on_error_(written.error());

@@ -18,6 +18,13 @@
 
 namespace seeker::app {
 
+/// How it goes with the journal.
+struct JournalHealth {
+  std::size_t waiting = 0;      ///< writes that the disk has not taken yet
+  std::uint64_t dropped = 0;    ///< writes since the start that it never took
+  std::optional<Error> failed;  ///< the first write that failed
+};
+
 /// Missions, their events and detections in order. When the disk cannot follow, the oldest waiting entry is dropped and
 /// counted. Only the first error is reported: what could not be written is missing later, and the errors of that hide
 /// the cause.
@@ -47,6 +54,7 @@ class Journal {
   /// Called on the journal's thread with the sentence of the first failed write.
   void set_on_error(std::function<void(const Error&)> on_error);
   [[nodiscard]] std::uint64_t dropped() const;
+  [[nodiscard]] JournalHealth health() const;
 
  private:
   using Write = std::function<Status(store::Store&)>;
@@ -68,6 +76,7 @@ class Journal {
   std::function<void(const Error&)> on_error_;
   bool estop_ = false;
   bool error_reported_ = false;  ///< the first one only
+  std::optional<Error> failed_;  ///< the first one
   std::uint64_t dropped_ = 0;
   bool quit_ = false;
   std::thread thread_;

@@ -77,7 +77,16 @@ class ToyHost {
       const std::lock_guard lock(received->mutex);
       received->events.push_back(kind + " " + text);
     };
+    host.decided = [received = heard_](const api::AuditRecord& record) {
+      const std::lock_guard lock(received->mutex);
+      received->decisions.push_back(record);
+    };
     return host;
+  }
+  /// What operators have decided, or were refused.
+  [[nodiscard]] std::vector<api::AuditRecord> decisions() const {
+    const std::lock_guard lock(heard_->mutex);
+    return heard_->decisions;
   }
   [[nodiscard]] std::optional<FleetView> view() const {
     const std::lock_guard lock(heard_->mutex);
@@ -106,6 +115,7 @@ class ToyHost {
     std::mutex mutex;
     std::optional<FleetView> view;
     std::vector<std::string> events;
+    std::vector<api::AuditRecord> decisions;
   };
   LineMap map_;
   app::OwnTopology topology_;

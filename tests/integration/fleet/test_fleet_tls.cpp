@@ -81,6 +81,14 @@ TEST_F(FleetTls, ReadingNeedsACertificateAndDecidingAnOperators) {
   const auto unknown = client(site_.issue("anna", pki::Role::kOperator)).decide(split);
   EXPECT_EQ(unknown.error().code, Errc::kNotFound) << "the operator may; there is no such robot";
   EXPECT_THAT(client(std::nullopt).status().error().message, HasSubstr("--tls"));
+  const std::vector<api::AuditRecord> decisions = host_.decisions();
+  ASSERT_EQ(decisions.size(), 2U) << "who decided is known, also of what was refused";
+  EXPECT_EQ(decisions[0].certificate, "olga");
+  EXPECT_EQ(decisions[0].outcome, "refused");
+  EXPECT_EQ(decisions[0].essentials, "split: 'r1'");
+  EXPECT_EQ(decisions[1].certificate, "anna");
+  EXPECT_EQ(decisions[1].role, "operator");
+  EXPECT_EQ(decisions[1].outcome, "not_found");
 }
 
 TEST_F(FleetTls, ARevokedRobotIsShutOut) {

@@ -1,7 +1,10 @@
 // Robot files of real devices against the emulated ones, over pseudo-terminals in real time, with bit errors, and each
 // device unplugged once. Bit errors come at 1e-6; both devices are away for three seconds each.
 
+#include <csignal>
+
 #include "tests/integration/processes/hardware.hpp"
+#include "tests/support/service_manager.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -105,6 +108,59 @@ Stop stop_for(const std::string& fault, const std::string& name) {
   EXPECT_TRUE(contains(output, "\"outcome\":\"FAULT\"")) << output;
   EXPECT_EQ(hardware.contacts(), 0);
   return stop_of(hardware, kTrouble_s);
+}
+
+/// The last of what really happened, once `holds` does for all of it; nothing when that does not come about. The time
+/// passes by waiting for reports of the robot's program to `systemd`, which are returned by `heard`.
+template <class Predicate>
+std::optional<TruthRow> when(const EmulatedHardware& hardware, const ServiceManager& systemd,
+                             std::vector<std::string>& heard, Predicate holds) {
+  const auto end = std::chrono::steady_clock::now() + kStart;
+  while (std::chrono::steady_clock::now() < end) {
+    if (const std::vector<TruthRow> rows = hardware.rows(); !rows.empty() && holds(rows)) {
+      return rows.back();
+    }
+    if (std::optional<std::string> report = systemd.next(std::chrono::milliseconds(200))) {
+      heard.push_back(std::move(*report));
+    }
+  }
+  return std::nullopt;
+}
+
+/// From the first row within the last `span_s` to the last one.
+double moved_m(const std::vector<TruthRow>& rows, double span_s) {
+  const auto first = std::find_if(rows.begin(), rows.end(),
+                                  [&](const TruthRow& row) { return row.time_s >= rows.back().time_s - span_s; });
+  return (rows.back().p_world - first->p_world).norm();
+}
+
+TEST(HardwareProcesses, TheBaseStandsByItsOwnWatchdogWhenTheLoopIsStuckAndSystemdHearsNothing) {
+  const ServiceManager systemd(seconds(1));
+  const EmulatedHardware hardware("corridor", "lms200", {}, fresh_folder("stuck_loop"));
+  const Daemon daemon(hardware.lines(), fresh_folder("stuck_loop_daemon"), robot_file("pioneer3dx_lms200"));
+  EXPECT_EQ(seeker(daemon, {"goto", "8,0", "--detach"}), 0) << daemon.process->output();
+  std::vector<std::string> heard;
+  constexpr double kSpan_s = 1.0;
+  constexpr double kOnItsWay_m = 0.2;
+  const auto drives =
+      when(hardware, systemd, heard, [](const auto& rows) { return moved_m(rows, kSpan_s) > kOnItsWay_m; });
+  ASSERT_TRUE(drives) << daemon.process->output();
+  daemon.process->send(SIGSTOP);
+  static_cast<void>(systemd.reports());  // what was sent before
+  heard.clear();
+  const double stuck_s = hardware.rows().back().time_s;
+  const auto stands = when(hardware, systemd, heard, [&](const auto& rows) {
+    constexpr double kStill_m = 0.001;
+    return rows.back().time_s > stuck_s + kSpan_s && moved_m(rows, kSpan_s) < kStill_m;
+  });
+  ASSERT_TRUE(stands) << "its watchdog did not stop it";
+  EXPECT_EQ(heard, std::vector<std::string>{}) << "a program that is stuck gives no sign of life";
+  const Stop stop = stop_of(hardware, stuck_s);
+  EXPECT_GT(stop.stands_after_s, 1.0) << "nobody but its watchdog can stop it";
+  // The watchdog's 2 s, a resend period since the last command, and braking.
+  EXPECT_LT(stop.stands_after_s, 2.0 + 0.25 + 0.5 / 0.3);
+  EXPECT_EQ(hardware.contacts(), 0);
+  daemon.process->send(SIGCONT);
 }
 
 TEST(HardwareProcesses, TheRobotStandsSoonAfterItsOnlyRangeSensorFellSilent) {

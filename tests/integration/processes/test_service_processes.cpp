@@ -23,6 +23,25 @@ TEST(ServiceProcesses, SystemdHearsOfTheStartOfTheLoopAndOfTheEnd) {
   EXPECT_TRUE(systemd.hears("STOPPING=1", kStart));
 }
 
+TEST(ServiceProcesses, ALoopThatIsStuckGivesNoSignOfLifeAndItsTickIsCountedAsLate) {
+  const ServiceManager systemd(seconds(1));
+  const Daemon daemon({"--set", "sim.speed=1"});
+  EXPECT_EQ(seeker(daemon, {"goto", "1,0", "--detach"}), 0);
+  EXPECT_TRUE(systemd.hears("WATCHDOG=1", kStart));
+  daemon.process->send(SIGSTOP);
+  static_cast<void>(systemd.reports());  // what was sent before
+  EXPECT_EQ(systemd.next(std::chrono::milliseconds(1500)), std::nullopt) << "systemd starts it again by then";
+  daemon.process->send(SIGCONT);
+  EXPECT_TRUE(systemd.hears("WATCHDOG=1", kStart));
+  const auto client = connect(daemon, "observer");
+  const Result<api::RobotStatus> status =
+      rpc::wait<api::RobotStatus>([&](auto reply) { client->get_status(std::move(reply)); }, kCall);
+  ASSERT_TRUE(status) << status.error().message;
+  ASSERT_TRUE(status->timing);
+  EXPECT_GE(status->timing->late, 1U);
+  EXPECT_GE(status->timing->worst, std::chrono::milliseconds(1400));
+}
+
 TEST(ServiceProcesses, ARobotStartsDisarmedWhateverItsBase) {
   for (const std::string speed : {"0", "1"}) {
     const ServiceManager systemd;
