@@ -174,14 +174,14 @@ TEST_F(StreamTest, TilesThatChangedWhileTheLinkWasDownAreCaughtUp) {
   settle(*client);
   robot_.publish(api::Topic::kTiles, robot_time_s(1.0), robot_.values().tiles);
   ASSERT_TRUE(tiles.updates.wait_count(1));
-  proxy.refuse(true);
+  proxy.impair({.drop = 1.0});
   proxy.cut();
   ASSERT_TRUE(eventually([&] { return client->link() == rpc::LinkState::kLost; }));
   robot_.edit([](FakeRobotValues& v) {
     v.tiles.revision = 9;
     v.tiles.tiles[2].revision = 9;
   });
-  proxy.refuse(false);
+  proxy.impair({});
   ASSERT_TRUE(tiles.updates.wait_count(2));
   const auto& caught_up = std::get<api::TileUpdate>(tiles.updates.items().back()->payload);
   ASSERT_EQ(caught_up.tiles.size(), 1U);
@@ -194,7 +194,7 @@ TEST_F(StreamTest, ASilentLinkGoesStaleThenLostAndTheRobotHearsOfIt) {
   start();
   ChaosProxy proxy(port_);
   const auto client = connect("tester", proxy.port());
-  proxy.stall(true);
+  proxy.impair({.stalled = true});
   const auto seen = [](rpc::LinkState state) {
     return [state](const std::vector<rpc::LinkEvent>& all) {
       return std::any_of(all.begin(), all.end(), [state](const auto& event) { return event.state == state; });
@@ -204,14 +204,14 @@ TEST_F(StreamTest, ASilentLinkGoesStaleThenLostAndTheRobotHearsOfIt) {
   EXPECT_TRUE(links_.wait(seen(rpc::LinkState::kLost)));
   EXPECT_TRUE(eventually([&] { return !robot_.values().lost.empty(); }));
   EXPECT_EQ(robot_.values().lost.front().first.client_name, "tester");
-  proxy.stall(false);
+  proxy.impair({});
   EXPECT_TRUE(links_.wait([](const auto& all) { return all.back().state == rpc::LinkState::kConnected; }));
 }
 
 TEST_F(StreamTest, ByteByByteIsAsGoodAsAtOnce) {
   start();
   ChaosProxy proxy(port_);
-  proxy.trickle(1);
+  proxy.impair({.piece = 1});
   const auto client = connect("tester", proxy.port());
   EXPECT_EQ(ask<api::RobotStatus>([&](auto r) { client->get_status(r); }), robot_.values().status);
 }
