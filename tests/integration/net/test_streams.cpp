@@ -94,6 +94,28 @@ TEST_F(StreamTest, NothingIsLostOrDoubledWhenTheSocketIsCutAgainAndAgain) {
   EXPECT_GT(proxy.connections(), 1U);
 }
 
+TEST_F(StreamTest, AConnectionOfTheClientThatArrivesLateDoesNotEndIt) {
+  start();
+  ChaosProxy proxy(port_);
+  rpc::ClientParams params = client_params("tester");
+  params.heartbeat = milliseconds(50);
+  const auto client = rpc::RobotClient::connect({"127.0.0.1", proxy.port()}, params).value();
+  Stream events;
+  events.open(*client, {{api::Topic::kEvent, 0.0, 0}});
+  settle(*client);
+  // The first connection that is made again waits until the client has given it up and another one was served.
+  proxy.impair({.reorder = 1.0, .hold = kPatience});
+  proxy.cut();
+  ASSERT_TRUE(eventually([&] { return proxy.connections() >= 3; }));
+  proxy.impair({});
+  publish_event("after");
+  ASSERT_TRUE(events.updates.wait_count(1));
+  EXPECT_EQ(texts(events.updates.items()), (std::vector<std::string>{"after"}));
+  EXPECT_TRUE(logged("the same client has connected again"));
+  EXPECT_TRUE(eventually([&] { return client->link() == rpc::LinkState::kConnected; }));
+  settle(*client);
+}
+
 TEST_F(StreamTest, AnotherRunOfTheRobotIsTold) {
   start();
   const std::uint16_t port = port_;
