@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "common/log/log.hpp"
 #include "common/wire/liveness.hpp"
 
 namespace seeker::net {
@@ -39,5 +41,12 @@ class RefusalLog {
   std::string last_;
   std::optional<wire::WallTime> written_at_;
 };
+
+/// Writes what note() or take() gave, where it is a line. `part` names the component.
+inline void write_refusals(std::string_view part, const std::optional<std::string>& line) {
+  if (line) {
+    log::warning(part, *line);
+  }
+}
 
 }  // namespace seeker::net

@@ -31,7 +31,8 @@ void TlsDoor::receive(Transport::Socket socket) {
     return;
   }
   if (!guard_.admits(address, wall_now())) {
-    write(refusals_.note(address.to_string() + " is shut out after too many failed handshakes", wall_now()));
+    write_refusals(part_,
+                   refusals_.note(address.to_string() + " is shut out after too many failed handshakes", wall_now()));
     return;  // closes it
   }
   make_room();
@@ -71,7 +72,7 @@ void TlsDoor::on_result(const boost::asio::ip::address& address, Result<Transpor
 
 void TlsDoor::refused(const boost::asio::ip::address& address, const std::string& why) {
   const bool shut_out = guard_.failed(address, wall_now());
-  write(refusals_.note(address.to_string() + ": " + why, wall_now()));
+  write_refusals(part_, refusals_.note(address.to_string() + ": " + why, wall_now()));
   if (shut_out) {
     log::warning(part_, address.to_string() + " is shut out for " +
                             std::to_string(to_seconds(security_.lockout.duration)) + " s after " +
@@ -98,15 +99,9 @@ void TlsDoor::check() {
   } else if (keeper_.problem() && keeper_.problem() != before) {
     log::error(part_, "the former certificates stay in use: " + keeper_.problem()->message);
   }
-  write(refusals_.take(wall_now()));
+  write_refusals(part_, refusals_.take(wall_now()));
   if (handlers_.on_check) {
     handlers_.on_check(renewed);
-  }
-}
-
-void TlsDoor::write(const std::optional<std::string>& line) const {
-  if (line) {
-    log::warning(part_, *line);
   }
 }
 

@@ -43,7 +43,6 @@ class TlsDoor {
   void refused(const boost::asio::ip::address& address, const std::string& why);
   void check_later();
   void check();
-  void write(const std::optional<std::string>& line) const;
 
   std::string_view part_;
   LinkSecurity security_;

@@ -66,9 +66,9 @@ ClientStep ClientSession::on_payload(std::string_view payload, WallTime now) {
   }
   liveness_.on_received(now);
   if (envelope->has_close()) {
-    const pb::Close& close = envelope->close();
-    return end_with(Errc::kLinkLost, "the robot closed the session: " + close.message(),
-                    close.reason() == pb::Close::REASON_REPLACED);
+    // Also when it was replaced: its instance is nobody else's, so that was an older connection of its own, which the
+    // network held back.
+    return end_with(Errc::kLinkLost, "the robot closed the session: " + envelope->close().message());
   }
   if (envelope->has_hello_reply() != !open_) {
     return end_with(Errc::kParse, "the robot did not answer hello with hello");

@@ -16,6 +16,7 @@
 #include "common/log/log.hpp"
 #include "common/net/listen.hpp"
 #include "common/net/random_id.hpp"
+#include "common/net/refusal_log.hpp"
 #include "server/net/client_silences.hpp"
 #include "server/net/link_faults.hpp"
 #include "server/net/loop_watch.hpp"
@@ -34,6 +35,7 @@ constexpr int kTicksPerHeartbeat = 5;
 constexpr Duration kMinTick = std::chrono::milliseconds(5);
 /// Wall time for the robot to report its identity at the start.
 constexpr Duration kInfoTimeout = std::chrono::seconds(10);
+constexpr Duration kRefusalLogPeriod = std::chrono::seconds(1);
 constexpr std::string_view kOwnName = "seekerd/net";
 
 template <std::size_t... I>
@@ -224,7 +226,7 @@ class Server::Impl {
   void on_ended(const std::shared_ptr<Session>& session, const wire::Ending& ending) {
     sessions_.erase(session);
     if (!session->open()) {
-      log::debug(kPart, "a connection ended before hello: " + ending.text);  // anybody can make any number of them
+      on_refused(ending);
       return;
     }
     const api::Caller& caller = session->caller();
@@ -243,6 +245,16 @@ class Server::Impl {
     }
   }
 
+  /// Anybody can make any number of connections that end before hello. Those that only come and go are no offence.
+  void on_refused(const wire::Ending& ending) {
+    using Close = ::seeker::v1::Close;
+    if (ending.reason == Close::REASON_PROTOCOL_ERROR || ending.reason == Close::REASON_FRAME_TOO_LARGE) {
+      net::write_refusals(kPart, refusals_.note(ending.text, net::wall_now()));
+    } else {
+      log::debug(kPart, "a connection ended before hello: " + ending.text);
+    }
+  }
+
   [[nodiscard]] std::vector<std::shared_ptr<Session>> snapshot() const { return {sessions_.begin(), sessions_.end()}; }
 
   void tick() {
@@ -255,6 +267,7 @@ class Server::Impl {
       const wire::WallTime now = net::wall_now();
       hub_.loop_stuck = loop_.stuck(hub_.loop_pass(), now);
       report_silence(now);
+      net::write_refusals(kPart, refusals_.take(now));
       for (const auto& session : snapshot()) {
         session->tick(now);
       }
@@ -365,6 +378,7 @@ class Server::Impl {
   LoopWatch loop_;
   std::uint64_t own_passes_ = 0;  ///< where the robot counts none
   ClientSilences silences_;
+  net::RefusalLog refusals_{kRefusalLogPeriod};
   std::vector<api::Fault> link_faults_;  ///< as they were reported last
   RobotTime newest_{};
   bool stopping_ = false;

@@ -14,6 +14,7 @@ declare -A PACKAGES=(
   [package]="dpkg-dev"
   [check]="debootstrap lintian"
   [heavy]="mrpt-apps time perl-base"
+  [peers]="testssl.sh iproute2"
 )
 
 package_is_installed() {

@@ -11,7 +11,7 @@ start_server out/demo-server.log --config "$robot"
 echo "seekerd runs $robot on port $server_port (log: out/demo-server.log)"
 
 code=0
-build/release/bin/seeker --robot "127.0.0.1:$server_port" search --target cross --save out/demo || code=$?
+"$SEEKER_BIN/seeker" --robot "127.0.0.1:$server_port" search --target cross --save out/demo || code=$?
 stop_server
 
 echo

@@ -1,11 +1,16 @@
 # shellcheck shell=bash
-# Starts and stops the release build of seekerd on a free port. Sourced by demo.sh and soak.sh.
+# Starts and stops seekerd on a free port. Sourced by demo.sh, soak.sh and peers.sh. The programs are those of the release
+# build, or of the folder SEEKER_BIN; SEEKERD names another seekerd.
 #
-# start_server LOG [OPTIONS...] sets server_pid and server_port; stop_server ends it. Nothing is left running: the trap
-# stops it however the script ends.
+# start_server LOG [OPTIONS...] sets server_pid and server_port; stop_server ends it and sets server_code, its exit code.
+# Nothing is left running: the trap stops it however the script ends.
 
+SEEKER_BIN=${SEEKER_BIN:-build/release/bin}
+SEEKERD=${SEEKERD:-$SEEKER_BIN/seekerd}
 server_pid=
 server_port=
+# shellcheck disable=SC2034  # read by the scripts that source this
+server_code=0
 server_folder=$(mktemp -d)
 
 stop_server() {
@@ -13,13 +18,15 @@ stop_server() {
   local pid=$server_pid tries
   server_pid=
   kill -TERM "$pid" 2>/dev/null || true
-  for ((tries = 0; tries < 100; ++tries)); do
+  for ((tries = 0; tries < ${stop_tenths:-100}; ++tries)); do
     kill -0 "$pid" 2>/dev/null || break
     sleep 0.1
   done
   # Ten seconds are enough for an orderly end.
   kill -KILL "$pid" 2>/dev/null || true
-  wait "$pid" 2>/dev/null || true
+  # shellcheck disable=SC2034
+  server_code=0
+  wait "$pid" 2>/dev/null || server_code=$? # shellcheck disable=SC2034
 }
 trap 'stop_server; rm -rf "$server_folder"' EXIT
 trap 'exit 130' INT
@@ -29,7 +36,7 @@ start_server() {
   local log=$1 tries
   shift
   rm -f "$server_folder/port"
-  build/release/bin/seekerd --port 0 --port-file "$server_folder/port" --state "$server_folder/state" "$@" >"$log" 2>&1 &
+  $SEEKERD --port 0 --port-file "$server_folder/port" --state "$server_folder/state" "$@" >"$log" 2>&1 &
   server_pid=$!
   for ((tries = 0; tries < 300; ++tries)); do
     if [[ -s $server_folder/port ]]; then

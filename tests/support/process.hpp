@@ -23,6 +23,7 @@ class ChildProcess {
   ~ChildProcess();
 
   void send(int signal) const;
+  [[nodiscard]] pid_t pid() const { return pid_; }
   /// Exit code (128 + signal where one ended it); nothing when it still runs after `limit` (ten times that in a build
   /// with sanitizers).
   [[nodiscard]] std::optional<int> wait(std::chrono::seconds limit);

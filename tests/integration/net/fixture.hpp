@@ -37,6 +37,12 @@ class RawClient {
     boost::system::error_code ignored;
     boost::asio::write(socket_, boost::asio::buffer(bytes), ignored);
   }
+  /// False: the connection has ended.
+  [[nodiscard]] bool send_byte(char byte) {
+    boost::system::error_code error;
+    boost::asio::write(socket_, boost::asio::buffer(&byte, 1), error);
+    return !error;
+  }
   void send(const pb::Envelope& envelope) {
     const auto frame = wire::frame_of(envelope);
     send_bytes(frame->head + *frame->body + frame->tail);
@@ -109,6 +115,12 @@ class NetTest : public ::testing::Test {
   template <class T, class Call>
   [[nodiscard]] static Result<T> ask(Call&& call) {
     return rpc::wait<T>(std::forward<Call>(call), std::chrono::seconds(20));
+  }
+  [[nodiscard]] bool logged(const std::string& words) {
+    return log_.wait([&](const std::vector<std::string>& lines) {
+      return std::any_of(lines.begin(), lines.end(),
+                         [&](const std::string& line) { return line.find(words) != std::string::npos; });
+    });
   }
   void publish_event(const std::string& text) {
     api::Event event;

@@ -32,6 +32,22 @@ TEST_F(AbuseTest, GarbageIsClosedWithAReason) {
   expect_unharmed();
 }
 
+TEST_F(AbuseTest, RefusalsAreLoggedOnceASecondAtMost) {
+  start();
+  const auto begin = std::chrono::steady_clock::now();
+  for (int k = 0; k < 50; ++k) {
+    RawClient client(port_);
+    client.send_bytes(std::string("\0\0\0\4\xff\xff\xff\xff", 8));
+    expect_closed(client, pb::Close::REASON_PROTOCOL_ERROR);
+  }
+  EXPECT_TRUE(logged("connections were refused, the last: ")) << "they are counted";
+  const double took_s = to_seconds(std::chrono::steady_clock::now() - begin);
+  const std::vector<std::string> lines = log_.items();
+  const auto about = std::count_if(lines.begin(), lines.end(),
+                                   [](const std::string& line) { return line.find("refused") != std::string::npos; });
+  EXPECT_LE(static_cast<double>(about), took_s + 2.0);
+}
+
 TEST_F(AbuseTest, AnOversizedFrameIsClosedBeforeItsBytesCome) {
   start();
   RawClient client(port_);

@@ -94,6 +94,28 @@ TEST_F(StreamTest, NothingIsLostOrDoubledWhenTheSocketIsCutAgainAndAgain) {
   EXPECT_GT(proxy.connections(), 1U);
 }
 
+TEST_F(StreamTest, AConnectionOfTheClientThatArrivesLateDoesNotEndIt) {
+  start();
+  ChaosProxy proxy(port_);
+  rpc::ClientParams params = client_params("tester");
+  params.heartbeat = milliseconds(50);
+  const auto client = rpc::RobotClient::connect({"127.0.0.1", proxy.port()}, params).value();
+  Stream events;
+  events.open(*client, {{api::Topic::kEvent, 0.0, 0}});
+  settle(*client);
+  // The first connection that is made again waits until the client has given it up and another one was served.
+  proxy.impair({.reorder = 1.0, .hold = kPatience});
+  proxy.cut();
+  ASSERT_TRUE(eventually([&] { return proxy.connections() >= 3; }));
+  proxy.impair({});
+  publish_event("after");
+  ASSERT_TRUE(events.updates.wait_count(1));
+  EXPECT_EQ(texts(events.updates.items()), (std::vector<std::string>{"after"}));
+  EXPECT_TRUE(logged("the same client has connected again"));
+  EXPECT_TRUE(eventually([&] { return client->link() == rpc::LinkState::kConnected; }));
+  settle(*client);
+}
+
 TEST_F(StreamTest, AnotherRunOfTheRobotIsTold) {
   start();
   const std::uint16_t port = port_;
@@ -174,14 +196,14 @@ TEST_F(StreamTest, TilesThatChangedWhileTheLinkWasDownAreCaughtUp) {
   settle(*client);
   robot_.publish(api::Topic::kTiles, robot_time_s(1.0), robot_.values().tiles);
   ASSERT_TRUE(tiles.updates.wait_count(1));
-  proxy.refuse(true);
+  proxy.impair({.drop = 1.0});
   proxy.cut();
   ASSERT_TRUE(eventually([&] { return client->link() == rpc::LinkState::kLost; }));
   robot_.edit([](FakeRobotValues& v) {
     v.tiles.revision = 9;
     v.tiles.tiles[2].revision = 9;
   });
-  proxy.refuse(false);
+  proxy.impair({});
   ASSERT_TRUE(tiles.updates.wait_count(2));
   const auto& caught_up = std::get<api::TileUpdate>(tiles.updates.items().back()->payload);
   ASSERT_EQ(caught_up.tiles.size(), 1U);
@@ -194,7 +216,7 @@ TEST_F(StreamTest, ASilentLinkGoesStaleThenLostAndTheRobotHearsOfIt) {
   start();
   ChaosProxy proxy(port_);
   const auto client = connect("tester", proxy.port());
-  proxy.stall(true);
+  proxy.impair({.stalled = true});
   const auto seen = [](rpc::LinkState state) {
     return [state](const std::vector<rpc::LinkEvent>& all) {
       return std::any_of(all.begin(), all.end(), [state](const auto& event) { return event.state == state; });
@@ -204,14 +226,14 @@ TEST_F(StreamTest, ASilentLinkGoesStaleThenLostAndTheRobotHearsOfIt) {
   EXPECT_TRUE(links_.wait(seen(rpc::LinkState::kLost)));
   EXPECT_TRUE(eventually([&] { return !robot_.values().lost.empty(); }));
   EXPECT_EQ(robot_.values().lost.front().first.client_name, "tester");
-  proxy.stall(false);
+  proxy.impair({});
   EXPECT_TRUE(links_.wait([](const auto& all) { return all.back().state == rpc::LinkState::kConnected; }));
 }
 
 TEST_F(StreamTest, ByteByByteIsAsGoodAsAtOnce) {
   start();
   ChaosProxy proxy(port_);
-  proxy.trickle(1);
+  proxy.impair({.piece = 1});
   const auto client = connect("tester", proxy.port());
   EXPECT_EQ(ask<api::RobotStatus>([&](auto r) { client->get_status(r); }), robot_.values().status);
 }

@@ -1,7 +1,5 @@
-#include <array>
-#include <thread>
-
 #include "common/core/rng.hpp"
+#include "tests/integration/net/recorded_bytes.hpp"
 #include "tests/integration/net/tls_fixture.hpp"
 
 namespace seeker::testing {
@@ -174,49 +172,6 @@ TEST_F(TlsRefusals, AnAddressThatKeepsFailingIsShutOutForAWhile) {
   EXPECT_THAT(refused.error().message, AnyOf(HasSubstr("shut this address out"), HasSubstr("closed the connection")));
   EXPECT_TRUE(ask<api::RobotStatus>([&](auto r) { inside->get_status(r); })) << "who is inside stays";
   EXPECT_TRUE(eventually([&] { return try_connect(good).has_value(); }));
-}
-
-/// Passes bytes on and keeps those of the client.
-std::string recorded_client_bytes(std::uint16_t port, const pki::BundleFiles& bundle) {
-  boost::asio::io_context io;
-  boost::asio::ip::tcp::acceptor acceptor(io, {boost::asio::ip::address_v4::loopback(), 0});
-  const std::uint16_t relay_port = acceptor.local_endpoint().port();
-  std::string sent;
-  std::thread relay([&] {
-    boost::asio::ip::tcp::socket client = acceptor.accept();
-    boost::asio::ip::tcp::socket server(io);
-    server.connect({boost::asio::ip::address_v4::loopback(), port});
-    std::thread back([&] {
-      std::array<char, 4096> bytes{};
-      boost::system::error_code error;
-      while (!error) {
-        const std::size_t n = server.read_some(boost::asio::buffer(bytes), error);
-        boost::system::error_code ignored;
-        boost::asio::write(client, boost::asio::buffer(bytes, n), ignored);
-      }
-    });
-    std::array<char, 4096> bytes{};
-    boost::system::error_code error;
-    while (!error) {
-      const std::size_t n = client.read_some(boost::asio::buffer(bytes), error);
-      sent.append(bytes.data(), n);
-      boost::system::error_code ignored;
-      boost::asio::write(server, boost::asio::buffer(bytes, n), ignored);
-    }
-    boost::system::error_code ignored;
-    server.shutdown(boost::asio::ip::tcp::socket::shutdown_both, ignored);
-    back.join();
-  });
-  rpc::ClientParams p;
-  p.client_name = "tester";
-  p.tls = bundle;
-  p.connect_timeout = kPatience;
-  {
-    const auto client = rpc::RobotClient::connect({"127.0.0.1", relay_port}, p);
-    EXPECT_TRUE(client) << client.error().message;
-  }
-  relay.join();
-  return sent;
 }
 
 TEST_F(TlsRefusals, BytesThatAreSentAgainDoNothing) {

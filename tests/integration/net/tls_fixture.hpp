@@ -81,13 +81,6 @@ class TlsTest : public NetTest {
     ASSERT_TRUE(client);
     EXPECT_TRUE(ask<api::RobotStatus>([&](auto r) { client->get_status(r); }));
   }
-  [[nodiscard]] bool logged(const std::string& words) {
-    return log_.wait([&](const std::vector<std::string>& lines) {
-      return std::any_of(lines.begin(), lines.end(),
-                         [&](const std::string& line) { return line.find(words) != std::string::npos; });
-    });
-  }
-
   TestSite site_;
   pki::BundleFiles robot_files_ = site_.robot();
   Recorder<std::vector<api::Fault>> faults_;

@@ -46,7 +46,7 @@ class Expedition {
     EXPECT_EQ(seeker(team_.robot(k), {"resume"}, &output), 0) << output;
   }
   void cut_link() {
-    link_->refuse(true);
+    link_->impair({.drop = 1.0});
     link_->cut();
     cut_at_ = watchers_[kCut]->status().stamp;
   }
@@ -55,7 +55,7 @@ class Expedition {
     const api::RobotStatus now = watchers_[kCut]->until(
         [&](const api::MissionStatus& mission) { return mission.end || mission.updated - cut_at_ >= kCutFor; });
     EXPECT_GE(now.stamp - cut_at_, kCutFor);
-    link_->refuse(false);
+    link_->impair({});
   }
   void expect_complete() {
     for (const auto& watcher : watchers_) {

@@ -1,33 +1,17 @@
 // The figures of a running robot, read as Prometheus reads them and judged by its own tool.
 
 #include <fstream>
-#include <regex>
 
 #include <gmock/gmock.h>
 
-#include "tests/integration/processes/daemon.hpp"
+#include "tests/integration/processes/metrics_page.hpp"
 
 namespace seeker::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kCurl = "/usr/bin/curl";
 constexpr const char* kPromtool = "/usr/bin/promtool";
-
-/// Where the log says that the page is.
-std::string page_of(const Daemon& daemon) {
-  std::smatch found;
-  const std::string log = daemon.process->output();
-  EXPECT_TRUE(std::regex_search(log, found, std::regex("metrics at (http://\\S+)"))) << log;
-  return found.empty() ? "" : found[1].str();
-}
-
-std::string read_page(const std::string& address) {
-  ChildProcess curl(kCurl, {"--silent", "--show-error", "--fail", address}, fresh_folder("curl") / "page");
-  EXPECT_EQ(curl.wait(kCall), 0) << curl.output();
-  return curl.output();
-}
 
 TEST(MetricsProcesses, TheFiguresOfARobotWithAMissionAreThoseThatPrometheusReads) {
   if (!std::filesystem::exists(kCurl)) {

@@ -1,20 +1,16 @@
 #include "tests/support/net/chaos_proxy.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <deque>
-#include <functional>
-#include <memory>
 #include <set>
 #include <thread>
 #include <utility>
-#include <vector>
 
-#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/write.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "tests/support/net/chaos_pair.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -23,188 +19,121 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::size_t kBufferBytes = 64UL * 1024;
-
-struct Rules {
-  bool stalled = false;
-  bool refusing = false;
-  std::size_t trickle = 0;
-  std::deque<std::size_t> cuts;  ///< bytes of the client until each of them
-  std::atomic<std::size_t> cuts_left{0};
-  std::atomic<std::size_t> from_clients{0};
-
-  /// How many of so many bytes pass before the connection breaks; all of them: it does not.
-  std::size_t pass(std::size_t bytes) {
-    if (cuts.empty() || bytes < cuts.front()) {
-      from_clients += bytes;
-      if (!cuts.empty()) {
-        cuts.front() -= bytes;
-      }
-      return bytes;
-    }
-    const std::size_t last = cuts.front();
-    from_clients += last;
-    cuts.pop_front();
-    cuts_left = cuts.size();
-    return last;
-  }
-};
-
-/// Two sockets and the bytes between them.
-class Pair : public std::enable_shared_from_this<Pair> {
- public:
-  Pair(tcp::socket client, asio::io_context& io, Rules& rules)
-      : client_(std::move(client)), server_(io), rules_(rules) {}
-
-  void start(std::uint16_t port, std::function<void()> on_end) {
-    on_end_ = std::move(on_end);
-    server_.async_connect({asio::ip::address_v4::loopback(), port}, [self = shared_from_this()](error_code error) {
-      if (error) {
-        self->close();
-        return;
-      }
-      self->pump(0);
-      self->pump(1);
-    });
-  }
-  void close() {
-    error_code ignored;
-    client_.close(ignored);
-    server_.close(ignored);
-    if (const auto on_end = std::exchange(on_end_, nullptr)) {
-      on_end();
-    }
-  }
-  void resume() {
-    for (std::size_t way = 0; way < 2; ++way) {
-      if (std::exchange(waiting_[way], false)) {
-        pump(way);
-      }
-    }
-  }
-
- private:
-  /// way 0: client to server.
-  void pump(std::size_t way) {
-    if (rules_.stalled) {
-      waiting_[way] = true;
-      return;
-    }
-    tcp::socket& from = way == 0 ? client_ : server_;
-    const std::size_t most = rules_.trickle == 0 ? kBufferBytes : std::min(rules_.trickle, kBufferBytes);
-    from.async_read_some(
-        asio::buffer(buffers_[way].data(), most),
-        [self = shared_from_this(), way](error_code error, std::size_t n) { self->pass(way, error, n); });
-  }
-  void pass(std::size_t way, error_code error, std::size_t n) {
-    if (error) {
-      close();
-      return;
-    }
-    tcp::socket& to = way == 0 ? server_ : client_;
-    const std::size_t passing = way == 0 ? rules_.pass(n) : n;
-    asio::async_write(to, asio::buffer(buffers_[way].data(), passing),
-                      [self = shared_from_this(), way, cut = passing < n](error_code failed, std::size_t) {
-                        if (failed || cut) {
-                          self->close();
-                        } else {
-                          self->pump(way);
-                        }
-                      });
-  }
-
-  tcp::socket client_;
-  tcp::socket server_;
-  Rules& rules_;
-  std::function<void()> on_end_;
-  std::vector<char> buffers_[2] = {std::vector<char>(kBufferBytes), std::vector<char>(kBufferBytes)};
-  bool waiting_[2] = {false, false};
-};
-
 }  // namespace
 
+/// All but the constructor runs on the thread.
 class ChaosProxy::Impl {
  public:
-  explicit Impl(std::uint16_t server_port)
+  Impl(std::uint16_t server_port, std::uint64_t seed)
       : io_(1),
         acceptor_(io_, {asio::ip::address_v4::loopback(), 0}),
+        hold_(io_),
         server_port_(server_port),
-        port_(acceptor_.local_endpoint().port()) {
+        port_(acceptor_.local_endpoint().port()),
+        rng_(seed) {
     accept();
     thread_ = std::thread([this] { io_.run(); });
   }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
   ~Impl() {
     asio::post(io_, [this] {
       error_code ignored;
       acceptor_.close(ignored);
+      hold_.cancel();
+      held_.reset();
       cut();
     });
     thread_.join();
   }
-  template <class F>
-  void post(F&& f) {
-    asio::post(io_, std::forward<F>(f));
-  }
+
   void cut() {
-    const std::vector<std::shared_ptr<Pair>> pairs(pairs_.begin(), pairs_.end());
-    for (const auto& pair : pairs) {
+    for (const auto& pair : snapshot()) {
       pair->close();
     }
   }
+  void impair(const Impairment& impairment) {
+    rules_ = impairment;
+    for (const auto& pair : snapshot()) {
+      pair->obey();
+    }
+  }
+
+  asio::io_context io_;
+  tcp::acceptor acceptor_;
+  asio::steady_timer hold_;
+  std::uint16_t server_port_;
+  std::uint16_t port_;
+  Rng rng_;
+  Impairment rules_;
+  std::optional<tcp::socket> held_;  ///< waits for another one to be served
+  std::set<std::shared_ptr<ChaosPair>> pairs_;
+  std::atomic<std::size_t> connections_{0};
+  std::atomic<std::size_t> open_{0};
+  std::thread thread_;
+
+ private:
+  [[nodiscard]] std::vector<std::shared_ptr<ChaosPair>> snapshot() const { return {pairs_.begin(), pairs_.end()}; }
+
   void accept() {
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
       if (error) {
         return;
       }
       ++connections_;
-      if (!rules_.refusing) {
-        auto pair = std::make_shared<Pair>(std::move(socket), io_, rules_);
-        pairs_.insert(pair);
-        pair->start(server_port_, [this, key = pair.get()] {
-          std::erase_if(pairs_, [key](const auto& one) { return one.get() == key; });
-        });
-      }
+      receive(std::move(socket));
       accept();
     });
   }
-
-  asio::io_context io_;
-  tcp::acceptor acceptor_;
-  std::uint16_t server_port_;
-  std::uint16_t port_;
-  Rules rules_;
-  std::set<std::shared_ptr<Pair>> pairs_;
-  std::atomic<std::size_t> connections_{0};
-  std::thread thread_;
+  void receive(tcp::socket socket) {
+    if (rng_.uniform() < rules_.drop) {
+      return;  // closes it
+    }
+    if (!held_ && rng_.uniform() < rules_.reorder) {
+      hold(std::move(socket));
+      return;
+    }
+    serve(std::move(socket));
+    serve_held();
+  }
+  void hold(tcp::socket socket) {
+    held_.emplace(std::move(socket));
+    hold_.expires_after(rules_.hold);
+    hold_.async_wait([this](error_code error) {
+      if (!error) {
+        serve_held();
+      }
+    });
+  }
+  void serve_held() {
+    if (held_) {
+      hold_.cancel();
+      serve(std::move(*held_));
+      held_.reset();
+    }
+  }
+  void serve(tcp::socket socket) {
+    const auto pair = std::make_shared<ChaosPair>(std::move(socket), io_, rules_, rng_);
+    pairs_.insert(pair);
+    ++open_;
+    pair->start(server_port_, [this, key = pair.get()] {
+      std::erase_if(pairs_, [key](const auto& one) { return one.get() == key; });
+      --open_;
+    });
+  }
 };
 
-ChaosProxy::ChaosProxy(std::uint16_t server_port) : impl_(std::make_shared<Impl>(server_port)) {}
+ChaosProxy::ChaosProxy(std::uint16_t server_port, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(server_port, seed)) {}
 ChaosProxy::~ChaosProxy() = default;
 std::uint16_t ChaosProxy::port() const { return impl_->port_; }
+void ChaosProxy::impair(const Impairment& impairment) {
+  asio::post(impl_->io_, [impl = impl_.get(), impairment] { impl->impair(impairment); });
+}
 void ChaosProxy::cut() {
-  impl_->post([impl = impl_.get()] { impl->cut(); });
-}
-void ChaosProxy::cut_after(std::vector<std::size_t> bytes) {
-  impl_->rules_.cuts_left = bytes.size();
-  impl_->post([impl = impl_.get(), bytes = std::move(bytes)] { impl->rules_.cuts.assign(bytes.begin(), bytes.end()); });
-}
-std::size_t ChaosProxy::cuts_left() const { return impl_->rules_.cuts_left; }
-std::size_t ChaosProxy::bytes_from_clients() const { return impl_->rules_.from_clients; }
-void ChaosProxy::stall(bool on) {
-  impl_->post([impl = impl_.get(), on] {
-    impl->rules_.stalled = on;
-    const std::vector<std::shared_ptr<Pair>> pairs(impl->pairs_.begin(), impl->pairs_.end());
-    for (const auto& pair : pairs) {
-      pair->resume();
-    }
-  });
-}
-void ChaosProxy::refuse(bool on) {
-  impl_->post([impl = impl_.get(), on] { impl->rules_.refusing = on; });
-}
-void ChaosProxy::trickle(std::size_t bytes) {
-  impl_->post([impl = impl_.get(), bytes] { impl->rules_.trickle = bytes; });
+  asio::post(impl_->io_, [impl = impl_.get()] { impl->cut(); });
 }
 std::size_t ChaosProxy::connections() const { return impl_->connections_; }
+std::size_t ChaosProxy::open() const { return impl_->open_; }
 
 }  // namespace seeker::testing
