@@ -39,15 +39,14 @@ Result<fs::path> set_aside(const fs::path& file) {
   }
 }
 
-tl::unexpected<Error> open_failure(const fs::path& file, const Error& cause) {
-  if (cause.code != Errc::kCorrupt) {
-    return fail_with_context("state file '" + file.string() + "'", cause);
+/// kCorrupt: the file is closed again, so that it can be moved.
+Result<Database> open_checked(const fs::path& file) {
+  Result<Database> database = Database::open(file);
+  if (!database) {
+    return database;
   }
-  const Result<fs::path> kept = set_aside(file);
-  return fail(Errc::kCorrupt,
-              cause.message + ": '" + file.string() + "' " +
-                  (kept ? "was moved to '" + kept->string() + "'; start again to begin with an empty one"
-                        : kept.error().message));
+  const Status ok = prepare_schema(*database);
+  return ok ? std::move(database) : Result<Database>(tl::unexpected(ok.error()));
 }
 
 MissionRecord read_mission(const Statement& row) {
@@ -104,26 +103,46 @@ Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
 Result<Store> Store::open(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error)) {
-    return fail(Errc::kIo, "the state folder '" + folder.string() + "' cannot be made (" +
-                               (error ? error.message() : "a file of that name exists already") +
-                               "); choose another one with --state");
+  if (const Status made = files::make_folder(folder); !made) {
+    return fail(Errc::kIo,
+                "the state folder cannot be made: " + made.error().message + "; choose another one with --state");
   }
   const fs::path file = folder / kFileName;
-  Result<Database> database = Database::open(file);
-  if (!database) {
-    return open_failure(file, database.error());
+  std::error_code error;
+  // A new one is never empty: SQLite would make an empty one of it without a word.
+  const bool emptied = fs::exists(file, error) && fs::file_size(file, error) == 0;
+  std::string lost = emptied ? "the journal '" + file.string() +
+                                   "' was found empty, so that missions and detections before are not known"
+                             : "";
+  Result<Database> database = open_checked(file);
+  if (!database && database.error().code == Errc::kCorrupt) {
+    const Result<fs::path> kept = set_aside(file);
+    if (!kept) {
+      return fail(Errc::kCorrupt,
+                  "state file '" + file.string() + "': " + database.error().message + ", " + kept.error().message);
+    }
+    lost = "the journal was damaged (" + database.error().message + "): it was moved to '" + kept->string() +
+           "' and an empty one begun, so that missions and detections before are not known";
+    database = open_checked(file);
   }
-  if (const Status ok = prepare_schema(*database); !ok) {
-    { const Database closed = std::move(*database); }
-    return open_failure(file, ok.error());
+  if (!database) {
+    return fail_with_context("state file '" + file.string() + "'", database.error());
   }
   if (const Status ok = files::sync_folder(folder); !ok) {
     return tl::unexpected(ok.error());
   }
-  return Store(std::make_unique<Body>(Body{std::move(*database)}));
+  return Store(std::make_unique<Body>(Body{std::move(*database), std::move(lost)}));
+}
+
+const std::string& Store::lost() const { return body_->lost; }
+
+Status Store::together(const std::function<Status()>& work) {
+  Result<Transaction> transaction = Transaction::begin(body_->database);
+  if (!transaction) {
+    return tl::unexpected(transaction.error());
+  }
+  Status ok = work();
+  return ok ? transaction->commit() : ok;
 }
 
 Status Store::begin_mission(const MissionRecord& mission) {
