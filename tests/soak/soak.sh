@@ -10,6 +10,7 @@ A round is one server with one seed that is asked for one search of the whole ar
 each. Every search must end with exit code 0 (found) or 6 (not found), every way home with 0, and the server's memory may grow
 by the limit (default 64 MB) at most after the second search of its round. Samples: build/soak/memory.csv.
 ./run soak cuts [N]: a simulated robot is driven by hand over a link that is cut N times (default 1000); it must stand each time.
+./run soak kills [N]: the server of a busy robot is killed N times (default 500); all that it has acknowledged must be there.
 TEXT
 }
 

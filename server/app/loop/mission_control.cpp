@@ -140,6 +140,8 @@ void MissionControl::end_unkept(const api::MissionId& mission, const Error& erro
     const auto [cause, remedy] = cause_and_remedy(error);
     parties_.executor.end(api::Outcome::kFault, "the mission could not be kept on the disk: " + cause, remedy,
                           parties_.world.now());
+    parties_.motion.authority().disarm();
+    parties_.motion.act({});
   }
 }
 

@@ -48,7 +48,7 @@ class MissionControl {
   [[nodiscard]] bool runs(const api::MissionId& mission) const {
     return parties_.executor.request() != nullptr && parties_.executor.request()->id == mission;
   }
-  /// Ends a mission that has just begun, because its beginning could not be written to the disk.
+  /// Ends a mission that has just begun, because its beginning could not be written to the disk, and disarms the robot.
   void end_unkept(const api::MissionId& mission, const Error& error);
   /// Ends the present mission and the search for the robot's place in a kept map.
   void stop();
