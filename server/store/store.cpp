@@ -7,6 +7,7 @@
 #include "server/store/pack.hpp"
 #include "server/store/schema.hpp"
 #include "server/store/store_body.hpp"
+#include "server/store/write_ahead_log.hpp"
 
 namespace seeker::store {
 
@@ -37,6 +38,22 @@ Result<fs::path> set_aside(const fs::path& file) {
     }
     return kept;
   }
+}
+
+/// What SQLite would take for a new or a whole file without a word; empty where nothing is lost.
+std::string silent_loss(const fs::path& file) {
+  std::error_code error;
+  if (fs::exists(file, error) && fs::file_size(file, error) == 0) {
+    return "the journal '" + file.string() + "' was found empty, so that missions and detections before are not known";
+  }
+  const fs::path log = file.string() + "-wal";
+  const auto bytes = files::read_file(log);
+  const std::size_t forgotten = bytes ? forgotten_transactions(*bytes) : 0;
+  if (forgotten > 1) {  // one was being written when the program ended
+    return "the log '" + log.string() + "' was damaged: the last " + std::to_string(forgotten) +
+           " writes to the journal are not known";
+  }
+  return "";
 }
 
 /// kCorrupt: the file is closed again, so that it can be moved.
@@ -108,12 +125,7 @@ Result<Store> Store::open(const fs::path& folder) {
                 "the state folder cannot be made: " + made.error().message + "; choose another one with --state");
   }
   const fs::path file = folder / kFileName;
-  std::error_code error;
-  // A new one is never empty: SQLite would make an empty one of it without a word.
-  const bool emptied = fs::exists(file, error) && fs::file_size(file, error) == 0;
-  std::string lost = emptied ? "the journal '" + file.string() +
-                                   "' was found empty, so that missions and detections before are not known"
-                             : "";
+  std::string lost = silent_loss(file);
   Result<Database> database = open_checked(file);
   if (!database && database.error().code == Errc::kCorrupt) {
     const Result<fs::path> kept = set_aside(file);
