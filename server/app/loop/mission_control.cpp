@@ -106,9 +106,6 @@ Result<api::MissionId> MissionControl::start(const api::MissionRequest& request,
   }
   resumption_.mission_began();
   checkpoints_.begin(parties_.world.now());
-  if (parties_.hooks.on_mission_started) {
-    parties_.hooks.on_mission_started(request);
-  }
   return id;
 }
 
@@ -185,6 +182,9 @@ Status MissionControl::resume_in_map(const Result<LineMap>& map, const MapIdenti
   }
   if (Status able = able_to(resumption_.unfinished()->task); !able) {
     return able;
+  }
+  if (Status kept_on_disk = can_be_kept(); !kept_on_disk) {
+    return kept_on_disk;
   }
   const Status usable = map ? validate(*map) : Status(tl::unexpected<Error>(map.error()));
   if (!usable) {

@@ -41,7 +41,7 @@ std::string path_of(int descriptor) {
 }  // namespace seeker::files
 
 // The linker has the program call these in place of the functions of the system (--wrap in CMakeLists.txt).
-// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
+// NOLINTBEGIN(readability-identifier-naming)
 extern "C" {
 ssize_t __real_write(int descriptor, const void* bytes, std::size_t size);
 int __real_fsync(int descriptor);
@@ -64,7 +64,7 @@ int __wrap_rename(const char* from, const char* to) {
   return __real_rename(from, to);
 }
 }
-// NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
+// NOLINTEND(readability-identifier-naming)
 
 namespace seeker::files {
 namespace {

@@ -13,10 +13,14 @@ using testing::go_to;
 TEST(MissionControl, AMissionArmsTheRobotAndIsReportedToTheJournal) {
   FakeDeck deck;
   std::vector<api::MissionId> journal;
-  deck.hooks.on_mission_started = [&](const api::MissionRequest& request) { journal.push_back(request.id); };
+  deck.hooks.on_mission_started = [&](const api::MissionRequest& request) {
+    journal.push_back(request.id);
+    EXPECT_TRUE(deck.mission_events.empty()) << "its events are journaled as those of a mission that is known";
+  };
   ASSERT_TRUE(deck.missions.start(go_to("first"), "tester"));
   EXPECT_TRUE(deck.motion.authority().armed());
   EXPECT_EQ(journal, (std::vector<api::MissionId>{"first"}));
+  EXPECT_EQ(deck.mission_events, (std::vector<std::string>{"mission-started"}));
 }
 
 TEST(MissionControl, RefusesWhileTheEmergencyStopIsLatched) {
