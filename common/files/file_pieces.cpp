@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "common/files/file_descriptor.hpp"
+#include "common/files/file_error.hpp"
 #include "common/files/files.hpp"
 
 namespace seeker::files {

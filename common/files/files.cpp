@@ -5,24 +5,13 @@
 #include <string>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "common/files/file_descriptor.hpp"
+#include "common/files/file_error.hpp"
+#include "common/files/temporary_file.hpp"
 
 namespace seeker::files {
-namespace {
-
-bool write_and_close(FileDescriptor& file, std::span<const std::uint8_t> bytes, bool sync, ReadableBy readers) {
-  constexpr mode_t kForAll = 0644;
-  constexpr mode_t kForOwner = 0600;
-  const mode_t mode = readers == ReadableBy::kOwner ? kForOwner : kForAll;
-  return write_all(file.get(), bytes) && ::fchmod(file.get(), mode) == 0 && (!sync || ::fsync(file.get()) == 0) &&
-         file.close();
-}
-
-}  // namespace
-
 Result<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path, std::size_t limit_bytes) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
@@ -58,15 +47,16 @@ Result<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path, s
 Status write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, Outlives outlives,
                   ReadableBy readers) {
   const bool sync = outlives == Outlives::kPowerCut;
-  std::string temporary = path.string() + ".XXXXXX";
-  FileDescriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (file.get() < 0) {
+  Result<TemporaryFile> file = TemporaryFile::beside(path, readers);
+  if (!file) {
+    return tl::unexpected<Error>(file.error());
+  }
+  const int fd = file->descriptor();
+  if (!write_all(fd, bytes) || (sync && ::fsync(fd) != 0)) {
     return cannot_write(path, errno);
   }
-  if (!write_and_close(file, bytes, sync, readers) || ::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int number = errno;
-    ::unlink(temporary.c_str());
-    return cannot_write(path, number);
+  if (const Status moved = file->move_to(path); !moved) {
+    return moved;
   }
   return sync ? sync_folder(path.parent_path()) : Status();
 }
@@ -83,6 +73,25 @@ Status sync_folder(const std::filesystem::path& folder) {
     return cannot("sync the folder", place, errno);
   }
   return {};
+}
+
+Status make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (folder.empty() || std::filesystem::is_directory(folder, error)) {
+    return {};
+  }
+  if (const Status above = make_folder(folder.parent_path()); !above) {
+    return above;
+  }
+  if (std::filesystem::create_directory(folder, error)) {
+    return sync_folder(folder.parent_path());
+  }
+  // Made by somebody else meanwhile is as good.
+  if (std::filesystem::is_directory(folder)) {
+    return {};
+  }
+  return fail(Errc::kIo, "cannot make the folder " + folder.string() + ": " +
+                             (error ? error.message() : "a file of that name exists already"));
 }
 
 }  // namespace seeker::files

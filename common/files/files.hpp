@@ -43,4 +43,7 @@ enum class ReadableBy : std::uint8_t {
 /// Makes a rename or a new file in `folder` survive a power cut.
 [[nodiscard]] Status sync_folder(const std::filesystem::path& folder);
 
+/// Makes the folder and those above it, where they are absent, so that they survive a power cut. kIo.
+[[nodiscard]] Status make_folder(const std::filesystem::path& folder);
+
 }  // namespace seeker::files

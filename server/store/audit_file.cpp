@@ -23,18 +23,18 @@ CREATE TABLE commands (
 
 const Schema& audit_schema() {
   constexpr std::int64_t kApplicationId = 0x53454155;  // "SEAU"
-  static const Schema kSchema{kAuditTables, kApplicationId, kAuditVersion};
+  static const Schema kSchema{kAuditTables, kApplicationId, kAuditVersion, "PRAGMA quick_check(1)"};
   return kSchema;
 }
 
 }  // namespace
 
 Result<AuditFile> AuditFile::open(const std::filesystem::path& folder, std::size_t max_rows) {
-  Result<Database> database = open_state_file(folder, kAuditFileName, audit_schema());
-  if (!database) {
-    return tl::unexpected(database.error());
+  Result<StateFile> file = open_state_file(folder, kAuditFileName, "the record of commands", audit_schema());
+  if (!file) {
+    return tl::unexpected(file.error());
   }
-  return AuditFile(std::move(*database), max_rows);
+  return AuditFile(std::move(*file), max_rows);
 }
 
 Status AuditFile::append(std::span<const AuditRow> rows) {

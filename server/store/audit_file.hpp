@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "server/store/database.hpp"
+#include "server/store/state_file.hpp"
 #include "server/store/store.hpp"
 
 namespace seeker::store {
@@ -38,11 +39,15 @@ class AuditFile {
   [[nodiscard]] Status append(std::span<const AuditRow> rows);
   /// The newest `limit` rows by rising number; of a client named so or "CLIENT/..." alone, unless `client` is empty.
   [[nodiscard]] Result<std::vector<AuditRow>> newest(std::size_t limit, const std::string& client = "");
+  /// What was in the file and no longer is when it was opened, as a sentence; empty: nothing.
+  [[nodiscard]] const std::string& lost() const { return lost_; }
 
  private:
-  AuditFile(Database database, std::size_t max_rows) : database_(std::move(database)), max_rows_(max_rows) {}
+  AuditFile(StateFile file, std::size_t max_rows)
+      : database_(std::move(file.database)), lost_(std::move(file.lost)), max_rows_(max_rows) {}
 
   Database database_;
+  std::string lost_;
   std::size_t max_rows_;
 };
 

@@ -207,24 +207,28 @@ Result<std::string> Database::query_text(const std::string& sql) {
 
 int Database::changes() const { return sqlite3_changes(database_); }
 
+bool Database::in_transaction() const { return sqlite3_get_autocommit(database_) == 0; }
+
 Result<Transaction> Transaction::begin(Database& database) {
-  if (const Status ok = database.execute("BEGIN IMMEDIATE"); !ok) {
+  const bool part = database.in_transaction();
+  if (const Status ok = database.execute(part ? "SAVEPOINT part" : "BEGIN IMMEDIATE"); !ok) {
     return tl::unexpected(ok.error());
   }
-  return Transaction(database);
+  return Transaction(database, part);
 }
 
-Transaction::Transaction(Transaction&& other) noexcept : database_(std::exchange(other.database_, nullptr)) {}
+Transaction::Transaction(Transaction&& other) noexcept
+    : database_(std::exchange(other.database_, nullptr)), part_(other.part_) {}
 
 Transaction::~Transaction() {
   if (database_ != nullptr) {
     // After some errors SQLite has rolled back itself, and then this fails: nothing is left to do in either case.
-    static_cast<void>(database_->execute("ROLLBACK"));
+    static_cast<void>(database_->execute(part_ ? "ROLLBACK TO part; RELEASE part" : "ROLLBACK"));
   }
 }
 
 Status Transaction::commit() {
-  const Status ok = database_->execute("COMMIT");
+  const Status ok = database_->execute(part_ ? "RELEASE part" : "COMMIT");
   if (ok) {
     database_ = nullptr;
   }

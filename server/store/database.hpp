@@ -79,6 +79,7 @@ class Database {
   [[nodiscard]] Result<std::string> query_text(const std::string& sql);
   /// Number of rows that the last statement has changed.
   [[nodiscard]] int changes() const;
+  [[nodiscard]] bool in_transaction() const;
 
  private:
   explicit Database(sqlite3* database) : database_(database) {}
@@ -88,7 +89,8 @@ class Database {
   std::map<std::string, sqlite3_stmt*> statements_;
 };
 
-/// A transaction, which is undone when it is destroyed without a commit.
+/// A transaction, which is undone when it is destroyed without a commit. One inside another is a part of it: undone
+/// alone, but on the disk only with the outer one.
 class Transaction {
  public:
   [[nodiscard]] static Result<Transaction> begin(Database& database);
@@ -101,8 +103,9 @@ class Transaction {
   [[nodiscard]] Status commit();
 
  private:
-  explicit Transaction(Database& database) : database_(&database) {}
+  Transaction(Database& database, bool part) : database_(&database), part_(part) {}
   Database* database_;  ///< null once committed or moved from
+  bool part_;           ///< inside another
 };
 
 }  // namespace seeker::store

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/files/files.hpp"
+#include "common/files/temporary_file.hpp"
 #include "server/store/landmark_rows.hpp"
 
 namespace seeker::store {
@@ -26,10 +27,8 @@ Result<Database> open_file(const fs::path& file, Access access) {
   return database;
 }
 
-/// Writes a whole new file; what is there is removed.
+/// Fills a new file.
 Status write_new(const fs::path& file, const LandmarkOrigin& origin, const LandmarkContent& content) {
-  std::error_code error;
-  fs::remove(file, error);
   Result<Database> database = Database::open(file, Access::kMake);
   if (!database) {
     return tl::unexpected(database.error());
@@ -80,15 +79,15 @@ Result<LandmarkHeader> read_header(Database& database, const fs::path& file) {
 }  // namespace
 
 Status write_landmark_file(const fs::path& file, const LandmarkOrigin& origin, const LandmarkContent& content) {
-  const fs::path temporary = file.string() + ".new";
-  std::error_code error;
-  if (Status ok = write_new(temporary, origin, content); !ok) {
-    fs::remove(temporary, error);
+  Result<files::TemporaryFile> temporary = files::TemporaryFile::beside(file);
+  if (!temporary) {
+    return tl::unexpected<Error>(temporary.error());
+  }
+  if (Status ok = write_new(temporary->path(), origin, content); !ok) {
     return ok;
   }
-  fs::rename(temporary, file, error);
-  if (error) {
-    return fail(Errc::kIo, "cannot rename '" + temporary.string() + "': " + error.message());
+  if (Status ok = temporary->move_to(file); !ok) {
+    return ok;
   }
   return files::sync_folder(file.parent_path());
 }

@@ -201,7 +201,7 @@ Status read_sides(Database& database, std::vector<LandmarkRecord>& landmarks) {
 
 const Schema& landmark_schema() {
   constexpr std::int64_t kApplicationId = 0x5345454C;  // "SEEL"
-  static const Schema kSchema{kTables, kApplicationId, kLandmarkSchemaVersion};
+  static const Schema kSchema{kTables, kApplicationId, kLandmarkSchemaVersion, "PRAGMA quick_check(1)"};
   return kSchema;
 }
 

@@ -58,13 +58,10 @@ Status NamedFiles::check_free(const std::string& name, bool replace) const {
 }
 
 Status NamedFiles::make_folder() const {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) {
-    return fail(Errc::kIo, "cannot make the " + kind_.folder + " '" + folder_.string() + "': " + error.message() +
-                               "; give another one with --state");
-  }
-  return {};
+  const Status made = files::make_folder(folder_);
+  return made
+             ? made
+             : fail(Errc::kIo, "the " + kind_.folder + ": " + made.error().message + "; give another one with --state");
 }
 
 Status NamedFiles::remove(const std::string& name) const {

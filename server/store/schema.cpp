@@ -47,8 +47,8 @@ CREATE INDEX detections_by_mission ON detections (mission, id);
 CREATE TABLE settings (key TEXT PRIMARY KEY, value BLOB NOT NULL) STRICT, WITHOUT ROWID;
 )sql";
 
-Status check_structure(Database& database) {
-  const Result<std::string> verdict = database.query_text("PRAGMA quick_check(1)");
+Status check_structure(Database& database, const Schema& schema) {
+  const Result<std::string> verdict = database.query_text(schema.check);
   if (!verdict) {
     return tl::unexpected(verdict.error());
   }
@@ -87,12 +87,12 @@ Status create_tables(Database& database, const Schema& schema) {
 
 const Schema& state_schema() {
   constexpr std::int64_t kApplicationId = 0x5345454B;  // "SEEK"
-  static const Schema kSchema{kTables, kApplicationId, kSchemaVersion};
+  static const Schema kSchema{kTables, kApplicationId, kSchemaVersion, "PRAGMA integrity_check(1)"};
   return kSchema;
 }
 
 Status prepare_schema(Database& database, const Schema& schema) {
-  if (Status ok = check_structure(database); !ok) {
+  if (Status ok = check_structure(database, schema); !ok) {
     return ok;
   }
   const Result<std::int64_t> tables = database.query_integer("SELECT count(*) FROM sqlite_master");

@@ -11,6 +11,7 @@ struct Schema {
   const char* tables;           ///< SQL that makes them in an empty file
   std::int64_t application_id;  ///< marks a file as being of this kind, in the database's header
   std::int64_t version;         ///< written by this program; a newer file is refused
+  const char* check;            ///< SQL that says "ok" where the structure is whole
 };
 
 /// The schema of the state file, whose application id is "SEEK".

@@ -60,8 +60,9 @@ Result<std::vector<std::uint8_t>> unseal(const std::string& kind, std::span<cons
 
 Status write_sealed_file(const std::filesystem::path& path, const std::string& kind, std::string_view content,
                          files::Outlives outlives) {
-  std::error_code error;
-  std::filesystem::create_directories(path.parent_path(), error);
+  if (Status made = files::make_folder(path.parent_path()); !made) {
+    return made;
+  }
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
   return files::write_file(path, seal(kind, bytes), outlives);
 }

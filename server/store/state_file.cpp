@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/files/files.hpp"
+#include "server/store/write_ahead_log.hpp"
 
 namespace seeker::store {
 namespace {
@@ -31,40 +32,60 @@ Result<fs::path> set_aside(const fs::path& file) {
   }
 }
 
-tl::unexpected<Error> open_failure(const fs::path& file, const Error& cause) {
-  if (cause.code != Errc::kCorrupt) {
-    return fail_with_context("state file '" + file.string() + "'", cause);
+/// What SQLite would take for a new or a whole file without a word; empty where nothing is lost.
+std::string silent_loss(const fs::path& file, const std::string& what) {
+  std::error_code error;
+  if (fs::exists(file, error) && fs::file_size(file, error) == 0) {
+    return what + " in '" + file.string() + "' was found empty: what was in it is lost";
   }
-  const Result<fs::path> kept = set_aside(file);
-  return fail(Errc::kCorrupt,
-              cause.message + ": '" + file.string() + "' " +
-                  (kept ? "was moved to '" + kept->string() + "'; start again to begin with an empty one"
-                        : kept.error().message));
+  const fs::path log = file.string() + "-wal";
+  const auto bytes = files::read_file(log);
+  const std::size_t forgotten = bytes ? forgotten_transactions(*bytes) : 0;
+  if (forgotten > 1) {  // one was being written when the program ended
+    return "the log '" + log.string() + "' was damaged: the last " + std::to_string(forgotten) + " writes to " + what +
+           " are lost";
+  }
+  return "";
+}
+
+/// kCorrupt: the file is closed again, so that it can be moved.
+Result<Database> open_checked(const fs::path& file, const Schema& schema) {
+  Result<Database> database = Database::open(file);
+  if (!database) {
+    return database;
+  }
+  const Status ok = prepare_schema(*database, schema);
+  return ok ? std::move(database) : Result<Database>(tl::unexpected(ok.error()));
 }
 
 }  // namespace
 
-Result<Database> open_state_file(const fs::path& folder, const std::string& name, const Schema& schema) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error)) {
-    return fail(Errc::kIo, "the state folder '" + folder.string() + "' cannot be made (" +
-                               (error ? error.message() : "a file of that name exists already") +
-                               "); choose another one with --state");
+Result<StateFile> open_state_file(const fs::path& folder, const std::string& name, const std::string& what,
+                                  const Schema& schema) {
+  if (const Status made = files::make_folder(folder); !made) {
+    return fail(Errc::kIo,
+                "the state folder cannot be made: " + made.error().message + "; choose another one with --state");
   }
   const fs::path file = folder / name;
-  Result<Database> database = Database::open(file);
-  if (!database) {
-    return open_failure(file, database.error());
+  std::string lost = silent_loss(file, what);
+  Result<Database> database = open_checked(file, schema);
+  if (!database && database.error().code == Errc::kCorrupt) {
+    const Result<fs::path> kept = set_aside(file);
+    if (!kept) {
+      return fail(Errc::kCorrupt,
+                  "state file '" + file.string() + "': " + database.error().message + ", " + kept.error().message);
+    }
+    lost = what + " was damaged (" + database.error().message + "): it was moved to '" + kept->string() +
+           "' and an empty one begun";
+    database = open_checked(file, schema);
   }
-  if (const Status ok = prepare_schema(*database, schema); !ok) {
-    { const Database closed = std::move(*database); }
-    return open_failure(file, ok.error());
+  if (!database) {
+    return fail_with_context("state file '" + file.string() + "'", database.error());
   }
   if (const Status ok = files::sync_folder(folder); !ok) {
     return tl::unexpected(ok.error());
   }
-  return database;
+  return StateFile{std::move(*database), std::move(lost)};
 }
 
 }  // namespace seeker::store

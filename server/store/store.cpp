@@ -71,11 +71,22 @@ Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
 Result<Store> Store::open(const fs::path& folder) {
-  Result<Database> database = open_state_file(folder, kFileName, state_schema());
-  if (!database) {
-    return tl::unexpected(database.error());
+  Result<StateFile> file = open_state_file(folder, kFileName, "the journal", state_schema());
+  if (!file) {
+    return tl::unexpected(file.error());
   }
-  return Store(std::make_unique<Body>(Body{std::move(*database)}));
+  return Store(std::make_unique<Body>(Body{std::move(file->database), std::move(file->lost)}));
+}
+
+const std::string& Store::lost() const { return body_->lost; }
+
+Status Store::together(const std::function<Status()>& work) {
+  Result<Transaction> transaction = Transaction::begin(body_->database);
+  if (!transaction) {
+    return tl::unexpected(transaction.error());
+  }
+  Status ok = work();
+  return ok ? transaction->commit() : ok;
 }
 
 Status Store::begin_mission(const MissionRecord& mission) {

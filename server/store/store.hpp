@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -91,13 +92,20 @@ struct UnfinishedMission {
 /// kInvalidArgument (empty id).
 class Store {
  public:
-  /// Opens or creates the store; makes the folder. kUnsupportedVersion: written by a newer program, left as it is.
-  /// kCorrupt: the damaged file was moved aside (the message says where to), so that the next open starts afresh.
+  /// Opens or creates the store; makes the folder. A damaged file is moved aside and an empty one made: lost() says so.
+  /// kUnsupportedVersion: written by a newer program, left as it is. kCorrupt: damaged, and it cannot be moved.
   [[nodiscard]] static Result<Store> open(const std::filesystem::path& folder);
 
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();
+
+  /// A sentence about the damaged file that was found in place of this one, and where it is now; empty: there was none.
+  [[nodiscard]] const std::string& lost() const;
+
+  /// Does several of the calls below as one write to the disk: a kill leaves all of them or none. A call that fails
+  /// undoes only itself; an error that `work` returns undoes all.
+  [[nodiscard]] Status together(const std::function<Status()>& work);
 
   /// Records a mission as running. A known id replaces its request, start and end, and drops its checkpoint. If that
   /// mission had no end, it is continued and keeps its events; if it had one, this is another mission and they are

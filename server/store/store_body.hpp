@@ -14,6 +14,7 @@ namespace seeker::store {
 
 struct Store::Body {
   Database database;
+  std::string lost;  ///< see lost()
 };
 
 /// Checks the size of a blob. kTooLarge above kMaxBlob_bytes; `what` begins the message.

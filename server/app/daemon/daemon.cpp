@@ -6,6 +6,7 @@
 
 #include "common/files/config_folder.hpp"
 #include "common/files/files.hpp"
+#include "common/files/temporary_file.hpp"
 #include "common/log/log.hpp"
 #include "server/app/composition/link_options.hpp"
 #include "server/app/composition/robot_assembly.hpp"
@@ -137,8 +138,16 @@ Status make_answerable(const RobotOptions& options, const std::filesystem::path&
   return {};
 }
 
+/// What was being written when the program was killed: the files it was to replace are as they were.
+void tidy(const std::filesystem::path& state) {
+  if (const std::size_t count = files::remove_left_over(state); count > 0) {
+    log::info(kPart, "removed " + std::to_string(count) + " half-written files that a kill left in " + state.string());
+  }
+}
+
 int serve(const DaemonArguments& arguments, const RobotOptions& options, const std::filesystem::path& state,
           const TerminationSignals& signals, Assembly assembly) {
+  tidy(state);
   Result<std::unique_ptr<Journal>> journal = Journal::open(state / options.robot_id);
   if (!journal) {
     log::error(kPart, journal.error().message);

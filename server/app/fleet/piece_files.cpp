@@ -38,9 +38,8 @@ Pieces PieceFiles::load(const api::FleetManifest& manifest) const {
 
 void PieceFiles::keep(const std::string& robot_id, const api::PieceHash& hash, const PieceBytes& bytes) const {
   const fs::path folder = folder_ / robot_id;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (const Status kept = files::write_file(folder / piece_name(hash), *bytes); !kept) {
+  const Status made = files::make_folder(folder);
+  if (const Status kept = made ? files::write_file(folder / piece_name(hash), *bytes) : made; !kept) {
     log::warning(kFleetPart, "a piece of '" + robot_id + "' is not kept: " + kept.error().message);
   }
 }

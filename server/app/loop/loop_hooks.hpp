@@ -39,7 +39,7 @@ struct LoopHooks {
   std::function<void(const LaserScan&)> on_scan;
   /// Called with every event, before it is published.
   std::function<void(const api::Event&)> on_event;
-  /// Called with a request that has become the running mission.
+  /// Called with a request that has become the running mission, before any event of it.
   std::function<void(const api::MissionRequest&)> on_mission_started;
   /// Called with every mission status, before subscribers get it.
   std::function<void(const api::MissionStatus&)> on_mission;

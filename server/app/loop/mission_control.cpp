@@ -51,6 +51,13 @@ Status MissionControl::able_to(const api::MissionTask& task) const {
   return parties_.world.within_reach();
 }
 
+/// What is not kept on the disk is gone after a kill, and nobody would know that the mission ever was.
+Status MissionControl::can_be_kept() const {
+  const std::optional<api::Fault> fault = parties_.diagnostics.faults().find(kJournalFailed);
+  return fault ? fail(Errc::kNotReady, "no mission can be kept on the disk: " + fault->message + "; " + fault->remedy)
+               : Status();
+}
+
 Status MissionControl::may_start(const api::MissionRequest& request, const std::string& client) const {
   const MotionAuthority& authority = parties_.motion.authority();
   if (authority.estop()) {
@@ -61,6 +68,9 @@ Status MissionControl::may_start(const api::MissionRequest& request, const std::
   }
   if (const Status able = able_to(request.task); !able) {
     return able;
+  }
+  if (const Status kept = can_be_kept(); !kept) {
+    return kept;
   }
   const RobotMap& map = parties_.localiser.map();
   const PoseEstimate& pose = parties_.localiser.pose();
@@ -75,6 +85,9 @@ Status MissionControl::may_start(const api::MissionRequest& request, const std::
 }
 
 Result<api::MissionId> MissionControl::start(const api::MissionRequest& request, const std::string& client) {
+  if (runs(request.id)) {
+    return request.id;  // asked for again by a client that has not got the answer
+  }
   if (const Status free = may_start(request, client); !free) {
     return tl::unexpected<Error>(free.error());
   }
@@ -93,9 +106,6 @@ Result<api::MissionId> MissionControl::start(const api::MissionRequest& request,
   }
   resumption_.mission_began();
   checkpoints_.begin(parties_.world.now());
-  if (parties_.hooks.on_mission_started) {
-    parties_.hooks.on_mission_started(request);
-  }
   return id;
 }
 
@@ -120,6 +130,16 @@ Status MissionControl::command(api::MissionCommand command, const std::string& c
     parties_.motion.authority().arm();
   }
   return done;
+}
+
+void MissionControl::end_unkept(const api::MissionId& mission, const Error& error) {
+  if (runs(mission)) {
+    const auto [cause, remedy] = cause_and_remedy(error);
+    parties_.executor.end(api::Outcome::kFault, "the mission could not be kept on the disk: " + cause, remedy,
+                          parties_.world.now());
+    parties_.motion.authority().disarm();
+    parties_.motion.act({});
+  }
 }
 
 void MissionControl::stop() {
@@ -162,6 +182,9 @@ Status MissionControl::resume_in_map(const Result<LineMap>& map, const MapIdenti
   }
   if (Status able = able_to(resumption_.unfinished()->task); !able) {
     return able;
+  }
+  if (Status kept_on_disk = can_be_kept(); !kept_on_disk) {
+    return kept_on_disk;
   }
   const Status usable = map ? validate(*map) : Status(tl::unexpected<Error>(map.error()));
   if (!usable) {

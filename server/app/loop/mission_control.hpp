@@ -40,10 +40,16 @@ class MissionControl {
   MissionControl(const RobotMapParams& params, const Parties& parties);
 
   /// kRefused: the emergency stop is latched, another client holds the lease, or the base cannot be driven. kNotReady:
-  /// the robot's place is not known, or its world is out of reach.
+  /// the robot's place is not known, its world is out of reach, or the disk takes nothing.
   [[nodiscard]] Result<api::MissionId> start(const api::MissionRequest& request, const std::string& client);
   /// When the command resumes a mission that a crash cut off, `client` becomes its owner.
   [[nodiscard]] Status command(api::MissionCommand command, const std::string& client);
+  /// Returns whether this mission runs or is paused.
+  [[nodiscard]] bool runs(const api::MissionId& mission) const {
+    return parties_.executor.request() != nullptr && parties_.executor.request()->id == mission;
+  }
+  /// Ends a mission that has just begun, because its beginning could not be written to the disk, and disarms the robot.
+  void end_unkept(const api::MissionId& mission, const Error& error);
   /// Ends the present mission and the search for the robot's place in a kept map.
   void stop();
 
@@ -79,6 +85,7 @@ class MissionControl {
 
  private:
   [[nodiscard]] Status may_start(const api::MissionRequest& request, const std::string& client) const;
+  [[nodiscard]] Status can_be_kept() const;
   [[nodiscard]] Status able_to(const api::MissionTask& task) const;
   [[nodiscard]] Status resume_without_map(const Error& error, const KeptState& kept, const std::string& client);
   void begin_new_map();

@@ -69,6 +69,12 @@ MissionOutputs RobotLoop::mission_outputs(UpdateHub& hub) {
                   hooks_.on_detection(detection);
                 }
                 hub.publish(api::Topic::kDetection, now(), detection);
+              },
+          .begun =
+              [this](const api::MissionRequest& request) {
+                if (hooks_.on_mission_started) {
+                  hooks_.on_mission_started(request);
+                }
               }};
 }
 

@@ -59,6 +59,9 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   active_ = std::move(active);
   findings_.begin_mission();
   event_sequence_ = 0;
+  if (outputs_.begun) {
+    outputs_.begun(active_->request);
+  }
   log(situation.now, "mission-started", active_->status.kind + " started");
   report(situation.now);
   return request.id;

@@ -35,6 +35,9 @@ struct MissionOutputs {
   std::function<void(const api::Event&)> event;
   std::function<void(const api::MissionStatus&)> status;
   std::function<void(const api::Detection&)> detection;  ///< new, refined, or withdrawn
+  /// The mission that begins, before any event of it: a journal that keeps its events knows whose they are. May be
+  /// empty.
+  std::function<void(const api::MissionRequest&)> begun = {};
 };
 
 /// How far a mission has come: what one that was cut off goes on from.

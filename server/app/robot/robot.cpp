@@ -17,6 +17,9 @@ constexpr std::chrono::milliseconds kIdleWait{200};
 /// How long a loop that waits for its world leaves clients without an answer.
 constexpr std::chrono::milliseconds kAwaitSlice{10};
 
+constexpr const char* kJournalRemedy =
+    "free space on the disk of the state folder; it is tried again by itself, and missions that run go on";
+
 constexpr const char* kMapWaits =
     "the map of the mission that was cut off has not been taken up again; 'seeker resume' does, and so does a new "
     "mission with a new map";
@@ -82,7 +85,7 @@ Robot::Robot(RobotIdentity identity, const LoopParams& params, LoopParts parts, 
 Robot::~Robot() {
   stop();
   if (journal_) {
-    journal_->set_on_error(nullptr);
+    journal_->set_watch({});
   }
   if (audit_) {
     audit_->set_on_error(nullptr);
@@ -188,13 +191,40 @@ void Robot::keep_journal() {
     loop_.commands().set_estop(true);
     log::warning("robot", "the emergency stop was latched when the program ended, and is; 'seeker estop --release'");
   }
-  journal_->set_on_error([this](const Error& error) {
-    static_cast<void>(mailbox_.post([this, error] {
-      loop_.diagnostics().raise("journal-failed", "journal", "the journal cannot be written: " + error.message,
-                                "free space on the disk of the state folder; missions go on without a journal",
-                                api::Severity::kWarning);
-    }));
+  watch_journal();
+  hub_.set_gate([this](std::function<void()> deliver) {
+    // Also where the disk takes nothing: the fault says so, and who watches a robot needs to see it.
+    journal_->when_kept([deliver = std::move(deliver)](const Status& /*kept*/) { deliver(); });
   });
+}
+
+void Robot::watch_journal() {
+  if (!journal_->lost().empty()) {
+    log::warning("robot", journal_->lost());
+    loop_.diagnostics().raise("journal-lost", "journal", journal_->lost(),
+                              "the robot works as before; this is said until the program starts again",
+                              api::Severity::kWarning);
+  }
+  journal_->set_watch(
+      {.failing =
+           [this](const Error& error) {
+             static_cast<void>(mailbox_.post([this, error] {
+               loop_.diagnostics().raise(
+                   kJournalFailed, "journal",
+                   "the journal in '" + journal_->folder().string() + "' cannot be written: " + error.message,
+                   std::string(kJournalRemedy), api::Severity::kWarning);
+             }));
+           },
+       .writes_again =
+           [this] { static_cast<void>(mailbox_.post([this] { loop_.diagnostics().clear(kJournalFailed); })); },
+       .lost =
+           [this](const Error& error) {
+             static_cast<void>(mailbox_.post([this, error] {
+               loop_.diagnostics().raise("journal-gap", "journal", "the journal lacks a record: " + error.message,
+                                         "missions go on; look at the disk of the state folder",
+                                         api::Severity::kWarning);
+             }));
+           }});
 }
 
 void Robot::record(std::unique_ptr<DriveRecorder> recorder) {
@@ -229,13 +259,53 @@ void Robot::diagnose(HostSources sources) {
   diagnosis_ = std::make_unique<DiagnosisService>(std::move(sources));
 }
 
-/// Answers when it is on the disk. That it is not is a fault of the journal; the robot has stopped in any case.
+/// Answers when it is on the disk. The robot has stopped, or is free, in any case: the answer says where it is not
+/// kept.
 void Robot::keep_estop(bool engaged, const api::Reply<void>& reply) {
   if (!journal_) {
     reply({});
     return;
   }
-  journal_->keep_estop(engaged, [reply](const Status& /*kept*/) { reply({}); });
+  journal_->keep_estop(engaged, [reply, engaged](const Status& kept) {
+    reply(kept ? kept
+               : fail(Errc::kNotReady,
+                      std::string("the emergency stop is ") +
+                          (engaged ? "latched, but a restart of the robot's program would release it"
+                                   : "released, but a restart of the robot's program would latch it again") +
+                          " (" + kept.error().message + "); " + kJournalRemedy));
+  });
+}
+
+/// Answers when the beginning of the mission is on the disk; where it cannot be written, the mission ends. `again`: it
+/// ran before it was asked for, and goes on in any case.
+void Robot::accept(const api::MissionAccepted& accepted, bool again, const api::Reply<api::MissionAccepted>& reply) {
+  if (!journal_) {
+    reply(accepted);
+    return;
+  }
+  journal_->when_kept([this, accepted, again, reply](const Status& kept) {
+    if (kept || again) {
+      reply(accepted);
+      return;
+    }
+    const auto refuse = [this, id = accepted.id, error = kept.error(), reply] {
+      loop_.mission_control().end_unkept(id, error);
+      reply(fail(Errc::kNotReady,
+                 "the mission could not be kept on the disk (" + error.message + "); " + kJournalRemedy));
+    };
+    if (!mailbox_.post(refuse)) {
+      reply(fail(Errc::kBusy, "the robot is shutting down"));
+    }
+  });
+}
+
+void Robot::answer_kept(const Status& done, const api::Reply<void>& reply) {
+  if (!journal_ || !done) {
+    reply(done);
+    return;
+  }
+  // Where the disk takes nothing it is done all the same; the fault says that it is not kept.
+  journal_->when_kept([reply](const Status& /*kept*/) { reply({}); });
 }
 
 void Robot::start(bool wait_for_client) {
@@ -248,6 +318,9 @@ void Robot::stop() {
   mailbox_.close();
   if (thread_.joinable()) {
     thread_.join();
+  }
+  if (journal_) {
+    journal_->finish();  // what clients are told last waits for the disk
   }
 }
 

@@ -78,7 +78,10 @@ class Robot final : public api::RobotHost {
   void give_own_topology(const api::Reply<OwnTopology>& reply);
   void give_own_seen(const api::Reply<OwnSeen>& reply);
   void keep_journal();
+  void watch_journal();
   void keep_estop(bool engaged, const api::Reply<void>& reply);
+  void accept(const api::MissionAccepted& accepted, bool again, const api::Reply<api::MissionAccepted>& reply);
+  void answer_kept(const Status& done, const api::Reply<void>& reply);
   [[nodiscard]] bool pass();
   void run(bool wait_for_client);
   [[nodiscard]] api::RobotInfo info() const;

@@ -61,10 +61,11 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     if (command == api::MissionCommand::kResume) {
-      robot_.checkpoints_.resume_mission(client_, reply);
+      robot_.checkpoints_.resume_mission(
+          client_, [self = shared_from_this(), reply](const Status& done) { self->robot_.answer_kept(done, reply); });
       return;
     }
-    ask(std::move(reply), [this, command] { return loop().commands().command_mission(command, client_); });
+    ask_kept(std::move(reply), [this, command] { return loop().commands().command_mission(command, client_); });
   }
   void get_mission(api::Reply<api::MissionStatus> reply) override {
     ask(std::move(reply), [this]() -> Result<api::MissionStatus> {
@@ -75,7 +76,7 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     });
   }
   void stop(api::Reply<void> reply) override {
-    ask(std::move(reply), [this] {
+    ask_kept(std::move(reply), [this] {
       loop().commands().stop();
       return Status();
     });
@@ -207,13 +208,18 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
         request.task);
   }
   void start(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) {
-    ask(std::move(reply), [this, request]() -> Result<api::MissionAccepted> {
-      Result<api::MissionId> id = loop().commands().start_mission(request, client_);
-      if (!id) {
-        return tl::unexpected<Error>(id.error());
-      }
-      return api::MissionAccepted{std::move(*id), loop().missions().last()->link_steps};
-    });
+    const auto shared = std::make_shared<api::Reply<api::MissionAccepted>>(std::move(reply));
+    if (!robot_.mailbox_.post([this, shared, request, self = shared_from_this()] {
+          const bool again = loop().mission_control().runs(request.id);
+          const Result<api::MissionId> id = loop().commands().start_mission(request, client_);
+          if (!id) {
+            (*shared)(tl::unexpected<Error>(id.error()));
+            return;
+          }
+          robot_.accept({*id, loop().missions().last()->link_steps}, again, *shared);
+        })) {
+      (*shared)(busy());
+    }
   }
 
   template <class T, class Work>
@@ -222,6 +228,16 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     // The task keeps the session alive: its client may be gone before the loop comes to it.
     if (!robot_.mailbox_.post(
             [shared, self = shared_from_this(), work = std::move(work)]() mutable { (*shared)(work()); })) {
+      (*shared)(busy());
+    }
+  }
+  /// Answers when what the work has changed is on the disk, so that a kill after the answer does not undo it.
+  template <class Work>
+  void ask_kept(api::Reply<void> reply, Work work) {
+    const auto shared = std::make_shared<api::Reply<void>>(std::move(reply));
+    if (!robot_.mailbox_.post([this, shared, self = shared_from_this(), work = std::move(work)]() mutable {
+          robot_.answer_kept(work(), *shared);
+        })) {
       (*shared)(busy());
     }
   }

@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace seeker::app {
+namespace {
+
+bool is_journaled(api::Topic topic) {
+  return topic == api::Topic::kMission || topic == api::Topic::kEvent || topic == api::Topic::kDetection;
+}
+
+}  // namespace
 
 class UpdateHub::Handle final : public api::Subscription {
  public:
@@ -52,6 +59,15 @@ void UpdateHub::publish(api::Topic topic, RobotTime stamp, api::Payload payload)
   update->sequence = ++sequence_[index];
   update->stamp = stamp;
   update->payload = std::move(payload);
+  if (gate_ && is_journaled(topic)) {
+    gate_([this, update] { deliver(update); });
+  } else {
+    deliver(update);
+  }
+}
+
+void UpdateHub::deliver(const std::shared_ptr<const api::Update>& update) {
+  const auto index = static_cast<std::size_t>(update->topic);
   std::vector<std::shared_ptr<Entry>> entries;
   {
     const std::lock_guard lock(shared_->mutex);

@@ -14,7 +14,7 @@
 
 namespace seeker::app {
 
-/// Numbers updates per topic and calls the sinks on the publishing thread.
+/// Numbers updates per topic and calls the sinks on the publishing thread, or by the gate on the one that opens it.
 class UpdateHub {
  public:
   /// Ends when the returned object is destroyed; the hub may be gone by then. `on_subscribed` of the hub runs once
@@ -24,6 +24,9 @@ class UpdateHub {
   /// True when somebody listens: the loop does not build what nobody wants.
   [[nodiscard]] bool wanted(api::Topic topic) const;
   void publish(api::Topic topic, RobotTime stamp, api::Payload payload);
+  /// From now on updates of missions, events and detections wait for `gate`, which keeps their order and calls each
+  /// one's `deliver` once, on any one thread: what is told shall be on the disk before. The hub outlives those calls.
+  void set_gate(std::function<void(std::function<void()> deliver)> gate) { gate_ = std::move(gate); }
 
  private:
   struct Entry {
@@ -38,8 +41,11 @@ class UpdateHub {
   };
   class Handle;
 
+  void deliver(const std::shared_ptr<const api::Update>& update);
+
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::array<std::uint64_t, api::kTopicCount> sequence_{};
+  std::function<void(std::function<void()>)> gate_;
 };
 
 }  // namespace seeker::app

@@ -59,6 +59,9 @@ Result<std::unique_ptr<AuditTrail>> AuditTrail::open(const std::filesystem::path
   if (!file) {
     return tl::unexpected<Error>(file.error());
   }
+  if (!file->lost().empty()) {
+    log::warning(kPart, file->lost());
+  }
   return std::unique_ptr<AuditTrail>(new AuditTrail(std::move(*file)));
 }
 

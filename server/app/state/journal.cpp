@@ -7,9 +7,6 @@
 namespace seeker::app {
 namespace {
 
-/// Waiting writes; a disk that is this far behind is not coming back soon.
-constexpr std::size_t kMaxWaiting = 10'000;
-
 /// The setting that holds the emergency stop: one byte, 0 when it is released.
 constexpr const char* kEstopKey = "estop";
 
@@ -49,34 +46,39 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::filesystem::path& fold
   if (!store) {
     return tl::unexpected<Error>(store.error());
   }
-  auto journal = std::unique_ptr<Journal>(new Journal(std::move(*store)));
+  auto journal = std::unique_ptr<Journal>(new Journal(std::move(*store), folder));
   const Result<std::uint64_t> highest = journal->store_.highest_detection_id();
   if (!highest) {
     return tl::unexpected<Error>(highest.error());
   }
   journal->highest_detection_id_ = *highest;
   journal->find_unfinished();
-  const Result<std::optional<store::Blob>> estop = journal->store_.get(kEstopKey);
-  journal->estop_ = !estop || (estop->has_value() && **estop != store::Blob{0});
-  journal->thread_ = std::thread([raw = journal.get()] { raw->work(); });
+  journal->read_estop();
+  journal->writer_ = std::make_unique<JournalWriter>(journal->store_);
   return journal;
 }
 
-Journal::Journal(store::Store store) : store_(std::move(store)) {}
+Journal::Journal(store::Store store, std::filesystem::path folder)
+    : store_(std::move(store)), folder_(std::move(folder)), lost_(store_.lost()) {}
 
-Journal::~Journal() {
-  {
-    const std::lock_guard lock(mutex_);
-    quit_ = true;
-  }
-  wake_.notify_all();
-  if (thread_.joinable()) {
-    thread_.join();
+void Journal::note_lost(const std::string& what) { lost_ += (lost_.empty() ? "" : "; ") + what; }
+
+void Journal::read_estop() {
+  const Result<std::optional<store::Blob>> estop = store_.get(kEstopKey);
+  // Whether it was latched in a journal that cannot be read nobody knows.
+  const bool unknown = !estop || !store_.lost().empty();
+  estop_ = unknown || (estop->has_value() && **estop != store::Blob{0});
+  if (unknown) {
+    note_lost("whether the emergency stop was latched is not known, so it is");
+    static_cast<void>(store_.put(kEstopKey, store::Blob{1}));  // until somebody releases it
   }
 }
 
 void Journal::find_unfinished() {
   Result<std::optional<store::UnfinishedMission>> found = store_.unfinished_mission();
+  if (!found) {
+    note_lost("the mission that was cut off cannot be read: " + found.error().message);
+  }
   if (!found || !found->has_value()) {
     return;
   }
@@ -84,36 +86,10 @@ void Journal::find_unfinished() {
   unfinished_ = parse_request(mission.request);
   if (unfinished_) {
     open_ = std::move(mission);
-  } else {
-    static_cast<void>(close_cut_off(store_, mission));  // a request that cannot be read will never be resumed
+    return;
   }
-}
-
-void Journal::set_on_error(std::function<void(const Error&)> on_error) {
-  const std::lock_guard lock(mutex_);
-  on_error_ = std::move(on_error);
-}
-
-std::uint64_t Journal::dropped() const {
-  const std::lock_guard lock(mutex_);
-  return dropped_;
-}
-
-JournalHealth Journal::health() const {
-  const std::lock_guard lock(mutex_);
-  return {queue_.size() + urgent_.size(), dropped_, failed_};
-}
-
-void Journal::enqueue(Write write) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (queue_.size() >= kMaxWaiting) {
-      queue_.pop_front();
-      ++dropped_;
-    }
-    queue_.push_back(std::move(write));
-  }
-  wake_.notify_one();
+  note_lost("the request of mission '" + mission.id + "', which was cut off, cannot be read: start it anew");
+  static_cast<void>(close_cut_off(store_, mission));  // it will never be resumed
 }
 
 void Journal::mission_started(const api::MissionRequest& request, RobotTime now) {
@@ -176,39 +152,12 @@ void Journal::detection(const api::Detection& detection) {
   });
 }
 
-void Journal::keep_estop(bool engaged, std::function<void(const Status&)> kept) {
-  {
-    const std::lock_guard lock(mutex_);
-    urgent_.emplace_back([engaged, kept = std::move(kept)](store::Store& store) {
-      const Status written = store.put(kEstopKey, store::Blob{static_cast<std::uint8_t>(engaged ? 1 : 0)});
-      kept(written);
-      return written;
-    });
-  }
-  wake_.notify_one();
-}
-
-void Journal::work() {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    wake_.wait(lock, [this] { return quit_ || !queue_.empty() || !urgent_.empty(); });
-    std::deque<Write>& next = urgent_.empty() ? queue_ : urgent_;
-    if (next.empty()) {
-      return;
-    }
-    const Write write = std::move(next.front());
-    next.pop_front();
-    lock.unlock();
-    const Status written = write(store_);
-    lock.lock();
-    if (!written && !failed_) {
-      failed_ = written.error();
-    }
-    if (!written && !error_reported_ && on_error_) {
-      error_reported_ = true;
-      on_error_(written.error());
-    }
-  }
+void Journal::keep_estop(bool engaged, JournalWriter::Told told) {
+  writer_->write_first(
+      [engaged](store::Store& store) {
+        return store.put(kEstopKey, store::Blob{static_cast<std::uint8_t>(engaged ? 1 : 0)});
+      },
+      std::move(told));
 }
 
 }  // namespace seeker::app

@@ -46,10 +46,16 @@ struct FakeDeck {
     all.lidar = lidar;
     return all;
   }
-  [[nodiscard]] static MissionOutputs outputs() {
-    return {.event = [](const api::Event&) {},
+  [[nodiscard]] MissionOutputs outputs() {
+    return {.event = [this](const api::Event& event) { mission_events.push_back(event.kind); },
             .status = [](const api::MissionStatus&) {},
-            .detection = [](const api::Detection&) {}};
+            .detection = [](const api::Detection&) {},
+            .begun =
+                [this](const api::MissionRequest& request) {
+                  if (hooks.on_mission_started) {
+                    hooks.on_mission_started(request);
+                  }
+                }};
   }
   [[nodiscard]] static Result<std::unique_ptr<Behaviour>> stand_still(const api::MissionTask& /*task*/,
                                                                       const Situation& /*situation*/) {
@@ -62,6 +68,7 @@ struct FakeDeck {
   UpdateHub hub;
   LoopHooks hooks;
   std::vector<api::Event> events;
+  std::vector<std::string> mission_events;  ///< their kinds
   LoopParams params;
   Diagnostics diagnostics{clock, hub, hooks};
   WorldLink world{clock, "fake", std::chrono::milliseconds(100), std::chrono::seconds(10), diagnostics};

@@ -116,7 +116,8 @@ TEST(Journal, OnlyTheFirstErrorIsToldSinceThoseAfterItHideTheCause) {
   std::vector<std::string> told;
   {
     const auto journal = Journal::open(folder.path()).value();
-    journal->set_on_error([&](const Error& error) { told.push_back(error.message); });
+    journal->set_watch(
+        {.failing = {}, .writes_again = {}, .lost = [&](const Error& error) { told.push_back(error.message); }});
     api::MissionStatus status;
     status.id = "never-begun";
     status.end = api::MissionEnd{api::Outcome::kComplete, "", "", {}};
@@ -127,6 +128,31 @@ TEST(Journal, OnlyTheFirstErrorIsToldSinceThoseAfterItHideTheCause) {
   }
   ASSERT_EQ(told.size(), 1U);
   EXPECT_NE(told.front().find("never-begun"), std::string::npos) << told.front();
+}
+
+TEST(Journal, DamagedOneIsToldAndTheRobotComesUpStopped) {
+  const testing::TemporaryFolder folder;
+  Journal::open(folder.path()).value()->mission_started(exploration("round"), RobotTime{});
+  std::filesystem::resize_file(folder.path() / "seeker.db", 5000);
+  {
+    const auto journal = Journal::open(folder.path()).value();
+    EXPECT_NE(journal->lost().find("seeker.db.damaged-1"), std::string::npos) << journal->lost();
+    EXPECT_TRUE(journal->estop()) << "nobody knows whether it was latched";
+    EXPECT_FALSE(journal->unfinished());
+  }
+  const auto again = Journal::open(folder.path()).value();
+  EXPECT_EQ(again->lost(), "");
+  EXPECT_TRUE(again->estop()) << "until somebody releases it";
+}
+
+TEST(Journal, RequestThatCannotBeReadIsTold) {
+  const testing::TemporaryFolder folder;
+  {
+    store::Store store = store::Store::open(folder.path()).value();
+    ASSERT_TRUE(store.begin_mission({"round", "explore", store::Blob{0xff, 0xff}, 0, std::nullopt}));
+  }
+  EXPECT_NE(Journal::open(folder.path()).value()->lost().find("'round'"), std::string::npos);
+  EXPECT_EQ(end_of(folder.path(), "round")->outcome, "FAULT");
 }
 
 }  // namespace

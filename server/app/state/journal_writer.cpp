@@ -1,0 +1,225 @@
+#include "server/app/state/journal_writer.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace seeker::app {
+namespace {
+
+/// Waiting records; a disk that is this far behind is not coming back soon.
+constexpr std::size_t kMaxWaiting = 10'000;
+/// Records in one write to the disk: an emergency stop waits for one such write at most.
+constexpr std::size_t kMaxBatch = 256;
+/// How long a disk that takes nothing is left alone.
+constexpr std::chrono::milliseconds kRetryPeriod{500};
+
+/// Whether the disk is to blame, so that the same record may be written later.
+bool of_the_disk(const Error& error) {
+  return error.code == Errc::kIo || error.code == Errc::kBusy || error.code == Errc::kCorrupt;
+}
+
+Status closed() { return fail(Errc::kNotReady, "the journal is closed; the program ends"); }
+
+}  // namespace
+
+JournalWriter::JournalWriter(store::Store& store) : store_(store), thread_([this] { work(); }) {}
+
+void JournalWriter::finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void JournalWriter::set_watch(JournalWatch watch) {
+  const std::lock_guard lock(mutex_);
+  watch_ = std::move(watch);
+}
+
+JournalHealth JournalWriter::health() const {
+  const std::lock_guard lock(mutex_);
+  return {first_.size() + waiting_.size(), dropped_, failure_};
+}
+
+void JournalWriter::write(Write write, Told told) { enqueue(waiting_, {std::move(write), std::move(told)}); }
+
+void JournalWriter::write_first(Write write, Told told) { enqueue(first_, {std::move(write), std::move(told)}); }
+
+void JournalWriter::enqueue(std::deque<Entry>& queue, Entry entry) {
+  std::unique_lock lock(mutex_);
+  if (ended_) {
+    lock.unlock();
+    if (entry.told) {
+      entry.told(closed());
+    }
+    return;
+  }
+  if (waiting_.size() >= kMaxWaiting) {
+    drop_oldest();
+  }
+  queue.push_back(std::move(entry));
+  untold_ = true;
+  lock.unlock();
+  wake_.notify_one();
+}
+
+void JournalWriter::drop_oldest() {
+  if (waiting_.front().told) {
+    dropped_tells_.push_back(std::move(waiting_.front().told));
+  }
+  dropped_ += waiting_.front().write ? 1 : 0;
+  waiting_.pop_front();
+}
+
+void JournalWriter::work() {
+  std::unique_lock lock(mutex_);
+  while (wait_for_work(lock)) {
+    if (failure_ && !quit_ && std::chrono::steady_clock::now() < retry_at_) {
+      tell_failing(lock);
+    } else {
+      attempt(lock);
+    }
+  }
+  ended_ = true;
+}
+
+/// False at the end: all is written, or the last attempt has failed.
+bool JournalWriter::wait_for_work(std::unique_lock<std::mutex>& lock) {
+  const auto waits = [this] { return !first_.empty() || !waiting_.empty(); };
+  if (failure_ && !quit_) {
+    wake_.wait_until(lock, retry_at_, [this] { return quit_ || untold_; });
+    return true;
+  }
+  wake_.wait(lock, [&] { return quit_ || waits(); });
+  return waits();
+}
+
+JournalWriter::Batch JournalWriter::take_batch() {
+  Batch batch;
+  const auto take = [](std::deque<Entry>& from, std::size_t most, std::vector<Entry>& into) {
+    const auto end = from.begin() + static_cast<std::ptrdiff_t>(std::min(from.size(), most));
+    std::move(from.begin(), end, std::back_inserter(into));
+    from.erase(from.begin(), end);
+  };
+  take(first_, first_.size(), batch.first);
+  take(waiting_, kMaxBatch, batch.rest);
+  return batch;
+}
+
+/// Error: nothing of the batch is on the disk. A record that the store refuses keeps no other from being written.
+Status JournalWriter::write_all(Batch& batch) {
+  batch.outcomes.clear();
+  return store_.together([&]() -> Status {
+    for (const std::vector<Entry>* part : {&batch.first, &batch.rest}) {
+      for (const Entry& entry : *part) {
+        batch.outcomes.push_back(entry.write ? entry.write(store_) : Status());
+        if (const Status& last = batch.outcomes.back(); !last && of_the_disk(last.error())) {
+          return last;
+        }
+      }
+    }
+    return {};
+  });
+}
+
+void JournalWriter::attempt(std::unique_lock<std::mutex>& lock) {
+  Batch batch = take_batch();
+  std::vector<Told> dropped = std::exchange(dropped_tells_, {});
+  const bool full = dropped_ > 0;
+  lock.unlock();
+  for (const Told& told : dropped) {
+    told(fail(Errc::kIo, "the disk does not follow"));
+  }
+  if (full) {
+    note_lost({Errc::kIo, "more than " + std::to_string(kMaxWaiting) + " records were waiting for the disk"});
+  }
+  const Status written = write_all(batch);
+  if (written) {
+    const bool recovered = failure_.has_value();
+    tell_kept(batch, recovered);
+    lock.lock();
+    failure_.reset();
+    return;
+  }
+  lock.lock();
+  first_.insert(first_.begin(), std::make_move_iterator(batch.first.begin()),
+                std::make_move_iterator(batch.first.end()));
+  waiting_.insert(waiting_.begin(), std::make_move_iterator(batch.rest.begin()),
+                  std::make_move_iterator(batch.rest.end()));
+  const bool new_failure = !failure_.has_value();
+  failure_ = written.error();
+  retry_at_ = std::chrono::steady_clock::now() + kRetryPeriod;
+  const auto failing = watch_.failing;
+  if (new_failure && failing) {
+    lock.unlock();
+    failing(written.error());
+    lock.lock();
+  }
+  tell_failing(lock);
+  if (quit_) {
+    first_.clear();
+    waiting_.clear();
+  }
+}
+
+void JournalWriter::tell_kept(Batch& batch, bool recovered) {
+  std::size_t k = 0;
+  for (const std::vector<Entry>* part : {&batch.first, &batch.rest}) {
+    for (const Entry& entry : *part) {
+      const Status& outcome = batch.outcomes[k++];
+      if (!outcome) {
+        note_lost(outcome.error());
+      }
+      if (entry.told) {
+        entry.told(outcome);
+      }
+    }
+  }
+  if (recovered) {
+    std::unique_lock lock(mutex_);
+    const auto writes_again = watch_.writes_again;
+    lock.unlock();
+    if (writes_again) {
+      writes_again();
+    }
+  }
+}
+
+/// What is waiting keeps its place; whoever wants to know when it is written knows now that it is not.
+void JournalWriter::tell_failing(std::unique_lock<std::mutex>& lock) {
+  std::vector<Told> tells = std::exchange(dropped_tells_, {});
+  for (std::deque<Entry>* queue : {&first_, &waiting_}) {
+    for (Entry& entry : *queue) {
+      if (entry.told) {
+        tells.push_back(std::exchange(entry.told, nullptr));
+      }
+    }
+  }
+  std::erase_if(waiting_, [](const Entry& entry) { return !entry.write; });
+  untold_ = false;
+  const Status failure = tl::unexpected<Error>(*failure_);
+  lock.unlock();
+  for (const Told& told : tells) {
+    told(failure);
+  }
+  lock.lock();
+}
+
+void JournalWriter::note_lost(const Error& error) {
+  std::unique_lock lock(mutex_);
+  const auto lost = watch_.lost;
+  if (std::exchange(loss_told_, loss_told_ || lost != nullptr)) {
+    return;
+  }
+  lock.unlock();
+  if (lost) {
+    lost(error);
+  }
+}
+
+}  // namespace seeker::app

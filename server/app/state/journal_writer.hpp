@@ -1,0 +1,98 @@
+/// \file
+/// A queue before the store: what is waiting is written in order, several at a time, and told when it is on the disk.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "server/store/store.hpp"
+
+namespace seeker::app {
+
+/// What becomes of the writes. All are called on the writer's thread; one that is empty is not called.
+struct JournalWatch {
+  std::function<void(const Error&)> failing;  ///< the disk takes nothing; what is waiting is tried again until it does
+  std::function<void()> writes_again;         ///< after failing(): what was waiting is being written
+  /// One record will be missing: the store refused it, or too many were waiting. The first one only, since what is
+  /// refused for want of it would hide the cause.
+  std::function<void(const Error&)> lost;
+};
+
+/// How it goes with the journal.
+struct JournalHealth {
+  std::size_t waiting = 0;      ///< writes that the disk has not taken yet
+  std::uint64_t dropped = 0;    ///< writes since the start that it never took
+  std::optional<Error> failed;  ///< why the disk takes nothing now
+};
+
+/// Any thread may ask for writes; one thread of its own does them, so that the disk never delays the loop.
+class JournalWriter {
+ public:
+  using Write = std::function<Status(store::Store&)>;
+  using Told = std::function<void(const Status&)>;
+
+  /// `store` must outlive it and is used by its thread alone.
+  explicit JournalWriter(store::Store& store);
+  JournalWriter(const JournalWriter&) = delete;
+  JournalWriter& operator=(const JournalWriter&) = delete;
+  ~JournalWriter() { finish(); }
+
+  /// Writes after what was asked for before. `told` is called when this and all before it is on the disk, with the
+  /// error where the store refused it, and with an error as soon as the disk takes nothing; it is written later then,
+  /// without being told again. Either may be empty.
+  void write(Write write, Told told);
+  /// Writes before anything that waits; never dropped.
+  void write_first(Write write, Told told);
+  void set_watch(JournalWatch watch);
+  [[nodiscard]] JournalHealth health() const;
+  /// Writes what is waiting, tried once, then ends; harmless when repeated. What is asked for later is not written.
+  void finish();
+
+ private:
+  struct Entry {
+    Write write;
+    Told told;
+  };
+  /// What is written at once.
+  struct Batch {
+    std::vector<Entry> first;  ///< of write_first()
+    std::vector<Entry> rest;
+    std::vector<Status> outcomes;  ///< of each, in this order
+  };
+
+  void enqueue(std::deque<Entry>& queue, Entry entry);
+  void drop_oldest();
+  void work();
+  [[nodiscard]] bool wait_for_work(std::unique_lock<std::mutex>& lock);
+  [[nodiscard]] Batch take_batch();
+  [[nodiscard]] Status write_all(Batch& batch);
+  void attempt(std::unique_lock<std::mutex>& lock);
+  void tell_kept(Batch& batch, bool recovered);
+  void tell_failing(std::unique_lock<std::mutex>& lock);
+  void note_lost(const Error& error);
+
+  store::Store& store_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Entry> first_;
+  std::deque<Entry> waiting_;
+  std::vector<Told> dropped_tells_;  ///< of records that were dropped
+  JournalWatch watch_;
+  std::optional<Error> failure_;  ///< while the disk takes nothing
+  std::chrono::steady_clock::time_point retry_at_;
+  bool untold_ = false;  ///< something was asked for since the failure was told
+  std::uint64_t dropped_ = 0;
+  bool loss_told_ = false;
+  bool quit_ = false;
+  bool ended_ = false;
+  std::thread thread_;
+};
+
+}  // namespace seeker::app

@@ -1,0 +1,170 @@
+// A robot whose disk is full, and then has space again; and one whose journal is damaged.
+
+#include <csignal>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/integration/processes/small_disk.hpp"
+#include "tests/integration/processes/told_ledger.hpp"
+#include "tests/integration/processes/watcher.hpp"
+
+namespace seeker::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+using ::testing::HasSubstr;
+
+constexpr const char* kFault = "journal-failed";
+
+/// Slow enough that the mission outlives what is done to its disk.
+const std::vector<std::string> kSlow{"--set", "sim.speed=15", "--set", "loop.map.checkpoint_period_s=2"};
+
+/// Hears what the robot tells and puts it into the ledger.
+class Listener {
+ public:
+  Listener(const Daemon& daemon, ToldLedger& ledger) : client_(connect(daemon, "listener")) {
+    auto subscription = client_->subscribe(
+        {{.topic = api::Topic::kMission}, {.topic = api::Topic::kEvent}, {.topic = api::Topic::kDetection}},
+        [this, &ledger](const api::UpdatePtr& update) {
+          ledger.take(update);
+          if (const auto* event = std::get_if<api::Event>(&update->payload)) {
+            const std::scoped_lock lock(mutex_);
+            heard_.insert(event->kind + " " + event->text.substr(0, event->text.find(':')));
+            changed_.notify_all();
+          }
+        });
+    EXPECT_TRUE(subscription);
+    subscription_ = std::move(*subscription);
+  }
+  /// Waits for an event of that kind about that fault.
+  [[nodiscard]] bool hears(const std::string& kind, const std::string& fault) {
+    constexpr seconds kPatience{60};
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, kPatience, [&] { return heard_.contains(kind + " " + fault); });
+  }
+
+ private:
+  std::shared_ptr<rpc::RobotClient> client_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::set<std::string> heard_;
+  std::unique_ptr<api::Subscription> subscription_;
+};
+
+std::optional<api::Fault> fault_of(const api::RobotStatus& status, const std::string& id) {
+  const auto found =
+      std::find_if(status.faults.begin(), status.faults.end(), [&](const api::Fault& f) { return f.id == id; });
+  return found == status.faults.end() ? std::nullopt : std::optional(*found);
+}
+
+class FullDisk : public ::testing::Test {
+ protected:
+  static constexpr std::size_t kDisk_bytes = std::size_t{8} << 20U;
+
+  void SetUp() override {
+    if (!disk.mounted()) {
+      GTEST_SKIP() << "no disk of its own can be mounted (" << disk.why_not() << "); run it as root";
+    }
+  }
+  void kill(Daemon& daemon) {
+    daemon.process->send(SIGKILL);
+    EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
+  }
+  /// A mission that runs, and a disk that has taken its beginning and takes no more.
+  void explore_until_full(const Daemon& daemon, Listener& listener) {
+    Watcher watcher(daemon);
+    ASSERT_EQ(seeker(daemon, {"explore", "--strategy", "frontier", "--detach", "--id", "round"}), 0);
+    static_cast<void>(watcher.until([](const api::MissionStatus& m) { return m.path_length_m > 0.3; }));
+    disk.fill();
+    ASSERT_TRUE(listener.hears("fault", kFault));
+    const double here_m = watcher.status().mission->path_length_m;
+    const api::RobotStatus later =
+        watcher.until([&](const api::MissionStatus& m) { return m.end || m.path_length_m > here_m + 0.3; });
+    EXPECT_FALSE(later.mission->end) << "a mission that runs goes on: " << later.mission->end->cause;
+    const auto fault = fault_of(later, kFault);
+    ASSERT_TRUE(fault);
+    EXPECT_THAT(fault->message, HasSubstr((folder / "state").string()));
+    EXPECT_THAT(fault->remedy, HasSubstr("free space"));
+  }
+
+  const fs::path folder = fresh_folder("full_disk");
+  const SmallDisk disk{folder / "state", kDisk_bytes};
+  std::string output;
+};
+
+TEST_F(FullDisk, MissionGoesOnNoNewOneBeginsAndAllIsKeptWhenThereIsSpaceAgain) {
+  ToldLedger ledger;
+  {
+    Daemon daemon(kSlow, folder);
+    Listener listener(daemon, ledger);
+    ASSERT_NO_FATAL_FAILURE(explore_until_full(daemon, listener));
+    EXPECT_EQ(seeker(daemon, {"map", "save", "now"}, &output), 1) << output;
+    EXPECT_THAT(output, HasSubstr("free space"));
+    EXPECT_EQ(seeker(daemon, {"stop"}), 0) << "a robot stops with any disk";
+    EXPECT_EQ(seeker(daemon, {"goto", "0.5,0"}, &output), 3) << output;
+    EXPECT_THAT(output, HasSubstr("free space"));
+    EXPECT_NE(seeker(daemon, {"estop"}, &output), 0) << output;
+    EXPECT_THAT(output, HasSubstr("latched, but a restart of the robot's program would release it"));
+    EXPECT_TRUE(Watcher(daemon).status().estop);
+    disk.free();
+    ASSERT_TRUE(listener.hears("fault-cleared", kFault));
+    EXPECT_FALSE(fault_of(Watcher(daemon).status(), kFault));
+    ASSERT_EQ(seeker(daemon, {"estop", "--release"}, &output), 0) << output;
+    EXPECT_EQ(seeker(daemon, {"goto", "0.5,0", "--detach", "--id", "after"}, &output), 0) << output;
+    ledger.started("round");
+    ledger.started("after");
+    kill(daemon);
+  }
+  EXPECT_EQ(ledger.expect_kept(folder / "state", "sim-1"), "after") << "with all that happened meanwhile";
+}
+
+TEST_F(FullDisk, ProgramThatStartsOnOneOffersTheMissionAndRefusesOthersUntilThereIsSpace) {
+  {
+    ToldLedger ledger;
+    Daemon daemon(kSlow, folder);
+    Listener listener(daemon, ledger);
+    ASSERT_NO_FATAL_FAILURE(explore_until_full(daemon, listener));
+    kill(daemon);
+  }
+  disk.fill();
+  const Daemon again(kSlow, folder);
+  ToldLedger ledger;
+  Listener listener(again, ledger);
+  const api::RobotStatus status = Watcher(again).status();
+  EXPECT_FALSE(status.motors_armed);
+  ASSERT_TRUE(status.cut_off);
+  EXPECT_EQ(status.cut_off->id, "round");
+  EXPECT_EQ(seeker(again, {"goto", "0.5,0"}, &output), 3) << output;
+  EXPECT_THAT(output, HasSubstr("free space"));
+  EXPECT_FALSE(Watcher(again).status().motors_armed) << "the mission that could not be kept has ended";
+  disk.free();
+  ASSERT_TRUE(listener.hears("fault-cleared", kFault));
+  EXPECT_EQ(seeker(again, {"goto", "0.5,0"}, &output), 0) << output;
+}
+
+TEST(DamagedJournal, RobotComesUpStoppedAndSaysWhatItLost) {
+  const fs::path folder = fresh_folder("damaged");
+  const fs::path journal = folder / "state" / "sim-1" / "seeker.db";
+  {
+    Daemon daemon({}, folder);
+    ASSERT_EQ(seeker(daemon, {"goto", "0.5,0"}), 0);
+    daemon.process->send(SIGTERM);
+    ASSERT_EQ(daemon.process->wait(seconds(20)), 0);
+  }
+  fs::resize_file(journal, fs::file_size(journal) / 2);
+  const Daemon again({}, folder);
+  EXPECT_THAT(again.process->output(), HasSubstr("seeker.db.damaged-1"));
+  const api::RobotStatus status = Watcher(again).status();
+  const auto fault = fault_of(status, "journal-lost");
+  ASSERT_TRUE(fault);
+  EXPECT_THAT(fault->message, HasSubstr("seeker.db.damaged-1"));
+  EXPECT_TRUE(status.estop) << "nobody knows whether it was latched";
+  EXPECT_FALSE(status.motors_armed);
+  EXPECT_EQ(seeker(again, {"estop", "--release"}), 0);
+  EXPECT_EQ(seeker(again, {"goto", "0.5,0"}), 0);
+}
+
+}  // namespace
+}  // namespace seeker::testing
