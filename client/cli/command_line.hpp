@@ -237,8 +237,8 @@ struct CompletionVerb {
 };
 struct VersionVerb {};
 
-using Verb = std::variant<StatusVerb, DoctorVerb, AuditVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb, LocaliseVerb,
-                          RecogniseVerb, DriveVerb, LeaseVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb,
+using Verb = std::variant<StatusVerb, DoctorVerb, AuditVerb, WatchVerb, SearchVerb, ExploreVerb, GotoVerb, SurveyVerb,
+                          LocaliseVerb, RecogniseVerb, DriveVerb, LeaseVerb, StopVerb, EstopVerb, PauseVerb, ResumeVerb,
                           MapExportVerb, MapSaveVerb, MapLoadVerb, MapListVerb, MapInspectVerb, MapDeleteVerb,
                           MapDownloadVerb, MapUploadVerb, RelocaliseVerb, LandmarksInspectVerb, LandmarksExportVerb,
                           LandmarksPruneVerb, LandmarksRevertVerb, LandmarksDeleteVerb, LandmarksDownloadVerb,

@@ -111,9 +111,7 @@ void RobotClient::command_lease(const api::LeaseCommand& command, api::Reply<api
               }));
 }
 
-void RobotClient::drive(const api::DriveCommand& command, api::Reply<void> reply) {
-  impl_->drive(command, reply);
-}
+void RobotClient::drive(const api::DriveCommand& command, api::Reply<void> reply) { impl_->drive(command, reply); }
 
 void RobotClient::get_tiles(std::uint64_t since_revision, api::Reply<api::TileUpdate> reply) {
   pb::Request request;
