@@ -30,14 +30,15 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
   visit(tree, {});
   EXPECT_EQ(names,
             (std::vector<std::string>{
-                "status",     "watch",  "map",       "export",     "save",       "load",       "list",     "info",
-                "verify",     "delete", "download",  "upload",     "relocalise", "grid",       "topology", "detections",
-                "lines",      "camera", "grab",      "components", "get",        "set",        "exchange", "activate",
-                "deactivate", "search", "recognise", "explore",    "goto",       "survey",     "localise", "landmarks",
-                "info",       "verify", "export",    "prune",      "revert",     "delete",     "fleet",    "status",
-                "merge",      "split",  "map",       "drive",      "lease",      "acquire",    "request",  "take-over",
-                "grant",      "deny",   "release",   "stop",       "estop",      "pause",      "resume",   "pki",
-                "init",       "issue",  "revoke",    "show",       "run",        "completion", "version"}));
+                "status",   "doctor",     "audit",      "watch",     "map",       "export",     "save",       "load",
+                "list",     "info",       "verify",     "delete",    "download",  "upload",     "relocalise", "grid",
+                "topology", "detections", "lines",      "camera",    "grab",      "components", "get",        "set",
+                "exchange", "activate",   "deactivate", "search",    "recognise", "explore",    "goto",       "survey",
+                "localise", "landmarks",  "info",       "verify",    "export",    "prune",      "revert",     "delete",
+                "download", "upload",     "fleet",      "status",    "merge",     "split",      "map",        "drive",
+                "lease",    "acquire",    "request",    "take-over", "grant",     "deny",       "release",    "stop",
+                "estop",    "pause",      "resume",     "pki",       "init",      "issue",      "revoke",     "show",
+                "run",      "completion", "version"}));
 }
 
 TEST(CommandLine, HelpSaysWhatEachStrategyOfAnExplorationIsGoodFor) {
