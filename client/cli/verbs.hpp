@@ -33,7 +33,7 @@ struct Patient {
   std::string robot;        ///< the address given with --robot
   std::string own_version;  ///< of this program
 };
-/// Checks the way to the robot and the robot, as far as it comes. The exit code is 1 when a check has failed.
+/// Checks the link to the robot and the robot, as far as it comes. The exit code is 1 when a check has failed.
 [[nodiscard]] VerbResult examine(const Context& context, const Patient& patient, const Dial& dial);
 [[nodiscard]] VerbResult show_audit(const Context& context, const AuditVerb& verb);
 [[nodiscard]] VerbResult show_components(const Context& context, const ComponentsVerb& verb);

@@ -1,5 +1,5 @@
 /// \file
-/// What to think of the way to a robot, and of what it says of itself. Values in, findings out.
+/// What to think of the link to a robot, and of what it says of itself. Values in, findings out.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ inline constexpr double kLateShare = 0.001;
 /// The versions of this program and of a robot.
 [[nodiscard]] api::Finding judge_versions(const std::string& own_version, const api::RobotInfo& robot);
 
-/// Wall clock of the robot minus that of this machine, known to `uncertainty`; nothing: the robot does not tell.
+/// Wall clock of the robot minus that of this machine, known to `uncertainty`; nothing: the robot does not say.
 [[nodiscard]] api::Finding judge_clocks(const std::optional<Duration>& robot_minus_own, Duration uncertainty);
 
 /// Times of calls and their answers, at least one.

@@ -1,5 +1,5 @@
 /// \file
-/// The way to a robot: what its name stands for, and whether something listens there.
+/// The address of a robot: what its name stands for, and whether something listens there.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@
 namespace seeker::files {
 
 /// Lies beside the file it is for, as NAME.tmp-XXXXXX. It is locked while this object lives, so that what a killed
-/// program has left behind can be told from what another one is writing; removed when this object ends.
+/// program has left behind can be distinguished from what another one is writing; removed when this object ends.
 class TemporaryFile {
  public:
   /// Makes an empty one for `path`. kIo.

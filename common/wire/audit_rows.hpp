@@ -24,7 +24,7 @@ class AuditRows {
 
   explicit AuditRows(Sink sink) : sink_(std::move(sink)) {}
 
-  /// A command with its outcome. `kind` tells it from commands that are not of its row; so does the outcome.
+  /// A command with its outcome. `kind` distinguishes it from commands that are not of its row; so does the outcome.
   void add(api::AuditRecord record, const std::string& kind, WallTime now);
   /// Ends rows in which nothing came for kAuditRowGap; to be called about once per second.
   void tick(WallTime now);

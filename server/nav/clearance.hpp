@@ -39,10 +39,10 @@ struct ClearanceParams {
                                                   const std::vector<Point2>& points_base,
                                                   const ClearanceParams& params);
 
-/// `wanted`, slowed so far that the base comes to rest without contact whenever it is told to stand. Such a base gives
-/// up its rotation at once and rolls straight on while it brakes, so that an arc around an obstacle ends in it. The
-/// command may end after any part of the arc, and the base may still turn as at `present`, its velocity now. With no
-/// room v is zero and omega stays. The result is never faster than `wanted`, and no sign changes.
+/// `wanted`, slowed so far that the base comes to rest without contact whenever it is ordered to stand. Such a base
+/// gives up its rotation at once and rolls straight on while it brakes, so that an arc around an obstacle ends in it.
+/// The command may end after any part of the arc, and the base may still turn as at `present`, its velocity now. With
+/// no room v is zero and omega stays. The result is never faster than `wanted`, and no sign changes.
 [[nodiscard]] Twist2 limit_for_sudden_stop(const Twist2& wanted, const Twist2& present,
                                            const std::vector<Point2>& points_base, const ClearanceParams& params);
 

@@ -22,8 +22,8 @@ struct AuditClocks {
   wire::WallTime wall;
 };
 
-/// `drive` commands of one outcome are a row (wire::AuditRows) whatever their velocity; other commands are where they
-/// ask for the same; those that the session has refused by itself (role, rate) are whatever they ask for.
+/// `drive` commands of one outcome are a row (wire::AuditRows) at any velocity; other commands are where they
+/// ask for the same; those that the session has refused by itself (role, rate) are one for any of them.
 class SessionAudit {
  public:
   using Sink = wire::AuditRows::Sink;

@@ -37,7 +37,7 @@ struct HostFacts {
   std::filesystem::path folder;
   Result<DiskFacts> disk;
   Status writable;             ///< whether a file could be written into the folder
-  Result<MemoryFacts> memory;  ///< kNotFound: the system does not tell
+  Result<MemoryFacts> memory;  ///< kNotFound: the system does not say
   ClockFacts clock;
   std::optional<JournalHealth> journal;
   std::uint64_t audit_lost = 0;                              ///< records of who commanded what, since the start

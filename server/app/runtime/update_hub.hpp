@@ -25,7 +25,8 @@ class UpdateHub {
   [[nodiscard]] bool wanted(api::Topic topic) const;
   void publish(api::Topic topic, RobotTime stamp, api::Payload payload);
   /// From now on updates of missions, events and detections wait for `gate`, which keeps their order and calls each
-  /// one's `deliver` once, on any one thread: what is told shall be on the disk before. The hub outlives those calls.
+  /// one's `deliver` once, on any one thread: what is published shall be on the disk before. The hub outlives those
+  /// calls.
   void set_gate(std::function<void(std::function<void()> deliver)> gate) { gate_ = std::move(gate); }
 
  private:

@@ -152,12 +152,12 @@ void Journal::detection(const api::Detection& detection) {
   });
 }
 
-void Journal::keep_estop(bool engaged, JournalWriter::Told told) {
+void Journal::keep_estop(bool engaged, JournalWriter::OnKept on_kept) {
   writer_->write_first(
       [engaged](store::Store& store) {
         return store.put(kEstopKey, store::Blob{static_cast<std::uint8_t>(engaged ? 1 : 0)});
       },
-      std::move(told));
+      std::move(on_kept));
 }
 
 }  // namespace seeker::app

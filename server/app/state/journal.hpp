@@ -14,7 +14,7 @@
 
 namespace seeker::app {
 
-/// Missions, their events and detections in order. What happens is written on a thread of its own; when_kept() tells
+/// Missions, their events and detections in order. What happens is written on a thread of its own; when_kept() says
 /// when that is done. While the disk takes nothing, the newest records wait for it in memory, some thousands of them.
 class Journal {
  public:
@@ -38,12 +38,12 @@ class Journal {
   void detection(const api::Detection& detection);
   /// The emergency stop was latched when the program ended. One whose record cannot be read counts as latched.
   [[nodiscard]] bool estop() const { return estop_; }
-  /// Keeps the emergency stop before anything that waits; `told` is called on the journal's thread when it is on the
+  /// Keeps the emergency stop before anything that waits; `on_kept` is called on the journal's thread when it is on the
   /// disk, or with the error.
-  void keep_estop(bool engaged, JournalWriter::Told told);
-  /// Calls `told` on the journal's thread when all that was told to the journal before is on the disk. With an error
-  /// where the disk takes nothing: it is written when it can be, but a kill before that loses it.
-  void when_kept(JournalWriter::Told told) { writer_->write(nullptr, std::move(told)); }
+  void keep_estop(bool engaged, JournalWriter::OnKept on_kept);
+  /// Calls `on_kept` on the journal's thread when all that was given to the journal before is on the disk. With an
+  /// error where the disk takes nothing: it is written when it can be, but a kill before that loses it.
+  void when_kept(JournalWriter::OnKept on_kept) { writer_->write(nullptr, std::move(on_kept)); }
   void set_watch(JournalWatch watch) { writer_->set_watch(std::move(watch)); }
   /// Writes what is waiting, then ends the thread; harmless when repeated.
   void finish() { writer_->finish(); }

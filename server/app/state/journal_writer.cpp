@@ -46,16 +46,18 @@ JournalHealth JournalWriter::health() const {
   return {first_.size() + waiting_.size(), dropped_, failure_};
 }
 
-void JournalWriter::write(Write write, Told told) { enqueue(waiting_, {std::move(write), std::move(told)}); }
+void JournalWriter::write(Write write, OnKept on_kept) { enqueue(waiting_, {std::move(write), std::move(on_kept)}); }
 
-void JournalWriter::write_first(Write write, Told told) { enqueue(first_, {std::move(write), std::move(told)}); }
+void JournalWriter::write_first(Write write, OnKept on_kept) {
+  enqueue(first_, {std::move(write), std::move(on_kept)});
+}
 
 void JournalWriter::enqueue(std::deque<Entry>& queue, Entry entry) {
   std::unique_lock lock(mutex_);
   if (ended_) {
     lock.unlock();
-    if (entry.told) {
-      entry.told(closed());
+    if (entry.on_kept) {
+      entry.on_kept(closed());
     }
     return;
   }
@@ -63,14 +65,14 @@ void JournalWriter::enqueue(std::deque<Entry>& queue, Entry entry) {
     drop_oldest();
   }
   queue.push_back(std::move(entry));
-  untold_ = true;
+  unreported_ = true;
   lock.unlock();
   wake_.notify_one();
 }
 
 void JournalWriter::drop_oldest() {
-  if (waiting_.front().told) {
-    dropped_tells_.push_back(std::move(waiting_.front().told));
+  if (waiting_.front().on_kept) {
+    dropped_callbacks_.push_back(std::move(waiting_.front().on_kept));
   }
   dropped_ += waiting_.front().write ? 1 : 0;
   waiting_.pop_front();
@@ -80,7 +82,7 @@ void JournalWriter::work() {
   std::unique_lock lock(mutex_);
   while (wait_for_work(lock)) {
     if (failure_ && !quit_ && std::chrono::steady_clock::now() < retry_at_) {
-      tell_failing(lock);
+      report_failing(lock);
     } else {
       attempt(lock);
     }
@@ -92,7 +94,7 @@ void JournalWriter::work() {
 bool JournalWriter::wait_for_work(std::unique_lock<std::mutex>& lock) {
   const auto waits = [this] { return !first_.empty() || !waiting_.empty(); };
   if (failure_ && !quit_) {
-    wake_.wait_until(lock, retry_at_, [this] { return quit_ || untold_; });
+    wake_.wait_until(lock, retry_at_, [this] { return quit_ || unreported_; });
     return true;
   }
   wake_.wait(lock, [&] { return quit_ || waits(); });
@@ -129,11 +131,11 @@ Status JournalWriter::write_all(Batch& batch) {
 
 void JournalWriter::attempt(std::unique_lock<std::mutex>& lock) {
   Batch batch = take_batch();
-  std::vector<Told> dropped = std::exchange(dropped_tells_, {});
+  std::vector<OnKept> dropped = std::exchange(dropped_callbacks_, {});
   const bool full = dropped_ > 0;
   lock.unlock();
-  for (const Told& told : dropped) {
-    told(fail(Errc::kIo, "the disk does not follow"));
+  for (const OnKept& on_kept : dropped) {
+    on_kept(fail(Errc::kIo, "the disk does not follow"));
   }
   if (full) {
     note_lost({Errc::kIo, "more than " + std::to_string(kMaxWaiting) + " records were waiting for the disk"});
@@ -141,7 +143,7 @@ void JournalWriter::attempt(std::unique_lock<std::mutex>& lock) {
   const Status written = write_all(batch);
   if (written) {
     const bool recovered = failure_.has_value();
-    tell_kept(batch, recovered);
+    report_kept(batch, recovered);
     lock.lock();
     failure_.reset();
     return;
@@ -160,14 +162,14 @@ void JournalWriter::attempt(std::unique_lock<std::mutex>& lock) {
     failing(written.error());
     lock.lock();
   }
-  tell_failing(lock);
+  report_failing(lock);
   if (quit_) {
     first_.clear();
     waiting_.clear();
   }
 }
 
-void JournalWriter::tell_kept(Batch& batch, bool recovered) {
+void JournalWriter::report_kept(Batch& batch, bool recovered) {
   std::size_t k = 0;
   for (const std::vector<Entry>* part : {&batch.first, &batch.rest}) {
     for (const Entry& entry : *part) {
@@ -175,8 +177,8 @@ void JournalWriter::tell_kept(Batch& batch, bool recovered) {
       if (!outcome) {
         note_lost(outcome.error());
       }
-      if (entry.told) {
-        entry.told(outcome);
+      if (entry.on_kept) {
+        entry.on_kept(outcome);
       }
     }
   }
@@ -191,21 +193,21 @@ void JournalWriter::tell_kept(Batch& batch, bool recovered) {
 }
 
 /// What is waiting keeps its place; whoever wants to know when it is written knows now that it is not.
-void JournalWriter::tell_failing(std::unique_lock<std::mutex>& lock) {
-  std::vector<Told> tells = std::exchange(dropped_tells_, {});
+void JournalWriter::report_failing(std::unique_lock<std::mutex>& lock) {
+  std::vector<OnKept> callbacks = std::exchange(dropped_callbacks_, {});
   for (std::deque<Entry>* queue : {&first_, &waiting_}) {
     for (Entry& entry : *queue) {
-      if (entry.told) {
-        tells.push_back(std::exchange(entry.told, nullptr));
+      if (entry.on_kept) {
+        callbacks.push_back(std::exchange(entry.on_kept, nullptr));
       }
     }
   }
   std::erase_if(waiting_, [](const Entry& entry) { return !entry.write; });
-  untold_ = false;
+  unreported_ = false;
   const Status failure = tl::unexpected<Error>(*failure_);
   lock.unlock();
-  for (const Told& told : tells) {
-    told(failure);
+  for (const OnKept& on_kept : callbacks) {
+    on_kept(failure);
   }
   lock.lock();
 }
@@ -213,7 +215,7 @@ void JournalWriter::tell_failing(std::unique_lock<std::mutex>& lock) {
 void JournalWriter::note_lost(const Error& error) {
   std::unique_lock lock(mutex_);
   const auto lost = watch_.lost;
-  if (std::exchange(loss_told_, loss_told_ || lost != nullptr)) {
+  if (std::exchange(loss_reported_, loss_reported_ || lost != nullptr)) {
     return;
   }
   lock.unlock();

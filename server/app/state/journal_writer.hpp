@@ -1,5 +1,6 @@
 /// \file
-/// A queue before the store: what is waiting is written in order, several at a time, and told when it is on the disk.
+/// A queue before the store: what is waiting is written in order, several at a time, and reported when it is on the
+/// disk.
 #pragma once
 
 #include <chrono>
@@ -36,7 +37,7 @@ struct JournalHealth {
 class JournalWriter {
  public:
   using Write = std::function<Status(store::Store&)>;
-  using Told = std::function<void(const Status&)>;
+  using OnKept = std::function<void(const Status&)>;
 
   /// `store` must outlive it and is used by its thread alone.
   explicit JournalWriter(store::Store& store);
@@ -44,12 +45,12 @@ class JournalWriter {
   JournalWriter& operator=(const JournalWriter&) = delete;
   ~JournalWriter() { finish(); }
 
-  /// Writes after what was asked for before. `told` is called when this and all before it is on the disk, with the
+  /// Writes after what was asked for before. `on_kept` is called when this and all before it is on the disk, with the
   /// error where the store refused it, and with an error as soon as the disk takes nothing; it is written later then,
-  /// without being told again. Either may be empty.
-  void write(Write write, Told told);
+  /// without another report. Either may be empty.
+  void write(Write write, OnKept on_kept);
   /// Writes before anything that waits; never dropped.
-  void write_first(Write write, Told told);
+  void write_first(Write write, OnKept on_kept);
   void set_watch(JournalWatch watch);
   [[nodiscard]] JournalHealth health() const;
   /// Writes what is waiting, tried once, then ends; harmless when repeated. What is asked for later is not written.
@@ -58,7 +59,7 @@ class JournalWriter {
  private:
   struct Entry {
     Write write;
-    Told told;
+    OnKept on_kept;
   };
   /// What is written at once.
   struct Batch {
@@ -74,8 +75,8 @@ class JournalWriter {
   [[nodiscard]] Batch take_batch();
   [[nodiscard]] Status write_all(Batch& batch);
   void attempt(std::unique_lock<std::mutex>& lock);
-  void tell_kept(Batch& batch, bool recovered);
-  void tell_failing(std::unique_lock<std::mutex>& lock);
+  void report_kept(Batch& batch, bool recovered);
+  void report_failing(std::unique_lock<std::mutex>& lock);
   void note_lost(const Error& error);
 
   store::Store& store_;
@@ -83,13 +84,13 @@ class JournalWriter {
   std::condition_variable wake_;
   std::deque<Entry> first_;
   std::deque<Entry> waiting_;
-  std::vector<Told> dropped_tells_;  ///< of records that were dropped
+  std::vector<OnKept> dropped_callbacks_;  ///< of records that were dropped
   JournalWatch watch_;
   std::optional<Error> failure_;  ///< while the disk takes nothing
   std::chrono::steady_clock::time_point retry_at_;
-  bool untold_ = false;  ///< something was asked for since the failure was told
+  bool unreported_ = false;  ///< something was asked for since the failure was reported
   std::uint64_t dropped_ = 0;
-  bool loss_told_ = false;
+  bool loss_reported_ = false;
   bool quit_ = false;
   bool ended_ = false;
   std::thread thread_;
