@@ -9,7 +9,7 @@ namespace seeker::app {
 namespace {
 
 /// Waiting requests; each may hold a piece.
-constexpr std::size_t kMaxWaiting = 16;
+constexpr std::size_t kMaxWaitingRequests = 16;
 
 Result<Image> picture_in(const std::filesystem::path& file) {
   const auto limit = static_cast<std::size_t>(api::max_file_bytes(api::FileKind::kPicture));
@@ -45,7 +45,7 @@ Result<api::MissionRequest> with_pictures(const store::IncomingFiles& files, api
 }  // namespace
 
 TransferService::TransferService(std::filesystem::path folder, MapService& maps, LandmarkService& landmarks)
-    : folder_(std::move(folder)), maps_(maps), landmarks_(landmarks), files_(folder_), disk_(kMaxWaiting, "files") {}
+    : folder_(std::move(folder)), maps_(maps), landmarks_(landmarks), files_(folder_), disk_(kMaxWaitingRequests, "files") {}
 
 Status TransferService::post(std::function<void(store::IncomingFiles&)> work) {
   if (folder_.empty()) {
