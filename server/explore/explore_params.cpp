@@ -113,11 +113,15 @@ Status check_viewpoints(const ViewpointParams& p) {
 }
 
 Status check_tour(const TourParams& p) {
+  if (p.max_places < 1) {
+    return fail(Errc::kInvalidArgument, "tour.max_places must be 1 or more");
+  }
   if (const Status costs = none_negative({{"tour.passage_m", p.passage_m},
                                           {"tour.turn_m_rad", p.turn_m_rad},
                                           {"tour.free_turn_rad", p.free_turn_rad},
                                           {"tour.beyond_m", p.beyond_m},
                                           {"tour.passing_m", p.passing_m},
+                                          {"tour.passing_wall", p.passing_wall},
                                           {"tour.passing_near_m", p.passing_near_m},
                                           {"tour.hysteresis_m", p.hysteresis_m},
                                           {"tour.look_s", p.look_s},

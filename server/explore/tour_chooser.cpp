@@ -173,7 +173,8 @@ tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) const
   return route;
 }
 
-/// Of the openings that do not matter by themselves the one with the shortest detour, if it is short.
+/// Of the openings that do not matter by themselves the one whose detour is the shortest for what it shows, if it is
+/// short enough.
 const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vector<TourPlace>& passing,
                                          const TourPlace& next) const {
   std::vector<const TourPlace*> near;
@@ -191,11 +192,13 @@ const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vec
   const std::vector<double> from_here = paths.lengths_m(input.robot.map_T_base.translation(), places);
   const std::vector<double> to_next = paths.lengths_m(places.front(), places);
   const TourPlace* best = nullptr;
-  double least_m = params_.tour.passing_m;
+  double best_m = 0.0;
   for (std::size_t k = 0; k < near.size(); ++k) {
     const double detour_m = from_here[k + 1] + to_next[k + 1] - from_here.front() + turn_cost(input, *near[k], true);
-    if (detour_m < least_m) {
-      least_m = detour_m;
+    const double wall_m = near[k]->opening.kind == OpeningKind::kWallFace ? near[k]->opening.size_m : 0.0;
+    const double spare_m = params_.tour.passing_m + params_.tour.passing_wall * wall_m - detour_m;
+    if (spare_m > best_m) {
+      best_m = spare_m;
       best = near[k];
     }
   }

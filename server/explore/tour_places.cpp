@@ -58,7 +58,7 @@ TourPlaces tour_places(const PlaceInput& input, const tour::Rooms& rooms, const 
     if (beside != list.end()) {
       beside->ids.push_back(found.id);
       beside->gain_m2 += gain_m2;
-    } else if (list.size() < static_cast<std::size_t>(params.viewpoints.max_candidates)) {
+    } else if (list.size() < static_cast<std::size_t>(params.tour.max_places)) {
       const std::optional<Opening> view = seen_from(found, scene, params.viewpoints);
       list.push_back({found, view.value_or(found).map_T_view.translation(), {found.id}, gain_m2, room});
     }

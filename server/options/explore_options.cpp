@@ -102,11 +102,13 @@ void describe(config::Fields& f, TourParams& params) {
   f.angle_deg("free_turn_deg", params.free_turn_rad);
   f.field("beyond_m", params.beyond_m);
   f.field("passing_m", params.passing_m);
+  f.field("passing_wall", params.passing_wall);
   f.field("passing_near_m", params.passing_near_m);
   f.field("hysteresis_m", params.hysteresis_m);
   f.field("replan_period_s", params.replan_period_s);
   f.angle_deg("rotate_in_place_deg", params.rotate_in_place_rad);
   f.field("look_s", params.look_s);
+  f.field("max_places", params.max_places);
   f.field("together_m", params.together_m);
   f.section("rooms", params.rooms);
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "server/explore/place_strategy.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/unit/server/explore/explorations.hpp"
 #include "tests/unit/server/nav/ascii_map.hpp"
@@ -14,6 +15,13 @@ namespace seeker::explore {
 namespace {
 
 using seeker::testing::Point2Near;
+
+/// Two rooms of 5 x 5 m joined by a door of 1.2 m.
+ToyWorld rooms_with_a_door() {
+  ToyWorld world;
+  world.walls = joined(box(0, 0, 10.2, 5), {{{5.1, 0.0}, {5.1, 1.9}}, {{5.1, 3.1}, {5.1, 5.0}}});
+  return world;
+}
 
 ToyRun tour_of(const ToyWorld& world, const Pose2& start, double limit_s, const ExploreRequest& request,
                double laser_range_m = 8.0) {
@@ -25,11 +33,11 @@ ToyRun tour_of(const ToyWorld& world, const Pose2& start, double limit_s, const 
 }
 
 TEST(TourEnds, ACorridorOfRoomsIsComplete) {
-  const ToyRun run = tour_of(office(), {9.0, 5.0, 1.5}, 900.0, request_of(Strategy::kTour));
+  const ToyRun run = tour_of(seeker::explore::office(), {9.0, 5.0, 1.5}, 900.0, request_of(Strategy::kTour));
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
   EXPECT_GT(run.wall_share, 0.97);
-  const ToyRun nearest = tour_of(office(), {9.0, 5.0, 1.5}, 900.0, request_of(Strategy::kFrontier));
+  const ToyRun nearest = tour_of(seeker::explore::office(), {9.0, 5.0, 1.5}, 900.0, request_of(Strategy::kFrontier));
   EXPECT_LT(run.seconds, nearest.seconds) << "it does not stop for every decision";
 }
 
@@ -47,7 +55,7 @@ TEST(TourEnds, AClosetBehindAGapIsListedAsUnreachable) {
 TEST(TourEnds, ADoorToTheOutsideEndsAtTheBound) {
   ExploreRequest request = request_of(Strategy::kTour);
   request.areas.bound = Polygon{{-0.5, -0.5}, {5.1, -0.5}, {5.1, 5.5}, {-0.5, 5.5}};
-  const ToyRun run = tour_of(two_rooms(), {1.0, 1.0, 0.3}, 600.0, request);
+  const ToyRun run = tour_of(rooms_with_a_door(), {1.0, 1.0, 0.3}, 600.0, request);
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kBoundReached) << run.end->cause;
   EXPECT_LT(run.pose.x_m, 5.2);
@@ -89,7 +97,7 @@ TEST(TourEnds, AHallBeyondTheRangeOfTheLaserIsExploredToItsWalls) {
 
 TEST(TourEnds, PeopleInADoorDelayIt) {
   auto exploration = exploration_of(request_of(Strategy::kTour));
-  ToyExplorer robot(two_rooms(), {1.0, 1.0, 0.3}, 19);
+  ToyExplorer robot(rooms_with_a_door(), {1.0, 1.0, 0.3}, 19);
   ToyExplorer::Hooks hooks;
   hooks.world = [walls = robot.world().walls.size()](double t_s, ToyWorld& world) {
     world.walls.resize(walls);
@@ -106,7 +114,7 @@ TEST(TourEnds, PeopleInADoorDelayIt) {
 
 TEST(TourEnds, WhoStaysInADoorMakesWhatLiesBehindUnreachable) {
   auto exploration = exploration_of(request_of(Strategy::kTour));
-  ToyExplorer robot(two_rooms(), {2.0, 2.5, 0.0}, 19);
+  ToyExplorer robot(rooms_with_a_door(), {2.0, 2.5, 0.0}, 19);
   ToyExplorer::Hooks hooks;
   hooks.world = [walls = robot.world().walls.size()](double t_s, ToyWorld& world) {
     world.walls.resize(walls);
@@ -124,7 +132,7 @@ TEST(TourEnds, WhoStaysInADoorMakesWhatLiesBehindUnreachable) {
 TEST(TourEnds, ReturnsToTheStart) {
   ExploreRequest request = request_of(Strategy::kTour);
   request.return_to_start = true;
-  const ToyRun run = tour_of(two_rooms(), {1.0, 1.0, 0.3}, 600.0, request);
+  const ToyRun run = tour_of(rooms_with_a_door(), {1.0, 1.0, 0.3}, 600.0, request);
   ASSERT_TRUE(run.end.has_value());
   EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
   EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/core/angle.hpp"
+#include "common/core/pose2.hpp"
 #include "common/core/rng.hpp"
 #include "server/tour/route.hpp"
 
