@@ -86,11 +86,12 @@ enum class ExploreStrategy : std::uint8_t {
   kFrontier,  ///< nearest frontier
   kGain,      ///< most unknown floor in sight for the path length
   kTopological,  ///< goals of space trees, kept at the nodes of a topology map (spec S4.4)
+  kTour,         ///< the shortest tour over all that is left, room by room, planned anew while the robot drives
 };
 /// All of them, in order.
-inline constexpr std::array kExploreStrategies{ExploreStrategy::kActive, ExploreStrategy::kHorizon,
-                                               ExploreStrategy::kRoam,   ExploreStrategy::kFrontier,
-                                               ExploreStrategy::kGain,   ExploreStrategy::kTopological};
+inline constexpr std::array kExploreStrategies{
+    ExploreStrategy::kActive, ExploreStrategy::kHorizon,     ExploreStrategy::kRoam, ExploreStrategy::kFrontier,
+    ExploreStrategy::kGain,   ExploreStrategy::kTopological, ExploreStrategy::kTour};
 /// Maps a building within a percent as completely as the published rule, in a third to a seventh of its time
 /// (docs/results.md).
 inline constexpr ExploreStrategy kDefaultExploreStrategy = ExploreStrategy::kHorizon;

@@ -50,6 +50,7 @@ std::string_view to_string(ExploreStrategy strategy) {
     case ExploreStrategy::kFrontier: return "frontier";
     case ExploreStrategy::kGain: return "gain";
     case ExploreStrategy::kTopological: return "topological";
+    case ExploreStrategy::kTour: return "tour";
   }
   return "active";
 }

@@ -30,7 +30,7 @@ struct DecisionCandidate {
 struct ExploreDecision {
   std::uint64_t number = 0;  ///< of the decision within its mission, from 1
   RobotTime stamp;
-  std::string rule;  ///< "one-step", "wall", "horizon", "frontier", "gain", "roam", "topological"
+  std::string rule;  ///< "one-step", "wall", "horizon", "tour", "frontier", "gain", "roam", "topological"
   std::vector<DecisionCandidate> candidates;  ///< at most kMaxDecisionCandidates, the best where there were more
   std::optional<std::uint32_t> chosen;        ///< index into candidates; empty: none could be chosen
   std::string why;                            ///< reason of the choice in one sentence, for people

@@ -13,6 +13,8 @@ namespace {
 /// Places within this distance of each other are reported once.
 constexpr double kSamePlace_m = 1.0;
 constexpr std::size_t kMaxUnreachable = 64;
+/// Of the openings that were not worth a drive so many are named.
+constexpr std::size_t kMaxNamed = 5;
 /// How deep unknown floor is taken to be behind a metre of its border, for the progress.
 constexpr double kDepthBehindBorder_m = 2.0;
 constexpr double kProgressPeriod_s = 3.0;
@@ -87,6 +89,17 @@ std::string list_of(const std::vector<Point2>& places) {
     list += (list.empty() ? "" : ", ") + text(p);
   }
   return list;
+}
+
+/// Names the first few of the openings that were not worth a drive.
+std::string what_remains(const std::vector<Point2>& left_map) {
+  if (left_map.empty()) {
+    return "nothing is left to explore";
+  }
+  const auto named = static_cast<std::ptrdiff_t>(std::min(left_map.size(), kMaxNamed));
+  return "nothing is left to explore but what is too little to drive to, " + std::to_string(left_map.size()) +
+         (left_map.size() == 1 ? " place" : " places") + ": " + list_of({left_map.begin(), left_map.begin() + named}) +
+         (left_map.size() > kMaxNamed ? " and others" : "");
 }
 
 ExploreEnd unreachable_end(std::vector<UnreachablePlace> places, const std::vector<Point2>& somebody_at) {
@@ -164,7 +177,7 @@ ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last
             "give a wider bound to explore on",
             {}};
   }
-  return {EndKind::kComplete, known + "; nothing is left to explore", "", {}};
+  return {EndKind::kComplete, known + "; " + what_remains(last.left_map), "", {}};
 }
 
 void Exploration::Impl::conclude(ExploreEnd end, RobotTime now, ExploreStep& out) {

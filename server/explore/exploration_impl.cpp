@@ -28,7 +28,8 @@ StrategyInput Exploration::Impl::strategy_input(const ExploreInput& input) {
           input.segments,
           input.segments_revision,
           input.belief,
-          input.fleet};
+          input.fleet,
+          request_.return_to_start ? start_ : std::nullopt};
 }
 
 ExploreStep Exploration::Impl::step(const ExploreInput& input) {

@@ -112,6 +112,29 @@ Status check_viewpoints(const ViewpointParams& p) {
                        {"viewpoints.replan_period_s", p.replan_period_s}});
 }
 
+Status check_tour(const TourParams& p) {
+  if (p.max_places < 1) {
+    return fail(Errc::kInvalidArgument, "tour.max_places must be 1 or more");
+  }
+  if (const Status costs = none_negative({{"tour.passage_m", p.passage_m},
+                                          {"tour.turn_m_rad", p.turn_m_rad},
+                                          {"tour.free_turn_rad", p.free_turn_rad},
+                                          {"tour.beyond_m", p.beyond_m},
+                                          {"tour.passing_m", p.passing_m},
+                                          {"tour.passing_wall", p.passing_wall},
+                                          {"tour.passing_near_m", p.passing_near_m},
+                                          {"tour.hysteresis_m", p.hysteresis_m},
+                                          {"tour.look_s", p.look_s},
+                                          {"tour.together_m", p.together_m},
+                                          {"tour.rooms.least_room_m2", p.rooms.least_room_m2}});
+      !costs) {
+    return costs;
+  }
+  return all_positive({{"tour.replan_period_s", p.replan_period_s},
+                       {"tour.rotate_in_place_deg", p.rotate_in_place_rad},
+                       {"tour.rooms.door_half_m", p.rooms.door_half_m}});
+}
+
 Status check_guard(const GuardParams& p) {
   if (!(p.regain_position_sigma_m < p.max_position_sigma_m)) {
     return fail(Errc::kInvalidArgument, "guard.regain_position_sigma_m must be below guard.max_position_sigma_m");
@@ -131,8 +154,8 @@ Status check_guard(const GuardParams& p) {
 }  // namespace
 
 Status validate(const ExploreParams& params) {
-  for (const Status& part :
-       {check_one_step(params.one_step), check_viewpoints(params.viewpoints), check_guard(params.guard)}) {
+  for (const Status& part : {check_one_step(params.one_step), check_viewpoints(params.viewpoints),
+                             check_tour(params.tour), check_guard(params.guard)}) {
     if (!part) {
       return part;
     }

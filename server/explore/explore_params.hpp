@@ -4,6 +4,7 @@
 
 #include "common/core/result.hpp"
 #include "server/explore/one_step_params.hpp"
+#include "server/explore/tour_params.hpp"
 #include "server/explore/viewpoint_params.hpp"
 #include "server/nav/cost_map.hpp"
 #include "server/nav/planned_driver.hpp"
@@ -31,6 +32,7 @@ struct ExploreParams {
   WallParams wall;
   RoamParams roam;
   ViewpointParams viewpoints;
+  TourParams tour;
   GuardParams guard;
   nav::CostMapParams cost;
   nav::DriverParams driver;

@@ -5,12 +5,10 @@
 
 #include "common/core/text.hpp"
 #include "server/explore/horizon_views.hpp"
+#include "server/explore/leg_forecast.hpp"
 
 namespace seeker::explore {
 namespace {
-
-/// Walls farther away than this and the sensor's range do not count among those that may grow.
-constexpr double kSceneReach_m = 15.0;
 
 /// Beam search over sequences of drives, by the objective of spec S1.11 for a whole sequence, with the path length
 /// and the unknown floor in sight as further terms.
@@ -50,7 +48,7 @@ class HorizonChooser final : public PlaceChooser {
 HorizonChooser::Outlook HorizonChooser::look_out(const PlaceInput& input) const {
   const OneStepParams& one_step = params_.one_step;
   const StrategyInput& robot = input.robot;
-  SightScene scene(robot.segments, robot.map_T_base.translation(), kSceneReach_m + one_step.sensor.range_m, one_step,
+  SightScene scene(robot.segments, robot.map_T_base.translation(), kForecastReach_m + one_step.sensor.range_m, one_step,
                    one_step.use_floor ? &input.floor.cost.states() : nullptr);
   Belief belief = robot.belief ? Belief(*robot.belief)
                                : Belief(robot.map_T_base, robot.covariance, robot.segments,
@@ -107,8 +105,9 @@ HorizonChooser::Beam HorizonChooser::first_drives(const Outlook& outlook, std::o
   // Covariances along a path are dear: for the promising ones only.
   keep_best(beam, static_cast<std::size_t>(params_.viewpoints.beam), present);
   for (HorizonSequence& first : beam) {
-    first.uncertainty = uncertainty_after(outlook.input, outlook.views[first.stops.front()].opening, outlook.scene,
-                                          outlook.belief, params_.one_step);
+    first.uncertainty = forecast_leg(outlook.input, outlook.views[first.stops.front()].opening, outlook.scene,
+                                     outlook.belief, params_.one_step)
+                            .uncertainty;
     rate(first, outlook);
   }
   keep_best(beam, beam.size(), present);

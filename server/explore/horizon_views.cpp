@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/core/angle.hpp"
 #include "server/explore/view_gain.hpp"
 
 namespace seeker::explore {
@@ -18,38 +17,6 @@ constexpr double kStop_m = 0.5;
 /// Value of observing an opening at all, in unknown floor: every opening has to be observed at some time, however
 /// little floor it shows.
 constexpr double kSettled_m2 = 2.0;
-/// Looks along a path: so far apart, and no more than so many.
-constexpr double kLookEvery_m = 1.0;
-constexpr std::size_t kMaxLooks = 8;
-/// Speeds of the predicted drive: what counts is the noise by distance and angle.
-constexpr double kSpeed_m_s = 0.3;
-constexpr double kRotation_rad_s = 0.5;
-
-/// Poses along a path, each looking where it leads; the last one as the view wants it.
-std::vector<Pose2> looks_along(const nav::Path& path, const Pose2& last) {
-  const double step_m = std::max(kLookEvery_m, path.length_m / static_cast<double>(kMaxLooks));
-  std::vector<Pose2> looks;
-  double to_go_m = step_m;
-  for (std::size_t k = 1; k < path.waypoints.size(); ++k) {
-    const Point2 from = path.waypoints[k - 1];
-    const Point2 leg = path.waypoints[k] - from;
-    const double length_m = leg.norm();
-    for (; to_go_m < length_m; to_go_m += step_m) {
-      const Point2 p = from + to_go_m / length_m * leg;
-      looks.push_back({p.x(), p.y(), std::atan2(leg.y(), leg.x())});
-    }
-    to_go_m -= length_m;
-  }
-  looks.push_back(last);
-  return looks;
-}
-
-void move_to(PredictedBelief& belief, const Pose2& from, const Pose2& to, const slam::OdometryParams& odometry) {
-  const double rotation_rad = wrap_angle(to.theta_rad - from.theta_rad);
-  belief.move(predict_motion({0.0, std::copysign(kRotation_rad_s, rotation_rad)},
-                             std::abs(rotation_rad) / kRotation_rad_s, odometry));
-  belief.move(predict_motion({kSpeed_m_s, 0.0}, distance_m(from, to) / kSpeed_m_s, odometry));
-}
 
 /// From one place often more than one opening is well in view.
 void note_shown(std::vector<HorizonView>& views, const PlaceInput& input, const ViewpointParams& params) {
@@ -118,31 +85,6 @@ HorizonSequence extended(const HorizonSequence& sequence, const std::vector<Hori
     }
   }
   return longer;
-}
-
-double uncertainty_after(const PlaceInput& input, const Opening& opening, const SightScene& scene, const Belief& belief,
-                         const OneStepParams& params) {
-  const Pose2& start = input.robot.map_T_base;
-  const auto path = input.costs.path_to(input.floor.cost, opening.map_T_view.translation());
-  const std::vector<Pose2> looks = looks_along(path ? *path : nav::Path{}, opening.map_T_view);
-  std::vector<std::vector<PredictedSight>> sights;
-  std::vector<std::size_t> walls;
-  sights.reserve(looks.size());
-  for (const Pose2& look : looks) {
-    sights.push_back(predict_sights(belief, scene.look(look), params.max_observed));
-    for (const PredictedSight& sight : sights.back()) {
-      const bool room = walls.size() < static_cast<std::size_t>(params.max_observed);
-      if (room && std::find(walls.begin(), walls.end(), sight.wall) == walls.end()) {
-        walls.push_back(sight.wall);
-      }
-    }
-  }
-  PredictedBelief then = belief.joint(walls);
-  for (std::size_t k = 0; k < looks.size(); ++k) {
-    move_to(then, k == 0 ? start : looks[k - 1], looks[k], params.odometry);
-    then.observe(belief, looks[k], sights[k], params.sensor);
-  }
-  return then.uncertainty();
 }
 
 }  // namespace seeker::explore

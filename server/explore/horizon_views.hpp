@@ -50,9 +50,4 @@ struct HorizonSequence {
 [[nodiscard]] HorizonSequence extended(const HorizonSequence& sequence, const std::vector<HorizonView>& views,
                                        std::size_t view, double path_m, double weight_path);
 
-/// U of eq (19) at the end of the drive to a view: robot and walls are predicted along the path, with one observation
-/// about every metre.
-[[nodiscard]] double uncertainty_after(const PlaceInput& input, const Opening& opening, const SightScene& scene,
-                                       const Belief& belief, const OneStepParams& params);
-
 }  // namespace seeker::explore

@@ -7,9 +7,19 @@
 
 namespace seeker::explore {
 
+namespace {
+
+std::unique_ptr<ExploreStrategy> tour_strategy(ExploreParams params) {
+  params.driver.follower.rotate_in_place_rad = params.tour.rotate_in_place_rad;
+  return std::make_unique<PlaceStrategy>(params, make_tour_chooser(params));
+}
+
+}  // namespace
+
 std::unique_ptr<ExploreStrategy> make_strategy(Strategy strategy, const ExploreParams& params) {
   switch (strategy) {
     case Strategy::kActive: return std::make_unique<ActiveStrategy>(params);
+    case Strategy::kTour: return tour_strategy(params);
     case Strategy::kRoam: return std::make_unique<RoamStrategy>(params.roam, params.driver.follower.clearance);
     case Strategy::kFrontier: return std::make_unique<PlaceStrategy>(params, make_frontier_chooser(params));
     case Strategy::kGain: return std::make_unique<PlaceStrategy>(params, make_gain_chooser(params));

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kRotation_rad_s = 0.6;
 constexpr double kWaitTick_s = 1.0;
+/// A viewpoint that moved by less is the same.
+constexpr double kSameView_m = 0.3;
 
 Opening moved(Opening opening, const MapMove& move) {
   const Pose2 new_T_old = move.at(opening.p_map);
@@ -24,7 +26,12 @@ Opening moved(Opening opening, const MapMove& move) {
 }  // namespace
 
 PlaceStrategy::PlaceStrategy(const ExploreParams& params, std::unique_ptr<PlaceChooser> chooser)
-    : params_(params), chooser_(std::move(chooser)), openings_(params.viewpoints), driver_(params.driver) {}
+    : params_(params),
+      chooser_(std::move(chooser)),
+      manner_(
+          chooser_->manner().value_or(DriveManner{false, params.viewpoints.replan_period_s, params.viewpoints.look_s})),
+      openings_(params.viewpoints),
+      driver_(params.driver) {}
 
 StrategyStep PlaceStrategy::step(const StrategyInput& input) {
   StrategyStep out;
@@ -50,6 +57,7 @@ StrategyStep PlaceStrategy::step(const StrategyInput& input) {
   if (state_ == State::kDone) {
     out.done = true;
     out.unreachable = openings_.given_up();
+    out.left_map = left_map_;
     out.tries_again = true;
   } else if (state_ == State::kDrive) {
     out.planned_path = driver_.path();
@@ -57,8 +65,8 @@ StrategyStep PlaceStrategy::step(const StrategyInput& input) {
   return out;
 }
 
-Result<PlaceStrategy::Survey> PlaceStrategy::survey(const StrategyInput& input) {
-  auto floor = input.floors.view();
+Result<PlaceStrategy::Survey> PlaceStrategy::survey(const StrategyInput& input, bool fresh) {
+  auto floor = input.floors.view(fresh);
   if (!floor) {
     return tl::unexpected(floor.error());
   }
@@ -79,7 +87,7 @@ Result<PlaceStrategy::Survey> PlaceStrategy::survey(const StrategyInput& input) 
 }
 
 void PlaceStrategy::choose(const StrategyInput& input, StrategyStep& out) {
-  auto found = survey(input);
+  auto found = survey(input, manner_.flowing);
   if (!found) {
     if (rotated_) {
       finish(found.error().message, out);
@@ -89,15 +97,25 @@ void PlaceStrategy::choose(const StrategyInput& input, StrategyStep& out) {
     return;
   }
   rotated_ = false;
+  choose_from(input, *found, out);
+  if (manner_.flowing && state_ == State::kDrive) {
+    drive(input, out);
+  }
+}
+
+void PlaceStrategy::choose_from(const StrategyInput& input, const Survey& found, StrategyStep& out) {
   since_ = input.now;
   considered_ = input.now;
-  if (found->open.empty()) {
-    wait_or_finish(input, *found, out);
+  left_map_.clear();
+  if (found.open.empty()) {
+    wait_or_finish(input, found, out);
     return;
   }
-  go(input, chooser_->choose({input, *found->floor, found->costs, found->open}), out);
+  go(input, chooser_->choose({input, *found.floor, found.costs, found.open}), out);
   if (!goal_) {
-    wait_or_finish(input, *found, out);
+    std::transform(found.open.begin(), found.open.end(), std::back_inserter(left_map_),
+                   [](const Opening& opening) { return opening.p_map; });
+    wait_or_finish(input, found, out);
   }
 }
 
@@ -126,6 +144,7 @@ void PlaceStrategy::finish(std::string why, StrategyStep& out) {
 
 void PlaceStrategy::go(const StrategyInput& input, PlaceChoice choice, StrategyStep& out) {
   goal_ = std::move(choice.opening);
+  via_map_ = choice.via_map;
   out.decision = std::move(choice.decision);
   if (!goal_) {
     return;
@@ -136,9 +155,17 @@ void PlaceStrategy::go(const StrategyInput& input, PlaceChoice choice, StrategyS
 void PlaceStrategy::set_out(const StrategyInput& input) {
   since_ = input.now;
   corrected_ = false;
+  facing_ = false;
   why_ = "driving to observe " + describe(*goal_) + " at " + text(goal_->p_map);
-  if (driver_.start(input, goal_->map_T_view.translation(), goal_->map_T_view.theta_rad)) {
+  const Point2 place = via_map_.value_or(goal_->map_T_view.translation());
+  const bool turns = !manner_.flowing && !via_map_;
+  if (driver_.start(input, place, turns ? std::optional(goal_->map_T_view.theta_rad) : std::nullopt)) {
     state_ = State::kDrive;
+    return;
+  }
+  if (via_map_) {
+    via_map_.reset();  // then without it
+    set_out(input);
     return;
   }
   openings_.failed(*goal_, input.now);
@@ -151,14 +178,11 @@ void PlaceStrategy::drive(const StrategyInput& input, StrategyStep& out) {
   out.command = driven.command;
   switch (driven.state) {
     case nav::DriveState::kDriving:
-      if (to_seconds(input.now - considered_) >= params_.viewpoints.replan_period_s) {
+      if (to_seconds(input.now - considered_) >= manner_.replan_period_s) {
         reconsider(input, out);
       }
       return;
-    case nav::DriveState::kArrived:
-      state_ = State::kLook;
-      since_ = input.now;
-      return;
+    case nav::DriveState::kArrived: arrive(input); return;
     case nav::DriveState::kFailed:
     case nav::DriveState::kIdle:
       openings_.failed(*goal_, input.now);
@@ -166,6 +190,22 @@ void PlaceStrategy::drive(const StrategyInput& input, StrategyStep& out) {
       state_ = State::kChoose;
       return;
   }
+}
+
+void PlaceStrategy::arrive(const StrategyInput& input) {
+  since_ = input.now;
+  if (std::exchange(via_map_, std::nullopt)) {
+    state_ = State::kChoose;
+    return;
+  }
+  const Point2 behind = goal_->p_map + params_.viewpoints.reached_m * goal_->outward_map;
+  const bool in_view = std::abs(bearing_to(input.map_T_base, behind)) < params_.one_step.sensor.half_angle_rad;
+  if (manner_.flowing && !facing_ && !in_view &&
+      driver_.start(input, input.map_T_base.translation(), goal_->map_T_view.theta_rad)) {
+    facing_ = true;
+    return;
+  }
+  state_ = State::kLook;
 }
 
 /// While driving: checks whether the goal is still open and still the best.
@@ -178,32 +218,50 @@ void PlaceStrategy::reconsider(const StrategyInput& input, StrategyStep& out) {
   const auto same = std::find_if(found->open.begin(), found->open.end(),
                                  [&](const Opening& opening) { return opening.id == goal_->id; });
   if (same == found->open.end()) {
-    state_ = State::kChoose;
     out.step_done = true;
     out.activity = describe(*goal_) + " was observed on the path";
+    state_ = State::kChoose;
+    if (manner_.flowing) {
+      choose_from(input, *found, out);
+    }
+    return;
+  }
+  if (facing_) {
     return;
   }
   if (!chooser_->changes_its_mind()) {
-    if (corrected_) {
-      // The map bent: the place moved otherwise than the robot did.
-      const Point2 shift = same->p_map - goal_->p_map;
-      goal_->p_map += shift;
-      goal_->map_T_view.x_m += shift.x();
-      goal_->map_T_view.y_m += shift.y();
-      set_out(input);
-    }
+    follow_correction(input, *same);
     return;
   }
   const Opening present = *goal_;
   PlaceChoice choice = chooser_->choose({input, *found->floor, found->costs, found->open, &present});
-  if (choice.opening && (corrected_ || choice.opening->id != present.id)) {
+  const bool other = choice.opening && choice.opening->id != present.id;
+  const bool moved =
+      manner_.flowing && choice.opening && distance_m(choice.opening->map_T_view, present.map_T_view) > kSameView_m;
+  if (choice.opening && (corrected_ || other || moved)) {
+    const bool decided = other || corrected_;
     go(input, std::move(choice), out);
+    if (!decided) {
+      out.decision.reset();  // the same goal from another viewpoint
+    }
   }
+}
+
+/// The map bent: the place moved otherwise than the robot did.
+void PlaceStrategy::follow_correction(const StrategyInput& input, const Opening& same) {
+  if (!corrected_) {
+    return;
+  }
+  const Point2 shift = same.p_map - goal_->p_map;
+  goal_->p_map += shift;
+  goal_->map_T_view.x_m += shift.x();
+  goal_->map_T_view.y_m += shift.y();
+  set_out(input);
 }
 
 void PlaceStrategy::look(const StrategyInput& input, StrategyStep& out) {
   out.activity = "observing " + describe(*goal_);
-  if (to_seconds(input.now - since_) < params_.viewpoints.look_s) {
+  if (to_seconds(input.now - since_) < manner_.look_s) {
     return;
   }
   openings_.looked(*goal_, input.now);
@@ -242,9 +300,16 @@ void PlaceStrategy::try_again(RobotTime now) {
 
 void PlaceStrategy::transform(const MapMove& move) {
   openings_.transform(move);
+  chooser_->transform(move);
   driver_.transform(move);
   if (goal_) {
     goal_ = moved(std::move(*goal_), move);
+  }
+  if (via_map_) {
+    via_map_ = move * *via_map_;
+  }
+  for (Point2& p_map : left_map_) {
+    p_map = move * p_map;
   }
   if (began_map_) {
     began_map_ = move * *began_map_;
@@ -255,6 +320,7 @@ void PlaceStrategy::transform(const MapMove& move) {
 void PlaceStrategy::start_again() {
   driver_.stop();
   goal_.reset();
+  via_map_.reset();
   rotated_ = false;
   corrected_ = false;
   state_ = State::kChoose;

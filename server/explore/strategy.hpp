@@ -29,6 +29,8 @@ struct StrategyInput : nav::DriveInput {
   /// The filter that made the newest segments; nothing: the estimator has none.
   std::optional<slam::LocalBelief> belief;
   const FleetView* fleet = nullptr;  ///< other robots, frame `map`; null: the robot is alone
+  /// Where the robot drives once nothing is left to explore, frame `map`; nothing: it stays where it is then.
+  std::optional<Point2> end_map = std::nullopt;
 };
 
 struct StrategyStep {
@@ -41,7 +43,9 @@ struct StrategyStep {
   bool step_done = false;  ///< whether the robot is at a natural place to stop
   bool done = false;       ///< whether the strategy finds nothing more to explore
   std::vector<UnreachablePlace> unreachable;  ///< with done: places that no path leads to
-  bool tries_again = false;                   ///< with done: whether try_again() would make it drive to those once more
+  /// With done: openings that the strategy left because they are too small to drive to, frame `map`.
+  std::vector<Point2> left_map;
+  bool tries_again = false;  ///< with done: whether try_again() would make it drive to those once more
 };
 
 class ExploreStrategy {
@@ -77,8 +81,9 @@ using StrategyMaker = std::function<std::unique_ptr<ExploreStrategy>(const Explo
 /// The strategies of this folder.
 /// active: one step of the objective, out of traps along walls, then by paths (spec S1.11, S1.12).
 /// horizon: reachable viewpoints over several drives, same objective; what an exploration uses that names none.
+/// tour: the shortest tour over all that is left, room by room.
 /// roam, frontier, gain: the baselines.
-enum class Strategy : std::uint8_t { kActive, kHorizon, kRoam, kFrontier, kGain };
+enum class Strategy : std::uint8_t { kActive, kHorizon, kTour, kRoam, kFrontier, kGain };
 
 [[nodiscard]] std::string_view to_string(Strategy strategy);
 

@@ -53,6 +53,16 @@ std::vector<Point2> Trail::path_to_certainty() const {
   return path;
 }
 
+std::vector<Point2> Trail::certain_places(double sigma_m) const {
+  std::vector<Point2> places;
+  for (const TrailPoint& point : points_) {
+    if (point.sigma_m <= sigma_m) {
+      places.push_back(point.p_map);
+    }
+  }
+  return places;
+}
+
 void Trail::cut_after(const Point2& p_map) {
   const auto nearest = std::min_element(points_.begin(), points_.end(), [&](const TrailPoint& a, const TrailPoint& b) {
     return (a.p_map - p_map).squaredNorm() < (b.p_map - p_map).squaredNorm();

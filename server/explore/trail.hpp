@@ -25,6 +25,8 @@ class Trail {
   /// Path back along the trail to the place where the robot was most certain and then on to the start, in steps of a
   /// few metres.
   [[nodiscard]] std::vector<Point2> path_to_certainty() const;
+  /// Places where the standard deviation was at most `sigma_m`.
+  [[nodiscard]] std::vector<Point2> certain_places(double sigma_m) const;
   /// Drops all places after the one nearest to p, because the robot has returned to it.
   void cut_after(const Point2& p_map);
   void transform(const MapMove& move);

@@ -1,5 +1,14 @@
 #include "server/options/explore_options.hpp"
 
+namespace seeker::tour {
+
+void describe(config::Fields& f, RoomsParams& params) {
+  f.field("door_half_m", params.door_half_m);
+  f.field("least_room_m2", params.least_room_m2);
+}
+
+}  // namespace seeker::tour
+
 namespace seeker::explore {
 
 void describe(config::Fields& f, SensorModel& params) {
@@ -87,6 +96,23 @@ void describe(config::Fields& f, ViewpointParams& params) {
   f.field("weight_path", params.weight_path);
 }
 
+void describe(config::Fields& f, TourParams& params) {
+  f.field("passage_m", params.passage_m);
+  f.field("turn_m_rad", params.turn_m_rad);
+  f.angle_deg("free_turn_deg", params.free_turn_rad);
+  f.field("beyond_m", params.beyond_m);
+  f.field("passing_m", params.passing_m);
+  f.field("passing_wall", params.passing_wall);
+  f.field("passing_near_m", params.passing_near_m);
+  f.field("hysteresis_m", params.hysteresis_m);
+  f.field("replan_period_s", params.replan_period_s);
+  f.angle_deg("rotate_in_place_deg", params.rotate_in_place_rad);
+  f.field("look_s", params.look_s);
+  f.field("max_places", params.max_places);
+  f.field("together_m", params.together_m);
+  f.section("rooms", params.rooms);
+}
+
 void describe(config::Fields& f, GuardParams& params) {
   f.field("max_position_sigma_m", params.max_position_sigma_m);
   f.field("regain_position_sigma_m", params.regain_position_sigma_m);
@@ -102,6 +128,7 @@ void describe(config::Fields& f, ExploreParams& params) {
   f.section("wall", params.wall);
   f.section("roam", params.roam);
   f.section("viewpoints", params.viewpoints);
+  f.section("tour", params.tour);
   f.section("guard", params.guard);
   f.section("cost", params.cost);
   f.section("driver", params.driver);

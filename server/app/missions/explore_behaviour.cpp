@@ -51,6 +51,7 @@ explore::StrategyMaker maker_of(api::ExploreStrategy strategy, const fleet::Topo
   switch (strategy) {
     case api::ExploreStrategy::kActive: return explore::maker_of(explore::Strategy::kActive);
     case api::ExploreStrategy::kHorizon: return explore::maker_of(explore::Strategy::kHorizon);
+    case api::ExploreStrategy::kTour: return explore::maker_of(explore::Strategy::kTour);
     case api::ExploreStrategy::kRoam: return explore::maker_of(explore::Strategy::kRoam);
     case api::ExploreStrategy::kFrontier: return explore::maker_of(explore::Strategy::kFrontier);
     case api::ExploreStrategy::kGain: return explore::maker_of(explore::Strategy::kGain);

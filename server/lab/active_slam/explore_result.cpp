@@ -13,8 +13,9 @@ namespace {
 
 /// The columns of the curves, in the order of the file.
 constexpr std::array kCurves = {&ExploreSample::time_s,        &ExploreSample::error_m,    &ExploreSample::robot_trace,
-                                &ExploreSample::feature_trace, &ExploreSample::full_trace, &ExploreSample::map_wall_m};
-constexpr std::string_view kHeader = "time_s,error_m,robot_trace,feature_trace,full_trace,map_wall_m\n";
+                                &ExploreSample::feature_trace, &ExploreSample::full_trace, &ExploreSample::map_wall_m,
+                                &ExploreSample::path_m,        &ExploreSample::floor_m2};
+constexpr std::string_view kHeader = "time_s,error_m,robot_trace,feature_trace,full_trace,map_wall_m,path_m,floor_m2\n";
 
 constexpr double kPerCent = 0.01;
 /// Of a share that is a whole number of per cents but for rounding.
@@ -60,6 +61,7 @@ void describe(config::Fields& f, ExploreResult& result) {
   f.field("share_path_m", result.share_path_m);
   f.field("false_wall_m", result.false_wall_m);
   f.field("map_wall_m", result.map_wall_m);
+  f.field("floor_m2", result.floor_m2);
   f.field("aligned", result.aligned);
   f.field("segments", result.segments);
   f.field("map_epoch", result.map_epoch);
@@ -135,6 +137,7 @@ void add_curves(const std::vector<ExploreSample>& samples, ExploreResult& result
   result.final_robot_trace = samples.back().robot_trace;
   result.final_feature_trace = samples.back().feature_trace;
   result.final_full_trace = samples.back().full_trace;
+  result.floor_m2 = samples.back().floor_m2;
 }
 
 }  // namespace seeker::lab

@@ -14,7 +14,7 @@
 namespace seeker::lab {
 
 struct ExploreResult {
-  int schema = 3;
+  int schema = 4;
   std::string world;
   std::string strategy;
   std::uint64_t seed = 0;
@@ -47,6 +47,7 @@ struct ExploreResult {
   std::vector<double> share_path_m;
   double false_wall_m = 0.0;
   double map_wall_m = 0.0;
+  double floor_m2 = 0.0;  ///< floor that the map shows as free at the end
   bool aligned = false;
   int segments = 0;
   int map_epoch = 0;  ///< number of loop closures that corrected the map
@@ -76,6 +77,8 @@ struct ExploreSample {
   double feature_trace = 0.0;  ///< mean over segments; 0 while there is none
   double full_trace = 0.0;
   double map_wall_m = 0.0;  ///< length of all segments
+  double path_m = 0.0;      ///< path length of the true robot so far
+  double floor_m2 = 0.0;    ///< floor that the map shows as free
 
   friend bool operator==(const ExploreSample&, const ExploreSample&) = default;
 };

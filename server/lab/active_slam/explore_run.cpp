@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/config/yaml.hpp"
+#include "common/core/occupancy_tile.hpp"
 #include "server/app/composition/robot_assembly.hpp"
 #include "server/app/runtime/update_hub.hpp"
 
@@ -15,6 +16,19 @@ constexpr const char* kWallPhase = "wall";
 constexpr Duration kSamplePeriod = std::chrono::seconds(1);
 constexpr double kPathSpacing_m = 0.05;
 constexpr double kShareSpacing_m = 1.0;
+
+/// Floor that the map shows as free.
+double free_floor_m2(const nav::OccupancyMap& map) {
+  constexpr std::uint8_t kFree = kOccupiedCell / 2;  // below: rather free than not
+  const std::optional<Grid<std::uint8_t>> cells = map.snapshot();
+  if (!cells) {
+    return 0.0;
+  }
+  const auto free = std::count_if(cells->cells().begin(), cells->cells().end(),
+                                  [](std::uint8_t cell) { return cell != kUnknownCell && cell < kFree; });
+  const double cell_m = cells->frame().resolution_m;
+  return cell_m * cell_m * static_cast<double>(free);
+}
 
 /// Watches an exploration from outside while it runs.
 class Observer {
@@ -86,6 +100,8 @@ class Observer {
       sample.full_trace += trace;
       sample.map_wall_m += segment.length_m;
     }
+    sample.path_m = watch_.truth().path_length_m;
+    sample.floor_m2 = free_floor_m2(loop_.robot_map().occupancy());
     return sample;
   }
 

@@ -51,6 +51,7 @@ int run_lab(int argc, char** argv) {
   verbs["reproduce"] = add_reproduce(app);
   verbs["search"] = add_search(app);
   verbs["explore"] = add_explore(app);
+  verbs["tour"] = add_tour(app);
   verbs["compare"] = add_compare(app);
   verbs["hit-rate"] = add_hit_rate(app);
   verbs["template"] = add_template(app);

@@ -45,6 +45,7 @@ using Verb = std::function<int()>;
 [[nodiscard]] Verb add_reproduce(CLI::App& app);
 [[nodiscard]] Verb add_search(CLI::App& app);
 [[nodiscard]] Verb add_explore(CLI::App& app);
+[[nodiscard]] Verb add_tour(CLI::App& app);
 [[nodiscard]] Verb add_compare(CLI::App& app);
 [[nodiscard]] Verb add_hit_rate(CLI::App& app);
 [[nodiscard]] Verb add_template(CLI::App& app);

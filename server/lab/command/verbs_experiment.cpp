@@ -11,6 +11,7 @@
 #include "server/lab/active_slam/reproduce_active_slam.hpp"
 #include "server/lab/command/verbs.hpp"
 #include "server/lab/consistency/reproduce_consistency.hpp"
+#include "server/lab/efficiency/reproduce_efficiency.hpp"
 #include "server/lab/experiments/seeds.hpp"
 #include "server/lab/line_detection/reproduce_line_detection.hpp"
 #include "server/lab/map_merging/reproduce_map_merging.hpp"
@@ -42,6 +43,7 @@ constexpr std::array kSpecialOptions{"--set", "--robot", "--world", "--strategy"
 const std::map<std::string, Reproduction> kReproductions = {
     {"active-slam", {&reproduce_active_slam, "1-20", "1", {"--set", "--world", "--strategy"}}},
     {"consistency", {&reproduce_consistency, "1-50", "1-3"}},
+    {"efficiency", {&reproduce_efficiency, "1-20", "1", {"--set", "--world", "--strategy"}}},
     {"line-detection", {&reproduce_line_detection, "1-100", "1-3"}},
     {"map-merging", {&reproduce_map_merging, "1-4", "1", {"--set", "--world"}}},
     {"search", {&reproduce_search, "1-20", "1", {"--set", "--programs", "--no-sockets"}}},
@@ -79,6 +81,12 @@ std::vector<std::string> worlds_of(const std::string& name) {
     return map_merging_worlds();
   }
   std::vector<std::string> names;
+  if (name == "efficiency") {
+    for (const EfficiencyWorld& world : efficiency_worlds()) {
+      names.push_back(world.name);
+    }
+    return names;
+  }
   for (const ExploreWorld& world : explore_worlds()) {
     names.push_back(world.name);
   }
@@ -281,16 +289,17 @@ Verb add_reproduce(CLI::App& app) {
           "search: autonomous search (s3); active-slam: active exploration (s1); stereo-database: localisation "
           "from stereo landmarks (s2); map-merging: one map of several robots (s4); line-detection: lines with "
           "automatic thresholds (s5); solids: recognition of solids under water (s6); consistency: the errors "
-          "of the line filter against what it states (r2)")
+          "of the line filter against what it states (r2); efficiency: explorations against what somebody would "
+          "drive who knows the building")
       ->check(CLI::IsMember(reproduction_names()))
       ->capture_default_str();
   o->common.seeds.clear();
   add_common(*verb, o->common);
   verb->get_option("--seeds")->default_str("those of the paper's conditions");
   verb->add_option("--world", o->worlds,
-                   "Only this world (repeatable). active-slam: " + joined(worlds_of("active-slam")) +
-                       "; map-merging: " + joined(worlds_of("map-merging")));
-  verb->add_option("--strategy", o->strategies, "active-slam: only this strategy (repeatable)")
+                   "Only this world (repeatable). active-slam: " + joined(worlds_of("active-slam")) + "; efficiency: " +
+                       joined(worlds_of("efficiency")) + "; map-merging: " + joined(worlds_of("map-merging")));
+  verb->add_option("--strategy", o->strategies, "active-slam, efficiency: only this strategy (repeatable)")
       ->check(CLI::IsMember(explore_strategies()));
   verb->add_option("--programs", o->programs, "Folder of seekerd and seeker (default: beside this program)");
   verb->add_flag("--smallest", o->smallest,

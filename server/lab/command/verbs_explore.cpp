@@ -7,6 +7,7 @@
 #include "common/files/files.hpp"
 #include "server/lab/active_slam/explore_experiment.hpp"
 #include "server/lab/command/verbs.hpp"
+#include "server/lab/efficiency/tour_command.hpp"
 #include "server/lab/experiments/seeds.hpp"
 
 namespace seeker::lab {
@@ -138,6 +139,38 @@ Verb add_explore(CLI::App& app) {
   return [o] {
     const Status done = run(*o);
     return done ? kExitDone : report_error(done.error().message);
+  };
+}
+
+Verb add_tour(CLI::App& app) {
+  auto o = std::make_shared<TourOptions>();
+  auto common = std::make_shared<CommonOptions>();
+  auto building = std::make_shared<std::string>();
+  auto start = std::make_shared<std::vector<double>>();
+  CLI::App* verb = app.add_subcommand("tour", "What somebody would drive who knows the building: the yardstick");
+  verb->add_option("building", *building, "World file, the name of one in worlds/, or the YAML file of a ROS map")
+      ->required();
+  verb->add_option("--config", common->config, "Folder with worlds/");
+  const auto number = [&](const char* name, double& value, const char* help) {
+    verb->add_option(name, value, help)->check(config::number_above_zero, "above 0")->capture_default_str();
+  };
+  number("--range", o->coverage.range_m, "How far the sensor sees, m");
+  number("--share", o->coverage.share, "Share of floor and walls that must be seen, 0 to 1");
+  number("--step", o->coverage.step_m, "Distance of the viewpoints that are tried, m");
+  number("--radius", o->robot_radius_m, "Radius of the robot, m");
+  number("--height", o->scanner_height_m, "Height of the sensor over the floor of a world, m");
+  verb->add_option("--start", *start, "Where the tour begins: X,Y in m (default: the world's first start, or 0,0)")
+      ->delimiter(',')
+      ->expected(2);
+  verb->add_option("--out", o->picture, "PNG to write (default: none is written)");
+  verb->add_flag("--json", o->json, "Print JSON");
+  return [o, common, building, start] {
+    o->building = world_file(*common, *building);
+    if (!start->empty()) {
+      o->start = Point2(start->at(0), start->at(1));
+    }
+    const Status done = run_tour(*o, std::cout);
+    return done ? static_cast<int>(kExitDone) : report_error(done.error().message);
   };
 }
 

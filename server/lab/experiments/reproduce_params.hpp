@@ -17,8 +17,8 @@ struct ReproduceParams {
   std::vector<std::string> overrides;
   int jobs = 1;
   bool show_progress = false;
-  std::vector<std::string> worlds;      ///< for active-slam and map-merging: the worlds to run; empty: all
-  std::vector<std::string> strategies;  ///< for active-slam: the strategies to run; empty: all
+  std::vector<std::string> worlds;      ///< for active-slam, efficiency and map-merging: the worlds to run; empty: all
+  std::vector<std::string> strategies;  ///< for active-slam and efficiency: the strategies to run; empty: all
   /// For tests: regenerates the smallest form of everything, with the smallest world and the fewest pictures.
   bool smallest = false;
   bool sockets = true;  ///< false: leave out R12, the only part with processes and a network

@@ -74,7 +74,7 @@ TEST_P(ViewpointStrategy, SameInputsGiveTheSameWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ViewpointStrategy,
-                         ::testing::Values(Strategy::kFrontier, Strategy::kGain, Strategy::kHorizon),
+                         ::testing::Values(Strategy::kFrontier, Strategy::kGain, Strategy::kHorizon, Strategy::kTour),
                          [](const auto& param) { return std::string(to_string(param.param)); });
 
 /// A place, 0.5 m off the unknown on its right, among others.

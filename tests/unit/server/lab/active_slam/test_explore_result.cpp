@@ -103,8 +103,8 @@ TEST(ExploreResult, KnowsThePathToEveryShareOfTheWalls) {
 }
 
 TEST(ExploreCurves, AreReadBackAsWritten) {
-  const std::vector<ExploreSample> samples = {{0.0, 0.0, 1e-9, 0.0, 1e-9, 0.0},
-                                              {1.5, 0.123456789, 2e-4, 3e-5, 0.5, 12.25}};
+  const std::vector<ExploreSample> samples = {{0.0, 0.0, 1e-9, 0.0, 1e-9, 0.0, 0.0, 0.0},
+                                              {1.5, 0.123456789, 2e-4, 3e-5, 0.5, 12.25, 0.75, 31.5}};
   const auto back = parse_curves(curves_csv(samples));
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(*back, samples);
@@ -120,13 +120,14 @@ TEST(ExploreCurves, WhatIsNoneIsRefusedWithItsLine) {
 
 TEST(ExploreCurves, MeansAreOverTimeAndFinalsAreTheLast) {
   ExploreResult r;
-  add_curves({{0.0, 0.1, 1.0, 0.2, 2.0, 0.0}, {1.0, 0.3, 3.0, 0.4, 8.0, 5.0}}, r);
+  add_curves({{0.0, 0.1, 1.0, 0.2, 2.0, 0.0, 0.0, 4.0}, {1.0, 0.3, 3.0, 0.4, 8.0, 5.0, 0.5, 9.0}}, r);
   EXPECT_NEAR(r.mean_error_m, 0.2, 1e-12);
   EXPECT_NEAR(r.max_error_m, 0.3, 1e-12);
   EXPECT_NEAR(r.mean_robot_trace, 2.0, 1e-12);
   EXPECT_NEAR(r.final_robot_trace, 3.0, 1e-12);
   EXPECT_NEAR(r.mean_feature_trace, 0.3, 1e-12);
   EXPECT_NEAR(r.final_full_trace, 8.0, 1e-12);
+  EXPECT_NEAR(r.floor_m2, 9.0, 1e-12);
 }
 
 TEST(ExploreTables, HaveMeanAndSpreadPerWorldAndStrategy) {

@@ -1,0 +1,303 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "common/core/angle.hpp"
+#include "common/core/text.hpp"
+#include "server/explore/coarse_paths.hpp"
+#include "server/explore/leg_forecast.hpp"
+#include "server/explore/tour_places.hpp"
+#include "server/explore/trail.hpp"
+#include "server/tour/route.hpp"
+
+namespace seeker::explore {
+namespace {
+
+/// The direction of a path's first leg is that of its first place so far away.
+constexpr double kFirstLeg_m = 0.3;
+/// Only the paths to so many of the nearest places are looked at for their first direction; of others the straight line
+/// counts.
+constexpr std::size_t kKnownTurns = 8;
+/// More passages than this on one leg are no reason to go elsewhere first.
+constexpr int kMostPassages = 2;
+/// Where the coarse floor joins two places by no path, because a passage is narrower than its cells, the way is so much
+/// longer than the straight line.
+constexpr double kDetour = 1.5;
+/// More than any route.
+constexpr double kNever_m = 1e5;
+
+/// The tour of one decision.
+struct Plan {
+  std::vector<TourPlace> places;
+  tour::RouteCosts costs;
+  tour::Route route;
+};
+
+/// Plans a tour over all openings that matter and drives to the first of its places. The tour begins as the last one,
+/// so that the robot does not waver.
+class TourChooser final : public PlaceChooser {
+ public:
+  explicit TourChooser(const ExploreParams& params) : params_(params) {}
+
+  [[nodiscard]] PlaceChoice choose(const PlaceInput& input) override;
+  [[nodiscard]] bool wants_wall_ends() const override { return true; }
+  [[nodiscard]] bool changes_its_mind() const override { return true; }
+  [[nodiscard]] std::optional<DriveManner> manner() const override {
+    return DriveManner{true, params_.tour.replan_period_s, params_.tour.look_s};
+  }
+  void transform(const MapMove& move) override { trail_.transform(move); }
+
+ private:
+  [[nodiscard]] tour::RouteCosts costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
+                                          const tour::Rooms& rooms) const;
+  [[nodiscard]] double turn_cost(const PlaceInput& input, const TourPlace& place, bool look_at_path) const;
+  [[nodiscard]] tour::Route plan_route(const Plan& plan, const Opening* goal) const;
+  [[nodiscard]] tour::Route last_route(const Plan& plan) const;
+  [[nodiscard]] tour::Route with_first(const Plan& plan, const tour::Route& route, std::size_t first) const;
+  [[nodiscard]] const TourPlace* on_the_way(const PlaceInput& input, const std::vector<TourPlace>& passing,
+                                            const TourPlace& next) const;
+  [[nodiscard]] std::optional<Point2> certain_place_before(const PlaceInput& input, const Opening& goal) const;
+  [[nodiscard]] ExploreDecision publish(const Plan& plan, const TourPlace& chosen, bool by_the_way) const;
+
+  ExploreParams params_;
+  Trail trail_;                                         ///< where the robot was, and how certain
+  std::vector<std::vector<std::uint64_t>> last_order_;  ///< ids of the openings of the last tour's places
+};
+
+/// Cost of turning towards the place before the first leg.
+double TourChooser::turn_cost(const PlaceInput& input, const TourPlace& place, bool look_at_path) const {
+  const Pose2& map_T_base = input.robot.map_T_base;
+  Point2 towards = place.opening.map_T_view.translation();
+  if (look_at_path && !input.floor.cost.segment_is_clear(map_T_base.translation(), towards)) {
+    if (const auto path = input.costs.path_to(input.floor.cost, towards)) {
+      const auto first = std::find_if(path->waypoints.begin(), path->waypoints.end(), [&](const Point2& p) {
+        return (p - map_T_base.translation()).norm() > kFirstLeg_m;
+      });
+      towards = first != path->waypoints.end() ? *first : towards;
+    }
+  }
+  if ((towards - map_T_base.translation()).norm() < kFirstLeg_m) {
+    towards = place.opening.p_map;
+  }
+  const double turn_rad = std::abs(bearing_to(map_T_base, towards));
+  return params_.tour.turn_m_rad * std::max(0.0, turn_rad - params_.tour.free_turn_rad);
+}
+
+tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
+                                       const tour::Rooms& rooms) const {
+  std::vector<Point2> views;
+  std::vector<double> beyond_m;
+  for (const TourPlace& place : places) {
+    views.push_back(place.seen_from_map);
+    beyond_m.push_back(std::min(params_.tour.beyond_m, std::sqrt(place.gain_m2)));
+  }
+  const CoarsePaths paths(input.floor.reachable);
+  const auto leg = [&](double length_m, double otherwise_m, const std::vector<int>& passages, const TourPlace& to) {
+    const int crossed = passages[to.room];
+    const double doors = crossed == tour::Rooms::kNoWay ? 0 : std::min(crossed, kMostPassages);
+    return (std::isfinite(length_m) ? length_m : otherwise_m) + doors * params_.tour.passage_m;
+  };
+  tour::RouteCosts costs;
+  const auto count = static_cast<Eigen::Index>(places.size());
+  costs.between = Eigen::MatrixXd::Zero(count, count);
+  const Point2 here = input.robot.map_T_base.translation();
+  const std::vector<double> from_here = paths.lengths_m(here, views);
+  const std::vector<int> passages_here = rooms.passages_from(rooms.at(here));
+  for (std::size_t a = 0; a < places.size(); ++a) {
+    costs.from_start.push_back(leg(from_here[a], places[a].opening.cost, passages_here, places[a]) + beyond_m[a] +
+                               turn_cost(input, places[a], a < kKnownTurns));
+    const std::vector<Point2> others(views.begin() + static_cast<std::ptrdiff_t>(a), views.end());
+    const std::vector<double> lengths = paths.lengths_m(views[a], others);
+    const std::vector<int> passages = rooms.passages_from(places[a].room);
+    for (std::size_t b = a + 1; b < places.size(); ++b) {
+      const double straight_m = kDetour * (views[b] - views[a]).norm();
+      const double cost = leg(lengths[b - a], straight_m, passages, places[b]) + beyond_m[a] + beyond_m[b];
+      costs.between(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = cost;
+      costs.between(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)) = cost;
+    }
+  }
+  if (input.robot.end_map) {
+    costs.to_end = paths.lengths_m(*input.robot.end_map, views);
+    for (std::size_t k = 0; k < costs.to_end.size(); ++k) {
+      const double straight_m = kDetour * (views[k] - *input.robot.end_map).norm();
+      costs.to_end[k] = (std::isfinite(costs.to_end[k]) ? costs.to_end[k] : straight_m) + beyond_m[k];
+    }
+  }
+  return costs;
+}
+
+/// What is left of the last tour's order.
+tour::Route TourChooser::last_route(const Plan& plan) const {
+  tour::Route route;
+  for (const std::vector<std::uint64_t>& ids : last_order_) {
+    for (std::size_t k = 0; k < plan.places.size(); ++k) {
+      const std::vector<std::uint64_t>& here = plan.places[k].ids;
+      const bool same = std::find_first_of(here.begin(), here.end(), ids.begin(), ids.end()) != here.end();
+      if (same && std::find(route.begin(), route.end(), k) == route.end()) {
+        route.push_back(k);
+      }
+    }
+  }
+  return route;
+}
+
+/// The best route that begins with this place.
+tour::Route TourChooser::with_first(const Plan& plan, const tour::Route& route, std::size_t first) const {
+  tour::RouteCosts costs = plan.costs;
+  for (std::size_t k = 0; k < costs.from_start.size(); ++k) {
+    costs.from_start[k] += k == first ? 0.0 : kNever_m;
+  }
+  tour::Route then{first};
+  std::copy_if(route.begin(), route.end(), std::back_inserter(then), [&](std::size_t k) { return k != first; });
+  return tour::improved_route(costs, std::move(then));
+}
+
+tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) const {
+  const tour::RouteCosts& costs = plan.costs;
+  const double hysteresis_m = params_.tour.hysteresis_m;
+  tour::Route route = tour::improved_route(costs, tour::with_all_places(costs, last_route(plan)));
+  tour::Route fresh = tour::short_route(costs);
+  if (tour::route_cost(costs, fresh) < tour::route_cost(costs, route) - hysteresis_m) {
+    route = std::move(fresh);
+  }
+  for (std::size_t k = 0; goal != nullptr && k < plan.places.size(); ++k) {
+    const std::vector<std::uint64_t>& ids = plan.places[k].ids;
+    if (k != route.front() && std::find(ids.begin(), ids.end(), goal->id) != ids.end()) {
+      tour::Route same = with_first(plan, route, k);
+      if (tour::route_cost(costs, same) < tour::route_cost(costs, route) + hysteresis_m) {
+        return same;
+      }
+    }
+  }
+  return route;
+}
+
+/// Of the openings that do not matter by themselves the one whose detour is the shortest for what it shows, if it is
+/// short enough.
+const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vector<TourPlace>& passing,
+                                         const TourPlace& next) const {
+  std::vector<const TourPlace*> near;
+  std::vector<Point2> places{next.opening.map_T_view.translation()};
+  for (const TourPlace& place : passing) {
+    if (place.opening.cost <= params_.tour.passing_near_m) {
+      near.push_back(&place);
+      places.push_back(place.opening.map_T_view.translation());
+    }
+  }
+  if (near.empty()) {
+    return nullptr;
+  }
+  const CoarsePaths paths(input.floor.reachable);
+  const std::vector<double> from_here = paths.lengths_m(input.robot.map_T_base.translation(), places);
+  const std::vector<double> to_next = paths.lengths_m(places.front(), places);
+  const TourPlace* best = nullptr;
+  double best_m = 0.0;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const double detour_m = from_here[k + 1] + to_next[k + 1] - from_here.front() + turn_cost(input, *near[k], true);
+    const double wall_m = near[k]->opening.kind == OpeningKind::kWallFace ? near[k]->opening.size_m : 0.0;
+    const double spare_m = params_.tour.passing_m + params_.tour.passing_wall * wall_m - detour_m;
+    if (spare_m > best_m) {
+      best_m = spare_m;
+      best = near[k];
+    }
+  }
+  return best;
+}
+
+/// Where to pass on the way so that the position stays certain enough; nothing: the leg is certain enough by itself, or
+/// no place would help.
+std::optional<Point2> TourChooser::certain_place_before(const PlaceInput& input, const Opening& goal) const {
+  const double limit_m = params_.guard.max_position_sigma_m;
+  if (forecast_blind_leg(input, goal, params_.one_step).worst_sigma_m <= limit_m) {
+    return std::nullopt;
+  }
+  const StrategyInput& robot = input.robot;
+  const OneStepParams& one_step = params_.one_step;
+  const SightScene scene(robot.segments, robot.map_T_base.translation(), kForecastReach_m + one_step.sensor.range_m,
+                         one_step, one_step.use_floor ? &input.floor.cost.states() : nullptr);
+  const Belief belief = robot.belief ? Belief(*robot.belief)
+                                     : Belief(robot.map_T_base, robot.covariance, robot.segments,
+                                              static_cast<std::size_t>(one_step.max_observed));
+  if (forecast_leg(input, goal, scene, belief, one_step).worst_sigma_m <= limit_m) {
+    return std::nullopt;
+  }
+  const std::vector<Point2> certain = trail_.certain_places(params_.guard.regain_position_sigma_m);
+  const CoarsePaths paths(input.floor.reachable);
+  const std::vector<double> there = paths.lengths_m(robot.map_T_base.translation(), certain);
+  const std::vector<double> on = paths.lengths_m(goal.map_T_view.translation(), certain);
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < certain.size(); ++k) {
+    if (std::isfinite(there[k] + on[k]) && (!best || there[k] + on[k] < there[*best] + on[*best])) {
+      best = k;
+    }
+  }
+  const bool elsewhere = best && there[*best] > params_.viewpoints.reached_m;
+  return elsewhere ? std::optional(certain[*best]) : std::nullopt;
+}
+
+PlaceChoice TourChooser::choose(const PlaceInput& input) {
+  trail_.note(input.robot.map_T_base.translation(), position_sigma_m(input.robot.covariance));
+  const tour::Rooms rooms = rooms_of(input.floor, params_.tour.rooms);
+  TourPlaces found = tour_places(input, rooms, params_);
+  PlaceChoice choice;
+  if (found.worth_it.empty()) {
+    last_order_.clear();
+    choice.decision.rule = "tour";
+    choice.decision.why = "what is left is too little to drive to";
+    return choice;
+  }
+  Plan plan;
+  plan.places = std::move(found.worth_it);
+  plan.costs = costs_of(input, plan.places, rooms);
+  plan.route = plan_route(plan, input.goal);
+  last_order_.clear();
+  for (const std::size_t k : plan.route) {
+    last_order_.push_back(plan.places[k].ids);
+  }
+  const TourPlace& next = plan.places[plan.route.front()];
+  const TourPlace* by_the_way = on_the_way(input, found.passing, next);
+  const TourPlace& chosen = by_the_way != nullptr ? *by_the_way : next;
+  choice.opening = chosen.opening;
+  choice.via_map = certain_place_before(input, chosen.opening);
+  choice.decision = publish(plan, chosen, by_the_way != nullptr);
+  if (choice.via_map) {
+    choice.decision.why += ", by " + text(*choice.via_map) + ", where the position is certain";
+  }
+  return choice;
+}
+
+/// The places in the order of the tour; with one by the way first.
+ExploreDecision TourChooser::publish(const Plan& plan, const TourPlace& chosen, bool by_the_way) const {
+  ExploreDecision decision;
+  decision.rule = "tour";
+  const auto add = [&](const TourPlace& place, double score) {
+    if (decision.candidates.size() < kMaxDecisionCandidates) {
+      DecisionCandidate candidate;
+      candidate.map_T_base = place.opening.map_T_view;
+      candidate.path_m = place.opening.cost;
+      candidate.score = score;
+      decision.candidates.push_back(std::move(candidate));
+    }
+  };
+  const double length_m = tour::route_cost(plan.costs, plan.route);
+  if (by_the_way) {
+    add(chosen, -length_m);
+  }
+  for (const std::size_t k : plan.route) {
+    add(plan.places[k], -length_m);
+  }
+  decision.chosen = 0;
+  decision.why =
+      by_the_way ? "by the way: " + describe(chosen.opening)
+                 : "first of a tour of " + std::to_string(plan.route.size()) + " places to " + describe(chosen.opening);
+  return decision;
+}
+
+}  // namespace
+
+std::unique_ptr<PlaceChooser> make_tour_chooser(const ExploreParams& params) {
+  return std::make_unique<TourChooser>(params);
+}
+
+}  // namespace seeker::explore

@@ -1,0 +1,268 @@
+// The strategy that plans tours: how its explorations end, and what its decisions are.
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "server/explore/place_strategy.hpp"
+#include "tests/support/matchers.hpp"
+#include "tests/unit/server/explore/explorations.hpp"
+#include "tests/unit/server/nav/ascii_map.hpp"
+
+namespace seeker::explore {
+namespace {
+
+using seeker::testing::Point2Near;
+
+/// Two rooms of 5 x 5 m joined by a door of 1.2 m.
+ToyWorld rooms_with_a_door() {
+  ToyWorld world;
+  world.walls = joined(box(0, 0, 10.2, 5), {{{5.1, 0.0}, {5.1, 1.9}}, {{5.1, 3.1}, {5.1, 5.0}}});
+  return world;
+}
+
+ToyRun tour_of(const ToyWorld& world, const Pose2& start, double limit_s, const ExploreRequest& request,
+               double laser_range_m = 8.0) {
+  auto exploration = exploration_of(request);
+  ToyExplorer robot(world, start, 5, laser_range_m);
+  ToyRun run = robot.run(exploration, limit_s);
+  print("tour", run);
+  return run;
+}
+
+TEST(TourEnds, ACorridorOfRoomsIsComplete) {
+  const ToyRun run = tour_of(seeker::explore::office(), {9.0, 5.0, 1.5}, 900.0, request_of(Strategy::kTour));
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
+  EXPECT_GT(run.wall_share, 0.97);
+  const ToyRun nearest = tour_of(seeker::explore::office(), {9.0, 5.0, 1.5}, 900.0, request_of(Strategy::kFrontier));
+  EXPECT_LT(run.seconds, nearest.seconds) << "it does not stop for every decision";
+}
+
+TEST(TourEnds, AClosetBehindAGapIsListedAsUnreachable) {
+  ToyWorld world;
+  world.walls = joined(box(0, 0, 9, 5), {{{5.1, 0.0}, {5.1, 2.35}}, {{5.1, 2.75}, {5.1, 5.0}}});
+  const ToyRun run = tour_of(world, {3.0, 2.5, 0.0}, 600.0, request_of(Strategy::kTour));
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kUnreachable);
+  ASSERT_FALSE(run.end->unreachable.empty());
+  EXPECT_GT(run.end->unreachable.front().p_map.x(), 5.1);
+  EXPECT_FALSE(run.end->remedy.empty());
+}
+
+TEST(TourEnds, ADoorToTheOutsideEndsAtTheBound) {
+  ExploreRequest request = request_of(Strategy::kTour);
+  request.areas.bound = Polygon{{-0.5, -0.5}, {5.1, -0.5}, {5.1, 5.5}, {-0.5, 5.5}};
+  const ToyRun run = tour_of(rooms_with_a_door(), {1.0, 1.0, 0.3}, 600.0, request);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kBoundReached) << run.end->cause;
+  EXPECT_LT(run.pose.x_m, 5.2);
+}
+
+/// The laser sees through it, the sonars do not.
+TEST(TourEnds, FloorBehindGlassIsUnreachable) {
+  ToyWorld world;
+  world.walls = box(0, 0, 9, 4);
+  world.low_things = {{{5.0, 0.0}, {5.0, 4.0}}};
+  const ToyRun run = tour_of(world, {1.5, 2.0, 0.0}, 900.0, request_of(Strategy::kTour));
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_TRUE(run.end->kind == EndKind::kUnreachable || run.end->kind == EndKind::kComplete) << run.end->cause;
+  EXPECT_LT(run.pose.x_m, 5.0);
+  EXPECT_GT(run.least_clearance_m, 0.2);
+}
+
+TEST(TourEnds, AStartBoxedInEndsSoonWithItsReason) {
+  for (const double side_m : {0.7, 1.2}) {
+    ToyWorld world;
+    const double half = side_m / 2.0;
+    world.walls = joined(box(-5, -5, 5, 5), box(-half, -half, half, half));
+    const ToyRun run = tour_of(world, {}, 120.0, request_of(Strategy::kTour));
+    ASSERT_TRUE(run.end.has_value());
+    EXPECT_TRUE(run.end->kind == EndKind::kComplete || run.end->kind == EndKind::kUnreachable);
+    EXPECT_FALSE(run.end->cause.empty());
+    EXPECT_LT(run.path_m, 2.0);
+  }
+}
+
+TEST(TourEnds, AHallBeyondTheRangeOfTheLaserIsExploredToItsWalls) {
+  ToyWorld world;
+  world.walls = box(0, 0, 18, 18);
+  const ToyRun run = tour_of(world, {9.0, 9.0, 0.0}, 1500.0, request_of(Strategy::kTour), 5.0);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
+  EXPECT_GT(run.wall_share, 0.9);
+}
+
+TEST(TourEnds, PeopleInADoorDelayIt) {
+  auto exploration = exploration_of(request_of(Strategy::kTour));
+  ToyExplorer robot(rooms_with_a_door(), {1.0, 1.0, 0.3}, 19);
+  ToyExplorer::Hooks hooks;
+  hooks.world = [walls = robot.world().walls.size()](double t_s, ToyWorld& world) {
+    world.walls.resize(walls);
+    if (t_s > 6.0 && t_s < 60.0) {
+      world.walls = joined(world.walls, box(4.9, 2.0, 5.3, 3.0));
+    }
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("people", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
+  EXPECT_GT(run.wall_share, 0.9);
+}
+
+TEST(TourEnds, WhoStaysInADoorMakesWhatLiesBehindUnreachable) {
+  auto exploration = exploration_of(request_of(Strategy::kTour));
+  ToyExplorer robot(rooms_with_a_door(), {2.0, 2.5, 0.0}, 19);
+  ToyExplorer::Hooks hooks;
+  hooks.world = [walls = robot.world().walls.size()](double t_s, ToyWorld& world) {
+    world.walls.resize(walls);
+    if (t_s > 3.5) {
+      world.walls = joined(world.walls, box(4.9, 2.0, 5.3, 3.0));
+    }
+  };
+  const ToyRun run = robot.run(exploration, 900.0, hooks);
+  print("stays", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kUnreachable) << run.end->cause;
+  EXPECT_GT(run.seconds, 120.0) << "it has been waited for";
+}
+
+TEST(TourEnds, ReturnsToTheStart) {
+  ExploreRequest request = request_of(Strategy::kTour);
+  request.return_to_start = true;
+  const ToyRun run = tour_of(rooms_with_a_door(), {1.0, 1.0, 0.3}, 600.0, request);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_EQ(run.end->kind, EndKind::kComplete) << run.end->cause;
+  EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
+}
+
+/// One decision over a known floor whose borders are given.
+class TourDecision : public ::testing::Test {
+ protected:
+  /// 20 x 10 m of floor with the unknown all around it, and the robot at its middle, facing +x.
+  TourDecision() : occupancy_(nav::ascii_map(rows(), 0.5)), robot_{10.0, 5.0, 0.0}, floors_({}, {}, 0.2, 1.0) {}
+
+  [[nodiscard]] PlaceChoice choose(PlaceChooser& chooser, std::vector<Opening> open, const Opening* goal = nullptr,
+                                   std::optional<Point2> end_map = std::nullopt) {
+    const auto cost = nav::CostMap::build(occupancy_);
+    const auto reachable = nav::reachable_floor(*cost, robot_.translation(), 0.2);
+    const auto costs = nav::DistanceField::build(*cost, robot_.translation());
+    EXPECT_TRUE(cost && reachable && costs);
+    const nav::FloorView floor{occupancy_, *cost, *reachable, 1, {}};
+    for (Opening& opening : open) {
+      opening.cost = *costs->cost_to(opening.map_T_view.translation());
+    }
+    std::stable_sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+    StrategyInput input{{{}, robot_, nullptr, nullptr, floors_}, {}, covariance_, none_, 1, {}, nullptr};
+    input.end_map = end_map;
+    return chooser.choose({input, floor, *costs, open, goal});
+  }
+
+  static std::vector<std::string> rows() {
+    std::vector<std::string> all(24, std::string(44, ' '));
+    for (std::size_t row = 2; row < 22; ++row) {
+      all[row] = "  " + std::string(40, '.') + "  ";
+    }
+    return all;
+  }
+
+  /// A border that was observed before, so that only the border itself shows it.
+  static Opening border_at(const Point2& p_map, std::uint64_t id) {
+    Opening opening;
+    opening.id = id;
+    opening.p_map = p_map;
+    opening.size_m = 1.0;
+    opening.visits = 1;
+    opening.outward_map = p_map.x() > 10.0 ? Point2(1.0, 0.0) : Point2(-1.0, 0.0);
+    opening.map_T_view = {p_map.x(), p_map.y(), p_map.x() > 10.0 ? 0.0 : kPi};
+    return opening;
+  }
+
+  Grid<std::uint8_t> occupancy_;
+  Pose2 robot_;
+  Matrix3 covariance_ = Matrix3::Identity() * 1e-6;
+  std::vector<MapSegment> none_;
+  nav::FloorSource floors_;
+};
+
+TEST_F(TourDecision, TakesTheSideThatMakesTheTourShort) {
+  // Five metres to the left and seven to the right: left first, then all the way.
+  const auto chooser = make_tour_chooser({});
+  robot_.theta_rad = kPi / 2.0;
+  const PlaceChoice choice = choose(*chooser, {border_at({5.0, 5.0}, 1), border_at({17.0, 5.0}, 2)});
+  ASSERT_TRUE(choice.opening.has_value());
+  EXPECT_EQ(choice.opening->id, 1U) << choice.decision.why;
+  EXPECT_EQ(choice.decision.rule, "tour");
+  EXPECT_NE(choice.decision.why.find("tour of 2 places"), std::string::npos) << choice.decision.why;
+}
+
+TEST_F(TourDecision, TheEndIsPartOfTheTour) {
+  // With the end on the left the right side comes first, though it is farther.
+  const auto chooser = make_tour_chooser({});
+  robot_.theta_rad = kPi / 2.0;
+  const PlaceChoice choice =
+      choose(*chooser, {border_at({5.0, 5.0}, 1), border_at({17.0, 5.0}, 2)}, nullptr, Point2(3.0, 5.0));
+  ASSERT_TRUE(choice.opening.has_value());
+  EXPECT_EQ(choice.opening->id, 2U) << choice.decision.why;
+}
+
+TEST_F(TourDecision, TurningRoundCostsPath) {
+  // As near on both sides: it goes where it looks.
+  const auto chooser = make_tour_chooser({});
+  const PlaceChoice choice = choose(*chooser, {border_at({4.2, 5.0}, 1), border_at({15.8, 5.0}, 2)});
+  ASSERT_TRUE(choice.opening.has_value());
+  EXPECT_EQ(choice.opening->id, 2U) << choice.decision.why;
+}
+
+TEST_F(TourDecision, DoesNotWaverBetweenEqualTours) {
+  const auto chooser = make_tour_chooser({});
+  robot_.theta_rad = kPi / 2.0;
+  const std::vector<Opening> open{border_at({4.0, 5.0}, 1), border_at({16.2, 5.0}, 2)};
+  const PlaceChoice first = choose(*chooser, open);
+  ASSERT_TRUE(first.opening.has_value());
+  const Opening goal = *first.opening;
+  robot_.x_m = 20.0 - goal.p_map.x() > 10.0 ? 10.3 : 9.7;  // a little nearer to the other one
+  const PlaceChoice second = choose(*chooser, open, &goal);
+  ASSERT_TRUE(second.opening.has_value());
+  EXPECT_EQ(second.opening->id, goal.id);
+}
+
+TEST_F(TourDecision, WhatIsTooLittleIsTakenOnTheWayOnly) {
+  ExploreParams params;
+  Opening end = border_at({14.0, 5.3}, 7);
+  end.kind = OpeningKind::kWallEnd;
+  end.map_T_view = {14.0, 5.0, 0.0};
+  const auto chooser = make_tour_chooser(params);
+  const PlaceChoice by_the_way = choose(*chooser, {end, border_at({19.0, 5.0}, 2)});
+  EXPECT_FALSE(by_the_way.opening && by_the_way.opening->id == 7U) << "it is beyond passing_near_m";
+  params.viewpoints.min_gain_m2 = 1000.0;
+  const auto strict = make_tour_chooser(params);
+  const PlaceChoice none = choose(*strict, {end, border_at({19.0, 5.0}, 2)});
+  EXPECT_FALSE(none.opening.has_value()) << "none is worth a drive by itself";
+  robot_.x_m = 12.0;
+  const auto near = make_tour_chooser({});
+  const PlaceChoice passed = choose(*near, {end, border_at({19.0, 5.0}, 2)});
+  ASSERT_TRUE(passed.opening.has_value());
+  EXPECT_EQ(passed.opening->id, 7U) << passed.decision.why;
+}
+
+TEST_F(TourDecision, AnUncertainLegPassesACertainPlace) {
+  ExploreParams params;
+  params.guard.max_position_sigma_m = 0.06;
+  params.guard.regain_position_sigma_m = 0.03;
+  const auto chooser = make_tour_chooser(params);
+  const std::vector<Opening> open{border_at({19.0, 5.0}, 2)};
+  robot_ = {8.0, 5.0, 0.0};
+  EXPECT_FALSE(choose(*chooser, {border_at({9.0, 5.0}, 1)}).via_map.has_value()) << "a short leg is certain";
+  robot_ = {11.0, 5.0, 0.0};
+  covariance_ = Matrix3::Identity() * 0.0025;
+  const PlaceChoice choice = choose(*chooser, open);
+  ASSERT_TRUE(choice.via_map.has_value());
+  EXPECT_THAT(*choice.via_map, Point2Near(Point2(8.0, 5.0), 0.1));
+  EXPECT_NE(choice.decision.why.find("certain"), std::string::npos) << choice.decision.why;
+}
+
+}  // namespace
+}  // namespace seeker::explore
