@@ -105,11 +105,11 @@ start_host() {
   host_port=$(<"$server_folder/host-port")
 }
 
-# start_crowd STACK NAME CLIENTS
+# start_crowd STACK NAME CLIENTS. With less priority: on other computers they would take no processor time of the robot.
 start_crowd() {
   (($3 > 0)) || return 0
   rm -f "$server_folder/ready"
-  "$bin/link_load_$1" --bundle "$server_folder/operator" --port "$host_port" --clients "$3" \
+  nice -n 10 "$bin/link_load_$1" --bundle "$server_folder/operator" --port "$host_port" --clients "$3" \
     --ready-file "$server_folder/ready" >"$out/$2.crowd.log" 2>&1 &
   load_pid=$!
   wait_for "$server_folder/ready" "$load_pid" "$out/$2.crowd.log"
