@@ -2,6 +2,7 @@
 /// Connecting to an address, once or repeatedly until it succeeds.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -38,6 +39,12 @@ class Backoff {
     return now;
   }
   void reset() { next_ = first_; }
+  /// The delay before the first attempt after a connection that was good for `lasted`: what it has not lasted of the
+  /// first delay, so that one which breaks again and again is not made more often than without. Does as reset().
+  [[nodiscard]] Duration after(Duration lasted) {
+    reset();
+    return std::max(Duration::zero(), first_ - lasted);
+  }
 
  private:
   Duration first_;

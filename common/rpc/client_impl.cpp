@@ -205,7 +205,7 @@ void RobotClient::Impl::act(wire::ClientStep step) {
 }
 
 void RobotClient::Impl::on_open() {
-  backoff_.reset();
+  opened_at_ = net::wall_now();
   best_sync_.reset();  // another run of the robot has another clock
   {
     const std::lock_guard lock(mutex_);
@@ -270,7 +270,8 @@ void RobotClient::Impl::end_connection(const Error& error, bool final_end) {
   if (!retry || closing_) {
     return;
   }
-  retry_.expires_after(backoff_.next());
+  const auto opened_at = std::exchange(opened_at_, std::nullopt);
+  retry_.expires_after(opened_at ? backoff_.after(net::wall_now() - *opened_at) : backoff_.next());
   retry_.async_wait([self = shared_from_this()](error_code cancelled) {
     if (!cancelled && !self->closing_) {
       self->connect_now();

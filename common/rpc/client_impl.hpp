@@ -79,6 +79,7 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   boost::asio::steady_timer tick_;
   boost::asio::steady_timer retry_;
   net::Backoff backoff_;
+  std::optional<wire::WallTime> opened_at_;  ///< when the session that there is was opened
   std::shared_ptr<net::Connection> connection_;
   std::optional<wire::ClientSession> session_;
   std::uint64_t connection_number_ = 0;  ///< distinguishes late handlers of a former connection

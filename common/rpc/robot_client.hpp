@@ -35,8 +35,10 @@ struct LinkEvent {
 
 struct ReconnectParams {
   bool enabled = true;
-  Duration first_delay = std::chrono::milliseconds(100);  ///< wall time before the first attempt
-  Duration max_delay = std::chrono::seconds(5);           ///< the delay doubles up to this
+  /// Wall time between attempts, and from the hello of a connection to the next attempt: one that has lasted so long is
+  /// made again at once.
+  Duration first_delay = std::chrono::milliseconds(100);
+  Duration max_delay = std::chrono::seconds(5);  ///< the delay doubles up to this
 };
 
 /// All times are wall time.

@@ -8,8 +8,8 @@ if [[ ${1-} == --help ]]; then
 ./run bench [NAME...]: runs bench_NAME (default: all) one after the other and leaves build/bench/results/NAME.json.
 The table gives the time of each benchmark, its ratio to the first one of its program (below 1: faster), and the figures
 that it reports itself.
-./run bench peers compares with other programs instead, ./run bench hardware measures a robot with emulated devices; see
-their --help.
+./run bench peers compares with other programs instead, ./run bench hardware measures a robot with emulated devices,
+./run bench link the operator's link beside gRPC; see their --help.
 TEXT
   exit 0
 fi

@@ -10,6 +10,7 @@ declare -A PACKAGES=(
   [test]="libgtest-dev libgmock-dev librapidcheck-dev openssl curl"
   [lint]="clang-format clang-tidy"
   [bench]="libbenchmark-dev"
+  [grpc]="libgrpc++-dev protobuf-compiler-grpc"
   [fuzz]="clang-14 libfuzzer-14-dev libclang-rt-14-dev"
   [package]="dpkg-dev"
   [check]="debootstrap lintian"

@@ -147,6 +147,9 @@ class FakeRobot final : public api::RobotApi {
         return fail(Errc::kRefused, "the lease belongs to '" + v.lease.owner + "'; acquire it first");
       }
       v.drives.push_back(command);
+      if (v.on_drive) {
+        v.on_drive(command);
+      }
       return {};
     });
   }

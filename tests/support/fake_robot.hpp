@@ -55,6 +55,8 @@ struct FakeRobotValues {
   /// Calls that arrived, in order, e.g. "operator-1 stop".
   std::vector<std::string> calls;
   std::vector<api::DriveCommand> drives;
+  /// Called for each of `drives` when it arrives; may be empty.
+  std::function<void(const api::DriveCommand&)> on_drive;
   std::vector<api::MissionRequest> missions;
   std::vector<api::Caller> opened;
   std::vector<api::Caller> closed;

@@ -1,0 +1,53 @@
+#include "tests/bench/link/host.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "tests/bench/link/traffic.hpp"
+
+namespace seeker::link_bench {
+namespace {
+
+/// Whole or not at all for who waits for it.
+Status write_port(const std::filesystem::path& file, std::uint16_t port) {
+  const std::filesystem::path fresh = file.string() + ".new";
+  std::ofstream(fresh) << port << '\n';
+  std::error_code failed;
+  std::filesystem::rename(fresh, file, failed);
+  return failed ? Status(fail(Errc::kIo, file.string() + " cannot be written")) : Status();
+}
+
+Status serve(const HostOptions& options, const MakeHost& make) {
+  Latencies acts;
+  Result<std::unique_ptr<Host>> host = make(options, acts);
+  if (!host) {
+    return tl::unexpected<Error>(host.error());
+  }
+  {
+    const Traffic traffic([&](api::Topic topic, RobotTime stamp, const api::Payload& payload) {
+      (*host)->publish(topic, stamp, payload);
+    });
+    if (Status written = write_port(options.port_file, (*host)->port()); !written) {
+      return written;
+    }
+    wait_for_end();
+  }
+  host->reset();
+  return acts.write(options.acts);
+}
+
+}  // namespace
+
+int run_host(int argc, char** argv, const MakeHost& make) {
+  const HostOptions options = read_host_options(argc, argv);
+  hold_back_end();
+  const Status served = serve(options, make);
+  if (!served) {
+    std::cerr << argv[0] << ": " << served.error().message << '\n';
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace seeker::link_bench
