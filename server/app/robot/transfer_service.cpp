@@ -45,7 +45,11 @@ Result<api::MissionRequest> with_pictures(const store::IncomingFiles& files, api
 }  // namespace
 
 TransferService::TransferService(std::filesystem::path folder, MapService& maps, LandmarkService& landmarks)
-    : folder_(std::move(folder)), maps_(maps), landmarks_(landmarks), files_(folder_), disk_(kMaxWaitingRequests, "files") {}
+    : folder_(std::move(folder)),
+      maps_(maps),
+      landmarks_(landmarks),
+      files_(folder_),
+      disk_(kMaxWaitingRequests, "files") {}
 
 Status TransferService::post(std::function<void(store::IncomingFiles&)> work) {
   if (folder_.empty()) {
