@@ -62,7 +62,7 @@ TEST(TourEnds, ADoorToTheOutsideEndsAtTheBound) {
 }
 
 /// The laser sees through it, the sonars do not.
-TEST(TourEnds, FloorBehindGlassIsUnreachable) {
+TEST(TourEnds, GlassThatTheLaserSeesThroughIsNotHit) {
   ToyWorld world;
   world.walls = box(0, 0, 9, 4);
   world.low_things = {{{5.0, 0.0}, {5.0, 4.0}}};
@@ -231,9 +231,9 @@ TEST_F(TourDecision, DoesNotWaverBetweenEqualTours) {
 
 TEST_F(TourDecision, WhatIsTooLittleIsTakenOnTheWayOnly) {
   ExploreParams params;
-  Opening end = border_at({14.0, 5.3}, 7);
+  Opening end = border_at({15.0, 5.3}, 7);
   end.kind = OpeningKind::kWallEnd;
-  end.map_T_view = {14.0, 5.0, 0.0};
+  end.map_T_view = {15.0, 5.0, 0.0};
   const auto chooser = make_tour_chooser(params);
   const PlaceChoice by_the_way = choose(*chooser, {end, border_at({19.0, 5.0}, 2)});
   EXPECT_FALSE(by_the_way.opening && by_the_way.opening->id == 7U) << "it is beyond passing_near_m";
@@ -241,7 +241,7 @@ TEST_F(TourDecision, WhatIsTooLittleIsTakenOnTheWayOnly) {
   const auto strict = make_tour_chooser(params);
   const PlaceChoice none = choose(*strict, {end, border_at({19.0, 5.0}, 2)});
   EXPECT_FALSE(none.opening.has_value()) << "none is worth a drive by itself";
-  robot_.x_m = 12.0;
+  robot_.x_m = 13.0;
   const auto near = make_tour_chooser({});
   const PlaceChoice passed = choose(*near, {end, border_at({19.0, 5.0}, 2)});
   ASSERT_TRUE(passed.opening.has_value());
