@@ -36,6 +36,7 @@ Result<Records> newest(AuditTrail& trail, std::uint32_t last, const std::string&
 
 TEST(AuditTrail, WhatWasNotedIsThereAtOnceAndAfterTheEnd) {
   const testing::TemporaryFolder folder;
+  const log::ScopedSink quiet([](const log::Line&) {});
   api::AuditRecord expected = record_of("anna/seeker", "set_estop");
   {
     const auto trail = AuditTrail::open(folder.path()).value();
