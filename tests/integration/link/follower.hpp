@@ -45,6 +45,10 @@ class Follower {
 
   [[nodiscard]] bool connected() const { return client_ != nullptr; }
   [[nodiscard]] rpc::RobotClient& client() { return *client_; }
+  /// A call without a connection is answered at once: whoever repeats one waits for that first.
+  [[nodiscard]] bool wait_connected() {
+    return eventually([&] { return client_->link() != rpc::LinkState::kLost; });
+  }
   template <class T, class Call>
   [[nodiscard]] Result<T> ask(Call&& call) {
     return rpc::wait<T>(std::forward<Call>(call), kPatience);

@@ -21,6 +21,14 @@ class Ledger {
  public:
   enum Side : std::size_t { kReference, kImpaired };
 
+  /// Both sides follow now: what was told before is not compared, for one may have begun earlier.
+  void begin() {
+    const std::lock_guard lock(mutex_);
+    for (auto& [name, topic] : topics_) {
+      topic.before = std::max(topic.last[kReference], topic.last[kImpaired]);
+      topic.ahead.clear();
+    }
+  }
   void note(Side side, const api::UpdatePtr& update) {
     if (api::stream_class(update->topic) != api::StreamClass::kReliable) {
       return;
@@ -89,6 +97,7 @@ class Ledger {
  private:
   struct Topic {
     std::array<std::uint64_t, 2> last{};
+    std::uint64_t before = 0;                       ///< the last number that is not compared
     std::map<std::uint64_t, api::UpdatePtr> ahead;  ///< seen by one side only
     Side who_is_ahead = kReference;
   };
@@ -104,6 +113,9 @@ class Ledger {
     last = update.sequence;
   }
   void compare(Topic& topic, Side side, const api::UpdatePtr& update) {
+    if (update->sequence <= topic.before) {
+      return;
+    }
     const auto other = topic.ahead.find(update->sequence);
     if (other == topic.ahead.end()) {
       if (!topic.ahead.empty() && topic.who_is_ahead != side) {

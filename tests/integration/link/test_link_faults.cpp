@@ -42,6 +42,7 @@ class LinkFaults : public ::testing::Test {
     std::cout << "seed " << kSeed << ", " << faults() << " faults\n";
     EXPECT_TRUE(reference_.connected() && reference_.settle());
     EXPECT_TRUE(impaired_.connected() && impaired_.settle());
+    ledger_.begin();
   }
 
   [[nodiscard]] rpc::ClientParams params(const std::string& name) {

@@ -20,6 +20,10 @@ class Recorder {
     items_.push_back(std::move(item));
     changed_.notify_all();
   }
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    items_.clear();
+  }
   [[nodiscard]] std::vector<T> items() const {
     const std::lock_guard lock(mutex_);
     return items_;
