@@ -1,6 +1,7 @@
 #include "common/wire/stream_sender.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/wire/convert.hpp"
 
@@ -125,7 +126,26 @@ std::optional<OutFrame> StreamSender::next_of(std::uint64_t id, TopicState& stat
   return stream_frame(std::move(body), id, std::exchange(state.dropped, 0));
 }
 
+std::optional<OutFrame> StreamSender::next_status(WallTime now) {
+  for (auto& [id, subscription] : subscriptions_) {
+    for (TopicState& state : subscription.topics) {
+      if (state.request.topic == api::Topic::kStatus) {
+        if (auto frame = next_of(id, state, now)) {
+          return frame;
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<OutFrame> StreamSender::next(WallTime now) {
+  if (!std::exchange(status_went_, false)) {
+    if (auto status = next_status(now)) {
+      status_went_ = true;
+      return status;
+    }
+  }
   std::vector<std::pair<std::uint64_t, TopicState*>> all;
   for (auto& [id, subscription] : subscriptions_) {
     for (TopicState& state : subscription.topics) {

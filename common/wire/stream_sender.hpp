@@ -54,7 +54,8 @@ class StreamSender {
   void offer(api::Topic topic, std::uint64_t sequence, const SharedBody& body);
   void offer_tiles(const EncodedTiles& tiles);
 
-  /// The next frame that may be sent now. Topics are served in rotation.
+  /// The next frame that may be sent now. A status goes first: it is small, and what people act on; but never a second
+  /// one before another topic that waits. All others are served in rotation.
   [[nodiscard]] std::optional<OutFrame> next(WallTime now);
   /// The time at which the next frame that a rate limit holds back may be sent; std::nullopt when there is none.
   [[nodiscard]] std::optional<WallTime> next_due() const;
@@ -80,6 +81,7 @@ class StreamSender {
 
   [[nodiscard]] seeker::v1::TopicReply place(TopicState& state, std::uint64_t resume_stream_id) const;
   [[nodiscard]] std::optional<OutFrame> next_of(std::uint64_t id, TopicState& state, WallTime now) const;
+  [[nodiscard]] std::optional<OutFrame> next_status(WallTime now);
   [[nodiscard]] const Backlog& backlog(api::Topic topic) const { return backlogs_[static_cast<std::size_t>(topic)]; }
 
   const Backlogs& backlogs_;
@@ -87,6 +89,7 @@ class StreamSender {
   DropCounts* counts_;
   std::map<std::uint64_t, Subscription> subscriptions_;
   std::size_t next_topic_ = 0;
+  bool status_went_ = false;  ///< the last frame was a status that went first
 };
 
 }  // namespace seeker::wire

@@ -130,11 +130,35 @@ TEST_F(SenderTest, CountsWhatSlowClientsMissByTopic) {
 }
 
 TEST_F(SenderTest, ReliableAndLatestTakeTurns) {
-  (void)sender_.subscribe(1, {{{api::Topic::kEvent, 0.0, 0}, kRun}, {{api::Topic::kStatus, 0.0, 0}, 0}});
+  (void)sender_.subscribe(1, {{{api::Topic::kEvent, 0.0, 0}, kRun}, {{api::Topic::kScan, 0.0, 0}, 0}});
   push(1);
   push(2);
-  sender_.offer(api::Topic::kStatus, 1, std::make_shared<const std::string>("s"));
+  sender_.offer(api::Topic::kScan, 1, std::make_shared<const std::string>("s"));
   EXPECT_EQ(drain(), (Texts{"e1", "s", "e2"}));
+}
+
+TEST_F(SenderTest, StatusGoesBeforeAnImageThatWaits) {
+  (void)sender_.subscribe(1, {{{api::Topic::kStatus, 0.0, 0}, 0}, {{api::Topic::kImage, 0.0, 0}, 0}});
+  const auto body = [](const char* text) { return std::make_shared<const std::string>(text); };
+  sender_.offer(api::Topic::kStatus, 1, body("s1"));
+  EXPECT_EQ(drain(), Texts{"s1"}) << "the image would be next in turn";
+  sender_.offer(api::Topic::kImage, 1, body("i1"));
+  sender_.offer(api::Topic::kStatus, 2, body("s2"));
+  EXPECT_EQ(drain(), (Texts{"s2", "i1"}));
+}
+
+TEST_F(SenderTest, StatusThatIsAlwaysNewDoesNotStarveTheOthers) {
+  (void)sender_.subscribe(1, {{{api::Topic::kStatus, 0.0, 0}, 0}, {{api::Topic::kEvent, 0.0, 0}, kRun}});
+  push(1);
+  push(2);
+  std::size_t events = 0;
+  for (std::uint64_t k = 1; k <= 4; ++k) {
+    sender_.offer(api::Topic::kStatus, k, std::make_shared<const std::string>("s"));
+    const auto frame = sender_.next(at(0));
+    ASSERT_TRUE(frame);
+    events += *frame->body == "s" ? 0 : 1;
+  }
+  EXPECT_EQ(events, 2U);
 }
 
 }  // namespace
