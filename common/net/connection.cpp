@@ -132,11 +132,25 @@ void Connection::send_writing() {
     record_.assign(writing_.head);
     record_.append(body).append(writing_.tail);
     buffers = {asio::buffer(record_), asio::const_buffer(), asio::const_buffer()};
+  } else if (TlsStream* tls = transport_.tls()) {
+    send_gathered(*tls, buffers);
+    return;
   }
   with_stream(transport_, [this, &buffers](auto& stream) {
     asio::async_write(stream, buffers, [self = shared_from_this()](error_code error, std::size_t bytes) {
       self->on_written(error, bytes);
     });
+  });
+}
+
+void Connection::send_gathered(TlsStream& tls, const std::array<asio::const_buffer, 3>& buffers) {
+  tls.stream.next_layer().gather();
+  asio::async_write(tls.stream, buffers, [self = shared_from_this(), &tls](error_code error, std::size_t bytes) {
+    if (error) {
+      self->on_written(error, bytes);
+      return;
+    }
+    tls.stream.next_layer().flush([self, bytes](error_code failed) { self->on_written(failed, bytes); });
   });
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/steady_timer.hpp>
 
 #include "common/core/result.hpp"
@@ -58,6 +59,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   [[nodiscard]] Error not_a_frame(const Error& error) const;
   void write();
   void send_writing();
+  /// A frame of several records, in few system calls.
+  void send_gathered(TlsStream& tls, const std::array<boost::asio::const_buffer, 3>& buffers);
   void on_written(const boost::system::error_code& error, std::size_t bytes);
   void say_end();
   void end(const Error& error);

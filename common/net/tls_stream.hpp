@@ -5,6 +5,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/stream.hpp>
 
+#include "common/net/gathering_socket.hpp"
 #include "common/net/transport.hpp"
 
 namespace seeker::net {
@@ -13,7 +14,7 @@ struct TlsStream {
   /// Takes over the session.
   TlsStream(boost::asio::ip::tcp::socket socket, SSL* session) : stream(std::move(socket), session) {}
 
-  boost::asio::ssl::stream<boost::asio::ip::tcp::socket> stream;
+  boost::asio::ssl::stream<GatheringSocket> stream;
 };
 
 /// Calls `go` with the stream that carries the bytes of a transport.

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <fstream>
 
+#include "common/core/rng.hpp"
 #include "tests/integration/net/tls_fixture.hpp"
 
 namespace seeker::testing {
@@ -28,9 +30,15 @@ TEST_F(TlsTest, LargeFramesPassInBothDirections) {
   ASSERT_TRUE(client);
   api::MapUpload upload;
   upload.name = "office";
-  upload.bytes.assign(5UL << 20U, 7);
+  upload.bytes.resize(5UL << 20U);
+  Rng rng(1);
+  std::generate(upload.bytes.begin(), upload.bytes.end(), [&] { return static_cast<std::uint8_t>(rng.below(256)); });
   EXPECT_TRUE(ask<api::MapSummary>([&](auto r) { client->upload_map(upload, r); }));
-  EXPECT_EQ(robot_.values().uploads.at(0).bytes.size(), upload.bytes.size());
+  EXPECT_TRUE(robot_.values().uploads.at(0).bytes == upload.bytes);
+  robot_.edit([&](FakeRobotValues& v) { v.map_files["office"] = upload.bytes; });
+  const auto download = ask<std::vector<std::uint8_t>>([&](auto r) { client->download_map("office", r); });
+  ASSERT_TRUE(download) << download.error().message;
+  EXPECT_TRUE(*download == upload.bytes);
 }
 
 TEST_F(TlsTest, TheRobotKnowsAClientByTheNameOfItsCertificate) {
