@@ -99,7 +99,7 @@ std::string check_run(const Command& command) {
   }
   const std::string& verb = command.words.front();
   std::vector<std::string> path{verb};
-  const std::set<std::string> with_help_of_their_own{"peers", "hardware"};
+  const std::set<std::string> with_help_of_their_own{"peers", "hardware", "link"};
   if (verb == "bench" && command.words.size() > 1 && with_help_of_their_own.contains(command.words[1])) {
     path.push_back(command.words[1]);
   }

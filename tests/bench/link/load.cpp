@@ -8,20 +8,24 @@
 #include <iostream>
 #include <mutex>
 
+#include "common/core/rng.hpp"
 #include "tests/bench/link/latencies.hpp"
 #include "tests/bench/link/options.hpp"
 #include "tests/bench/link/process_figures.hpp"
+#include "tests/bench/link/traffic.hpp"
 #include "tests/support/net/await.hpp"
 #include "tests/support/net/chaos_proxy.hpp"
 
 namespace seeker::link_bench {
 namespace {
 
-constexpr std::chrono::milliseconds kDrivePeriod{50};
+/// Not the period of states, so that commands come at any time between two of them.
+constexpr std::chrono::milliseconds kDrivePeriod{47};
 constexpr std::chrono::seconds kAnswerLimit{10};
 constexpr std::chrono::seconds kFreshLimit{30};
 /// Before a link is cut it must have carried so many states: what begins anew in a connection is over then.
 constexpr int kStatesBetweenCuts = 10;
+constexpr std::uint64_t kSeed = 1;  ///< of the moments of the cuts
 constexpr double kPercent = 100.0;
 
 Status too_late(const std::string& what) { return fail(Errc::kTimeout, what + " did not come"); }
@@ -144,6 +148,8 @@ Status measure(const LoadOptions& options, const Connect& connect) {
 
 Status measure_cuts(const LoadOptions& options, const Connect& connect) {
   testing::ChaosProxy proxy(options.port);
+  Pace pace;
+  Rng rng(kSeed);
   Latencies fresh;
   NewestState newest;
   const ClientWish wish{
@@ -157,6 +163,7 @@ Status measure_cuts(const LoadOptions& options, const Connect& connect) {
     if (!newest.wait_for(kStatesBetweenCuts)) {
       return too_late("a state");
     }
+    pace.wait_until(now() + seconds(rng.uniform(0.0, to_seconds(kStatusPeriod))));
     const RobotTime cut = now();
     proxy.cut();
     const std::optional<RobotTime> at = newest.wait_for_one_after(cut);
