@@ -5,21 +5,21 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 usage() {
   cat <<'TEXT'
-./run bench link [--seconds N] [--clients N] [--pairs N] [--cuts N]: a robot that publishes its status at 20 Hz and images
-of 60 kB at 10 Hz over mutual TLS, once by Seeker's link and once by gRPC (Debian's, callback interface, each update encoded
-once, the same messages and certificates), in turn, --pairs times (default 5). Printed are
+./run bench link [--seconds N] [--clients N] [--pairs N] [--cuts N]: a robot that publishes its status at 20 Hz and
+images of 60 kB at 10 Hz over mutual TLS, once by Seeker's link and once by gRPC (Debian's, callback interface, each
+update encoded once, the same messages and certificates), in turn, --pairs times (default 5). Printed are
   state     from the stamp of a status to a client that has read it, in a process of its own
   act       from a command to where the robot obeys it; drive: to its answer
   beside    with N clients in another process (--clients, default 50) that receive status and images; alone: without
   fresh     from the cut of a connection to the first status of after the cut (--cuts, default 50 a run)
-  client    what each client with images costs the robot's process; 200 of them in its memory
+  each      what each client with images costs the robot's process; 200 of them in its memory
   map       bytes a minute of robot time of a seekerd that stands and that explores, against sending the whole map at
             each change: as one grid of a byte a cell, and as all compressed tiles
-Figures are of all runs together, ratios the median of the pairs' ratios: other programs on the computer disturb both
-stacks alike. `waited`: how long the threads of Seeker's robot were ready but had no processor. A latency run lasts
---seconds (default 20). Where gRPC is not installed Seeker is measured alone. Goals: state p99 beside others at most 5 ms;
-no latency above gRPC's; 200 clients in 256 MiB; 1/20 of the bytes of whole maps. Leaves build/bench/results/link.json and
-the samples in build/bench/link.
+Robot and measuring client run before other programs (chrt --rr 1), where that is allowed. Figures are of all runs
+together, ratios the median of the pairs' ratios: other programs disturb both stacks alike. `waited`: how long the
+robot's threads were ready but had no processor. A latency run lasts --seconds (default 20). Where gRPC is not installed
+Seeker is measured alone. Goals: state p99 beside others at most 5 ms; no latency above gRPC's; 200 clients in 256 MiB;
+1/20 of the bytes of whole maps as grids. Leaves build/bench/results/link.json and the samples in build/bench/link.
 TEXT
 }
 
@@ -88,17 +88,17 @@ wait_for() {
 }
 
 make_certificates() {
-  build/release/bin/seeker pki init "$server_folder/site" >/dev/null
-  build/release/bin/seeker pki issue robot --role robot --host 127.0.0.1 --site "$server_folder/site" \
-    --out "$server_folder/robot" >/dev/null
-  build/release/bin/seeker pki issue operator --role operator --site "$server_folder/site" \
-    --out "$server_folder/operator" >/dev/null
+  build/release/bin/seeker pki init "$server_folder/site" &&
+    build/release/bin/seeker pki issue robot --role robot --host 127.0.0.1 --site "$server_folder/site" \
+      --out "$server_folder/robot" &&
+    build/release/bin/seeker pki issue operator --role operator --site "$server_folder/site" \
+      --out "$server_folder/operator"
 }
 
 # start_host STACK NAME
 start_host() {
   rm -f "$server_folder/host-port"
-  "$bin/link_host_$1" --bundle "$server_folder/robot" --port-file "$server_folder/host-port" --acts "$out/$2.acts" \
+  "${first[@]}" "$bin/link_host_$1" --bundle "$server_folder/robot" --port-file "$server_folder/host-port" --acts "$out/$2.acts" \
     >"$out/$2.host.log" 2>&1 &
   host_pid=$!
   wait_for "$server_folder/host-port" "$host_pid" "$out/$2.host.log"
@@ -133,7 +133,7 @@ latencies() {
   local name=$1.$2.$3
   start_host "$2" "$name"
   start_crowd "$2" "$name" "$4"
-  "$bin/link_load_$2" --bundle "$server_folder/operator" --port "$host_port" --seconds "$5" --host-pid "$host_pid" \
+  "${first[@]}" "$bin/link_load_$2" --bundle "$server_folder/operator" --port "$host_port" --seconds "$5" --host-pid "$host_pid" \
     --states "$out/$name.states" --drives "$out/$name.drives" >"$out/$name.load.log" 2>&1 ||
     fail "the measuring client failed" "$out/$name.load.log"
   stop_all
@@ -149,7 +149,7 @@ latencies() {
 reconnects() {
   local name=$1.$2.cut
   start_host "$2" "$name"
-  "$bin/link_load_$2" --bundle "$server_folder/operator" --port "$host_port" --cuts "$cuts" \
+  "${first[@]}" "$bin/link_load_$2" --bundle "$server_folder/operator" --port "$host_port" --cuts "$cuts" \
     --states "$out/$name.states" >"$out/$name.load.log" 2>&1 || fail "the cut client failed" "$out/$name.load.log"
   stop_all
   quantiles fresh <"$out/$name.states" | keep "$1" "$2" cut
@@ -177,7 +177,14 @@ map_bytes() {
 
 rm -rf "$out"
 mkdir -p "$out" build/bench/results
-make_certificates
+make_certificates >"$out/pki.log" 2>&1 || fail "no certificates could be made" "$out/pki.log"
+# The clients with images stand for other computers: they must not take the processor from the robot when they wake.
+first=()
+if chrt --rr 1 true 2>/dev/null; then
+  first=(chrt --rr 1)
+else
+  echo "link: real-time priority is not allowed here: latencies are those of the scheduler, too" >&2
+fi
 stacks=(seeker grpc)
 [[ -x $bin/link_host_grpc ]] || stacks=(seeker)
 for ((pair = 1; pair <= pairs; ++pair)); do
