@@ -15,7 +15,7 @@ namespace {
 using testing::PowerCutDisk;
 using testing::TemporaryFolder;
 
-constexpr std::uint64_t kSeed = 20261128;
+constexpr std::uint64_t kPowerSeed = 20261128;
 /// More than fill the log beside the database, so that it is written into it on the way.
 constexpr std::uint64_t kSteps = 50;
 constexpr std::uint64_t kStepsOfOneProgram = 45;
@@ -70,8 +70,8 @@ void expect_what_was_told(const std::filesystem::path& folder, std::uint64_t tol
 TEST(Store, PowerCutAtAnyWriteHoldsWhatWasAcknowledged) {
   constexpr int kCuts = 250;
   constexpr std::uint64_t kMostOperations = 3200;  // more than a writer asks for: some cuts come after the end
-  Rng rng(kSeed);
-  RecordProperty("seed", std::to_string(kSeed));
+  Rng rng(kPowerSeed);
+  RecordProperty("seed", std::to_string(kPowerSeed));
   int cut = 0;
   for (int round = 0; round < kCuts; ++round) {
     const TemporaryFolder before;
@@ -89,7 +89,8 @@ TEST(Store, PowerCutAtAnyWriteHoldsWhatWasAcknowledged) {
       disk.restore(after.path(), rng);
     }
     ++cut;
-    ASSERT_NO_FATAL_FAILURE(expect_what_was_told(after.path(), told_at_cut)) << "round " << round << ", seed " << kSeed;
+    ASSERT_NO_FATAL_FAILURE(expect_what_was_told(after.path(), told_at_cut))
+        << "round " << round << ", seed " << kPowerSeed;
   }
   EXPECT_GT(cut, kCuts / 2);
   RecordProperty("cuts", cut);

@@ -209,10 +209,10 @@ void damage(const std::filesystem::path& file, Rng& rng) {
 }
 
 TEST(Store, FileThatIsDamagedAnywhereOpensOrSaysWhatItLost) {
-  constexpr std::uint64_t kSeed = 20261129;
+  constexpr std::uint64_t kDamageSeed = 20261129;
   constexpr int kRounds = 300;
   constexpr std::uint64_t kMissions = 40;
-  Rng rng(kSeed);
+  Rng rng(kDamageSeed);
   const TemporaryFolder whole;
   {
     Store store = open_or_die(whole.path());
@@ -234,7 +234,7 @@ TEST(Store, FileThatIsDamagedAnywhereOpensOrSaysWhatItLost) {
     }
     const auto missions = store->missions(2 * kMissions);
     const bool all = missions && missions->size() == kMissions;
-    EXPECT_TRUE(all || !store->lost().empty() || !missions) << "round " << round << ", seed " << kSeed;
+    EXPECT_TRUE(all || !store->lost().empty() || !missions) << "round " << round << ", seed " << kDamageSeed;
     static_cast<void>(store->unfinished_mission());
     told += store->lost().empty() ? 0 : 1;
   }

@@ -49,9 +49,9 @@ TEST(WriteAheadLog, WholeOneAndOneCutInItsLastTransactionForgetNoMoreThanThat) {
 }
 
 TEST(WriteAheadLog, BitThatFlipsAnywhereIsToldWhereMoreThanTheLastWriteIsGone) {
-  constexpr std::uint64_t kSeed = 20261201;
+  constexpr std::uint64_t kLogSeed = 20261201;
   constexpr int kRounds = 150;
-  Rng rng(kSeed);
+  Rng rng(kLogSeed);
   const TemporaryFolder whole;
   ASSERT_NO_FATAL_FAILURE(leave_journal(whole.path()));
   const std::vector<std::uint8_t> log = content(whole.path() / "seeker.db-wal");
@@ -64,10 +64,10 @@ TEST(WriteAheadLog, BitThatFlipsAnywhereIsToldWhereMoreThanTheLastWriteIsGone) {
     std::ofstream(folder.path() / "seeker.db-wal", std::ios::binary)
         .write(reinterpret_cast<const char*>(altered.data()), static_cast<std::streamsize>(altered.size()));
     const Result<Store> store = Store::open(folder.path());
-    ASSERT_TRUE(store) << store.error().message << ", round " << round << ", seed " << kSeed;
+    ASSERT_TRUE(store) << store.error().message << ", round " << round << ", seed " << kLogSeed;
     const std::size_t kept = store->events("m").value().size();
     EXPECT_TRUE(kept + 1 >= kEvents || !store->lost().empty())
-        << kept << " of " << kEvents << " events, round " << round << ", seed " << kSeed;
+        << kept << " of " << kEvents << " events, round " << round << ", seed " << kLogSeed;
     told += store->lost().empty() ? 0 : 1;
   }
   EXPECT_GT(told, kRounds / 2);
