@@ -86,7 +86,7 @@ enum class ExploreStrategy : std::uint8_t {
   kFrontier,  ///< nearest frontier
   kGain,      ///< most unknown floor in sight for the path length
   kTopological,  ///< goals of space trees, kept at the nodes of a topology map (spec S4.4)
-  kTour,         ///< the shortest tour over all that is left, room by room, planned anew while the robot drives
+  kTour,         ///< the shortest tour over all that is left, room by room, planned again while the robot drives
 };
 /// All of them, in order.
 inline constexpr std::array kExploreStrategies{

@@ -117,8 +117,8 @@ Status check_tour(const TourParams& p) {
     return fail(Errc::kInvalidArgument, "tour.max_places must be 1 or more");
   }
   if (const Status costs = none_negative({{"tour.passage_m", p.passage_m},
-                                          {"tour.turn_m_rad", p.turn_m_rad},
-                                          {"tour.free_turn_rad", p.free_turn_rad},
+                                          {"tour.rotation_m_rad", p.rotation_m_rad},
+                                          {"tour.free_rotation_rad", p.free_rotation_rad},
                                           {"tour.beyond_m", p.beyond_m},
                                           {"tour.passing_m", p.passing_m},
                                           {"tour.passing_wall", p.passing_wall},

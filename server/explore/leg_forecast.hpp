@@ -7,19 +7,19 @@
 
 namespace seeker::explore {
 
-/// Walls farther away from the robot than this and the sensor's range tell nothing of a leg.
+/// Walls farther away from the robot than this and the sensor's range say nothing of a leg.
 inline constexpr double kForecastReach_m = 15.0;
 
 struct LegForecast {
   double uncertainty = 0.0;    ///< U of eq (19) of robot and map after the drive
-  double worst_sigma_m = 0.0;  ///< largest standard deviation of the position on the way, in its worst direction
+  double worst_sigma_m = 0.0;  ///< largest standard deviation of the position on the path, in its worst direction
 };
 
 /// Predicts the drive along the planned path to the viewpoint, with a look every metre or so.
 [[nodiscard]] LegForecast forecast_leg(const PlaceInput& input, const Opening& opening, const SightScene& scene,
                                        const Belief& belief, const OneStepParams& params);
 
-/// The same without any look on the way: a bound that is quickly told. Only `worst_sigma_m` is meaningful.
+/// The same without any look on the path: a bound that is quickly found. Only `worst_sigma_m` is meaningful.
 [[nodiscard]] LegForecast forecast_blind_leg(const PlaceInput& input, const Opening& opening,
                                              const OneStepParams& params);
 

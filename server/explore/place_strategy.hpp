@@ -27,7 +27,7 @@ struct PlaceInput {
 struct PlaceChoice {
   /// Map_T_view may have been moved to a better viewpoint; nothing: no opening is worth a drive.
   std::optional<Opening> opening;
-  /// A place to pass on the way to it, frame `map`; the robot decides anew when it is there.
+  /// A place to pass before it, frame `map`; the robot decides again when it is there.
   std::optional<Point2> via_map = std::nullopt;
   ExploreDecision decision;
 };

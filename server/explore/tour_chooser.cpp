@@ -81,7 +81,7 @@ double TourChooser::turn_cost(const PlaceInput& input, const TourPlace& place, b
     towards = place.opening.p_map;
   }
   const double turn_rad = std::abs(bearing_to(map_T_base, towards));
-  return params_.tour.turn_m_rad * std::max(0.0, turn_rad - params_.tour.free_turn_rad);
+  return params_.tour.rotation_m_rad * std::max(0.0, turn_rad - params_.tour.free_rotation_rad);
 }
 
 tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
@@ -95,7 +95,7 @@ tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vecto
   const CoarsePaths paths(input.floor.reachable);
   const auto leg = [&](double length_m, double otherwise_m, const std::vector<int>& passages, const TourPlace& to) {
     const int crossed = passages[to.room];
-    const double doors = crossed == tour::Rooms::kNoWay ? 0 : std::min(crossed, kMostPassages);
+    const double doors = crossed == tour::Rooms::kUnreached ? 0 : std::min(crossed, kMostPassages);
     return (std::isfinite(length_m) ? length_m : otherwise_m) + doors * params_.tour.passage_m;
   };
   tour::RouteCosts costs;

@@ -8,15 +8,15 @@ namespace seeker::explore {
 
 /// What takes time without being path counts as the path that the robot would drive meanwhile.
 struct TourParams {
-  double passage_m = 1.5;        ///< cost of a passage from room to room: a room is left when it is finished
-  double turn_m_rad = 0.5;       ///< cost of turning by a radian before the first leg
-  double free_turn_rad = 0.6;    ///< turns up to this blend into the drive
-  double beyond_m = 2.5;         ///< no border is expected to lead farther than this into the unknown
-  double passing_m = 0.3;        ///< longest detour for an opening that does not matter by itself
-  double passing_wall = 0.6;     ///< so much longer it may be for every metre of a wall's unseen side
-  double passing_near_m = 4.0;   ///< such openings count only this near to the robot
-  double hysteresis_m = 1.0;     ///< another goal while driving, and another order, must save this much
-  double replan_period_s = 1.0;  ///< the tour is planned anew this often while the robot drives
+  double passage_m = 1.5;          ///< cost of a passage from room to room: a room is left when it is finished
+  double rotation_m_rad = 0.5;     ///< cost of turning by a radian before the first leg
+  double free_rotation_rad = 0.6;  ///< turns up to this blend into the drive
+  double beyond_m = 2.5;           ///< no border is expected to lead farther than this into the unknown
+  double passing_m = 0.3;          ///< longest detour for an opening that does not matter by itself
+  double passing_wall = 0.6;       ///< so much longer it may be for every metre of a wall's unseen side
+  double passing_near_m = 4.0;     ///< such openings count only this near to the robot
+  double hysteresis_m = 1.0;       ///< another goal while driving, and another order, must save this much
+  double replan_period_s = 1.0;    ///< the tour is planned again this often while the robot drives
   /// The robot turns on the spot beyond this heading error only: smaller turns are driven as arcs.
   double rotate_in_place_rad = 1.0;
   double look_s = 0.3;      ///< how long the robot stands at a place that the drive did not settle

@@ -21,7 +21,7 @@ struct TourPlace {
 
 struct TourPlaces {
   std::vector<TourPlace> worth_it;  ///< what the tour visits, in order of rising path cost
-  std::vector<TourPlace> passing;   ///< what is taken only where the way passes by: little floor, ends of walls
+  std::vector<TourPlace> passing;   ///< what is taken only where the path passes by: little floor, ends of walls
 };
 
 /// Rooms of the snapshot's reachable floor.

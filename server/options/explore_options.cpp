@@ -98,8 +98,8 @@ void describe(config::Fields& f, ViewpointParams& params) {
 
 void describe(config::Fields& f, TourParams& params) {
   f.field("passage_m", params.passage_m);
-  f.field("turn_m_rad", params.turn_m_rad);
-  f.angle_deg("free_turn_deg", params.free_turn_rad);
+  f.field("rotation_m_rad", params.rotation_m_rad);
+  f.angle_deg("free_rotation_deg", params.free_rotation_rad);
   f.field("beyond_m", params.beyond_m);
   f.field("passing_m", params.passing_m);
   f.field("passing_wall", params.passing_wall);

@@ -59,9 +59,9 @@ Result<ClairvoyantTour> clairvoyant_tour(const KnownBuilding& building, const Po
   ClairvoyantTour tour;
   tour.coverage = std::move(*coverage);
   RouteCosts costs = costs_between(building, start, tour.coverage.views);
-  const Route one_way = short_route(costs);
-  tour.one_way_m = route_cost(costs, one_way);
-  tour.one_way = path_over(building.drive, stops_of(one_way, start, tour.coverage.views));
+  const Route open_tour = short_route(costs);
+  tour.open_tour_m = route_cost(costs, open_tour);
+  tour.open_tour = path_over(building.drive, stops_of(open_tour, start, tour.coverage.views));
   costs.to_end = costs.from_start;
   const Route with_return = short_route(costs);
   tour.with_return_m = route_cost(costs, with_return);

@@ -11,9 +11,9 @@ namespace seeker::tour {
 
 struct ClairvoyantTour {
   Coverage coverage;
-  double one_way_m = 0.0;           ///< length of the tour that ends at its last viewpoint
+  double open_tour_m = 0.0;         ///< length of the tour that ends at its last viewpoint
   double with_return_m = 0.0;       ///< length of the one that ends where it began
-  std::vector<Point2> one_way;      ///< its path
+  std::vector<Point2> open_tour;    ///< its path
   std::vector<Point2> with_return;  ///< its path
 };
 

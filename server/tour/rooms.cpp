@@ -149,7 +149,7 @@ Rooms Rooms::find(const Grid<std::uint8_t>& floor, const Grid<float>& clearance_
 }
 
 std::vector<int> Rooms::passages_from(std::uint16_t room) const {
-  std::vector<int> passages(neighbours_.size() + 1, kNoWay);
+  std::vector<int> passages(neighbours_.size() + 1, kUnreached);
   if (room == kNone || room > neighbours_.size()) {
     return passages;
   }
@@ -158,7 +158,7 @@ std::vector<int> Rooms::passages_from(std::uint16_t room) const {
   for (std::size_t k = 0; k < queue.size(); ++k) {
     const std::uint16_t at = queue[k];
     for (const std::uint16_t next : neighbours_[at - std::size_t{1}]) {
-      if (passages[next] == kNoWay) {
+      if (passages[next] == kUnreached) {
         passages[next] = passages[at] + 1;
         queue.push_back(next);
       }

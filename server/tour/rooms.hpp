@@ -27,10 +27,10 @@ class Rooms {
   /// The room of a place on the floor or at most three cells beside it; kNone: there is none.
   [[nodiscard]] std::uint16_t at(const Point2& p_map) const;
   [[nodiscard]] std::size_t count() const { return neighbours_.size(); }
-  /// Fewest passages on a way from the room to every room, by number; index 0 is unused. kNoWay: there is none.
+  /// Fewest passages on a path from the room to every room, by number; index 0 is unused. kUnreached: there is none.
   [[nodiscard]] std::vector<int> passages_from(std::uint16_t room) const;
 
-  static constexpr int kNoWay = -1;
+  static constexpr int kUnreached = -1;
 
  private:
   Grid<std::uint16_t> rooms_;

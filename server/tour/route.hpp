@@ -9,8 +9,8 @@
 
 namespace seeker::tour {
 
-/// What the legs of a route cost, in metres of path. Legs between places cost the same both ways; what differs by
-/// direction, such as turning at the start, belongs into the first leg.
+/// What the legs of a route cost, in metres of path. Legs between places cost the same in both directions; what differs
+/// by direction, such as turning at the start, belongs into the first leg.
 struct RouteCosts {
   std::vector<double> from_start;  ///< first leg, by place
   Eigen::MatrixXd between;         ///< leg from place to place: square, symmetric
@@ -28,8 +28,8 @@ using Route = std::vector<std::size_t>;
 /// The route with every missing place added where that is cheapest, in order of their numbers.
 [[nodiscard]] Route with_all_places(const RouteCosts& costs, Route route);
 
-/// The route that 2-opt and or-opt (stretches of up to three places, either way round) lead to from `route`: no single
-/// one of these changes makes it shorter. A route that is best already stays as it is.
+/// The route that 2-opt and or-opt (stretches of up to three places, in either direction) lead to from `route`: no
+/// single one of these changes makes it shorter. A route that is best already stays as it is.
 [[nodiscard]] Route improved_route(const RouteCosts& costs, Route route);
 
 /// A short route from nothing: nearest neighbours from every first place, then improved. It depends on its inputs

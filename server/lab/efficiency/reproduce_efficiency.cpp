@@ -84,10 +84,10 @@ Status measure(const ReproduceParams& params, EfficiencyRuns& world) {
   if (!measured) {
     return tl::unexpected<Error>(measured.error());
   }
-  world.one_way_m = measured->tour.one_way_m;
+  world.open_tour_m = measured->tour.open_tour_m;
   world.floor_m2 = measured->tour.coverage.floor_m2;
   return image::write_png(params.out / ("tour-" + world.world.name + ".png"),
-                          draw_tour(*measured, world.world.name + ": " + fixed(world.one_way_m, 1) + " m one way"));
+                          draw_tour(*measured, world.world.name + ": " + fixed(world.open_tour_m, 1) + " m one way"));
 }
 
 /// One strategy's figures in one world.
@@ -113,7 +113,7 @@ std::vector<std::string> row_of(const EfficiencyRuns& world, const std::vector<c
       std::to_string(runs.size()),
       cell(path_m, 1),
       cell(values([](const ExploreResult& run) { return run.robot_time_s; }), 0),
-      world.one_way_m > 0.0 ? fixed(path_m.mean / world.one_way_m, 2) : "-",
+      world.open_tour_m > 0.0 ? fixed(path_m.mean / world.open_tour_m, 2) : "-",
       cell(values([](const ExploreResult& run) { return kPercent * run.wall_share; }), 1),
       cell(floor, 1),
       cell(values([](const ExploreResult& run) { return run.mean_error_m; }), 4),

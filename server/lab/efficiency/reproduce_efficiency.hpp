@@ -30,8 +30,8 @@ inline constexpr double kEfficientError_m = 0.02;
 /// All runs of one world, and the yardstick.
 struct EfficiencyRuns {
   EfficiencyWorld world;
-  double one_way_m = 0.0;  ///< path of somebody who knows the building
-  double floor_m2 = 0.0;   ///< floor that can be seen
+  double open_tour_m = 0.0;  ///< path of somebody who knows the building
+  double floor_m2 = 0.0;     ///< floor that can be seen
   std::vector<ExploreResult> runs;
 };
 

@@ -20,7 +20,7 @@ struct TourFigures {
   std::size_t views = 0;
   double floor_share = 0.0;
   double wall_share = 0.0;
-  double one_way_m = 0.0;
+  double open_tour_m = 0.0;
   double with_return_m = 0.0;
 };
 
@@ -33,7 +33,7 @@ void describe(config::Fields& f, TourFigures& figures) {
   f.field("views", views);
   f.field("floor_share", figures.floor_share);
   f.field("wall_share", figures.wall_share);
-  f.field("one_way_m", figures.one_way_m);
+  f.field("open_tour_m", figures.open_tour_m);
   f.field("with_return_m", figures.with_return_m);
 }
 
@@ -42,7 +42,7 @@ namespace {
 TourFigures figures_of(const TourOptions& o, const MeasuredTour& measured) {
   const tour::ClairvoyantTour& tour = measured.tour;
   return {o.building.stem().string(), tour.coverage.floor_m2,   tour.coverage.wall_m, tour.coverage.views.size(),
-          tour.coverage.floor_share,  tour.coverage.wall_share, tour.one_way_m,       tour.with_return_m};
+          tour.coverage.floor_share,  tour.coverage.wall_share, tour.open_tour_m,     tour.with_return_m};
 }
 
 std::string text_of(const TourFigures& figures) {
@@ -50,7 +50,7 @@ std::string text_of(const TourFigures& figures) {
   return figures.building + ": " + std::to_string(figures.views) + " viewpoints see " +
          fixed(kPercent * figures.floor_share, 1) + " % of " + fixed(figures.floor_m2, 0) + " m\xC2\xB2 of floor and " +
          fixed(kPercent * figures.wall_share, 1) + " % of " + fixed(figures.wall_m, 0) + " m of walls; one way " +
-         fixed(figures.one_way_m, 1) + " m, with return " + fixed(figures.with_return_m, 1) + " m\n";
+         fixed(figures.open_tour_m, 1) + " m, with return " + fixed(figures.with_return_m, 1) + " m\n";
 }
 
 /// A map of map_server names its picture, a world has walls.

@@ -16,7 +16,7 @@ constexpr double kTitle_px = 12.0;
 constexpr double kView_px = 4.0;
 constexpr image::Colour kWallColour{60, 60, 60};
 constexpr image::Colour kDriveColour{232, 238, 244};
-constexpr image::Stroke kOneWay{image::kBlue, 1.6};
+constexpr image::Stroke kOpenTour{image::kBlue, 1.6};
 constexpr image::Stroke kWithReturn{image::kOrange, 1.2, image::LineStyle::kDashed};
 
 image::MapView view_of(const Grid<std::uint8_t>& grid) {
@@ -56,7 +56,7 @@ Image draw_tour(const MeasuredTour& measured, const std::string& title) {
     canvas.polyline(line, stroke);
   };
   draw(measured.tour.with_return, kWithReturn);
-  draw(measured.tour.one_way, kOneWay);
+  draw(measured.tour.open_tour, kOpenTour);
   for (const Point2& place : measured.tour.coverage.views) {
     canvas.fill_circle(px(place), kView_px, image::kRed);
   }

@@ -35,7 +35,7 @@ TEST(Coverage, ARoomIsSeenFromWhereTheRobotStands) {
   ASSERT_TRUE(tour.has_value()) << tour.error().message;
   EXPECT_TRUE(tour->coverage.views.empty());
   EXPECT_NEAR(tour->coverage.floor_m2, 4.0 * 1.5, 0.3);
-  EXPECT_DOUBLE_EQ(tour->one_way_m, 0.0);
+  EXPECT_DOUBLE_EQ(tour->open_tour_m, 0.0);
   EXPECT_DOUBLE_EQ(tour->with_return_m, 0.0);
 }
 
@@ -46,8 +46,8 @@ TEST(Coverage, ASecondRoomNeedsAViewpointInIt) {
   EXPECT_GE(tour->coverage.floor_share, 0.985);
   EXPECT_GE(tour->coverage.wall_share, 0.985);
   EXPECT_GT(tour->coverage.views.front().x(), 5.0);
-  EXPECT_GT(tour->one_way_m, 4.0);
-  EXPECT_GT(tour->with_return_m, tour->one_way_m);
+  EXPECT_GT(tour->open_tour_m, 4.0);
+  EXPECT_GT(tour->with_return_m, tour->open_tour_m);
   EXPECT_LT(tour->with_return_m, 25.0);
 }
 
@@ -58,14 +58,14 @@ TEST(Coverage, AShortSensorNeedsMoreViewpoints) {
   const auto near_tour = clairvoyant_tour(building_of(kTwoRooms), {1.0, 2.5}, near);
   ASSERT_TRUE(far_tour && near_tour);
   EXPECT_GT(near_tour->coverage.views.size(), far_tour->coverage.views.size());
-  EXPECT_GT(near_tour->one_way_m, far_tour->one_way_m);
+  EXPECT_GT(near_tour->open_tour_m, far_tour->open_tour_m);
 }
 
 TEST(Coverage, IsTheSameEveryTime) {
   const auto first = clairvoyant_tour(building_of(kTwoRooms), {1.0, 2.5});
   const auto second = clairvoyant_tour(building_of(kTwoRooms), {1.0, 2.5});
   ASSERT_TRUE(first && second);
-  EXPECT_EQ(first->one_way, second->one_way);
+  EXPECT_EQ(first->open_tour, second->open_tour);
   EXPECT_EQ(first->with_return, second->with_return);
 }
 

@@ -51,7 +51,7 @@ TEST(Rooms, PassagesLeadFromRoomToRoom) {
   EXPECT_EQ(passages[left], 0);
   EXPECT_EQ(passages[corridor], 1);
   EXPECT_EQ(passages[right], 2);
-  EXPECT_EQ(rooms.passages_from(Rooms::kNone)[left], Rooms::kNoWay);
+  EXPECT_EQ(rooms.passages_from(Rooms::kNone)[left], Rooms::kUnreached);
 }
 
 TEST(Rooms, ADeskDoesNotPartARoom) {
