@@ -28,12 +28,12 @@ namespace seeker::testing {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::chrono::seconds kLimit{60};
+constexpr std::chrono::seconds kAnswerLimit{60};
 
 /// One run of a robot's program, on a port that the next one takes again.
-class ProgramRun {
+class TransferRobot {
  public:
-  ProgramRun(const fs::path& state, std::uint16_t port) {
+  TransferRobot(const fs::path& state, std::uint16_t port) {
     const app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml")).value();
     app::Assembly assembly = app::assemble(options, {state / "landmarks", "r1", "1.0"}).value();
     robot_ =
@@ -45,9 +45,9 @@ class ProgramRun {
     robot_->start();
     port_ = server_->start().value();
   }
-  ProgramRun(const ProgramRun&) = delete;
-  ProgramRun& operator=(const ProgramRun&) = delete;
-  ~ProgramRun() {
+  TransferRobot(const TransferRobot&) = delete;
+  TransferRobot& operator=(const TransferRobot&) = delete;
+  ~TransferRobot() {
     robot_->stop();
     server_->stop();
   }
@@ -65,7 +65,7 @@ class FileTransfers : public ::testing::Test {
     run_.emplace(state(), std::uint16_t{0});
     rpc::ClientParams params;
     params.client_name = "tester";
-    params.connect_timeout = params.call_timeout = kLimit;
+    params.connect_timeout = params.call_timeout = kAnswerLimit;
     params.reconnect.first_delay = std::chrono::milliseconds(5);
     client_ = rpc::RobotClient::connect({"127.0.0.1", run_->port()}, params).value();
   }
@@ -79,7 +79,7 @@ class FileTransfers : public ::testing::Test {
   }
   template <class T, class Call>
   [[nodiscard]] Result<T> ask(Call&& call) {
-    return rpc::wait<T>(std::forward<Call>(call), kLimit);
+    return rpc::wait<T>(std::forward<Call>(call), kAnswerLimit);
   }
   /// Sends a file; `before` is called before each piece is read.
   [[nodiscard]] Result<api::UploadedFile> send(
@@ -108,7 +108,7 @@ class FileTransfers : public ::testing::Test {
 
   TemporaryFolder folder_;
   log::ScopedSink quiet_{[](const log::Line&) {}};
-  std::optional<ProgramRun> run_;
+  std::optional<TransferRobot> run_;
   std::shared_ptr<rpc::RobotClient> client_;
 };
 
