@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 using ::testing::HasSubstr;
 
-constexpr const char* kFault = "journal-failed";
+constexpr const char* kDiskFault = "journal-failed";
 
 /// Slow enough that the mission outlives what is done to its disk.
-const std::vector<std::string> kSlow{"--set", "sim.speed=15", "--set", "loop.map.checkpoint_period_s=2"};
+const std::vector<std::string> kSlowSimulation{"--set", "sim.speed=15", "--set", "loop.map.checkpoint_period_s=2"};
 
 /// Hears what the robot tells and puts it into the ledger.
 class Listener {
@@ -78,12 +78,12 @@ class FullDisk : public ::testing::Test {
     ASSERT_EQ(seeker(daemon, {"explore", "--strategy", "frontier", "--detach", "--id", "round"}), 0);
     static_cast<void>(watcher.until([](const api::MissionStatus& m) { return m.path_length_m > 0.3; }));
     disk.fill();
-    ASSERT_TRUE(listener.hears("fault", kFault));
+    ASSERT_TRUE(listener.hears("fault", kDiskFault));
     const double here_m = watcher.status().mission->path_length_m;
     const api::RobotStatus later =
         watcher.until([&](const api::MissionStatus& m) { return m.end || m.path_length_m > here_m + 0.3; });
     EXPECT_FALSE(later.mission->end) << "a mission that runs goes on: " << later.mission->end->cause;
-    const auto fault = fault_of(later, kFault);
+    const auto fault = fault_of(later, kDiskFault);
     ASSERT_TRUE(fault);
     EXPECT_THAT(fault->message, HasSubstr((folder / "state").string()));
     EXPECT_THAT(fault->remedy, HasSubstr("free space"));
@@ -97,7 +97,7 @@ class FullDisk : public ::testing::Test {
 TEST_F(FullDisk, MissionGoesOnNoNewOneBeginsAndAllIsKeptWhenThereIsSpaceAgain) {
   ToldLedger ledger;
   {
-    Daemon daemon(kSlow, folder);
+    Daemon daemon(kSlowSimulation, folder);
     Listener listener(daemon, ledger);
     ASSERT_NO_FATAL_FAILURE(explore_until_full(daemon, listener));
     EXPECT_EQ(seeker(daemon, {"map", "save", "now"}, &output), 1) << output;
@@ -109,8 +109,8 @@ TEST_F(FullDisk, MissionGoesOnNoNewOneBeginsAndAllIsKeptWhenThereIsSpaceAgain) {
     EXPECT_THAT(output, HasSubstr("latched, but a restart of the robot's program would release it"));
     EXPECT_TRUE(Watcher(daemon).status().estop);
     disk.free();
-    ASSERT_TRUE(listener.hears("fault-cleared", kFault));
-    EXPECT_FALSE(fault_of(Watcher(daemon).status(), kFault));
+    ASSERT_TRUE(listener.hears("fault-cleared", kDiskFault));
+    EXPECT_FALSE(fault_of(Watcher(daemon).status(), kDiskFault));
     ASSERT_EQ(seeker(daemon, {"estop", "--release"}, &output), 0) << output;
     EXPECT_EQ(seeker(daemon, {"goto", "0.5,0", "--detach", "--id", "after"}, &output), 0) << output;
     ledger.started("round");
@@ -123,13 +123,13 @@ TEST_F(FullDisk, MissionGoesOnNoNewOneBeginsAndAllIsKeptWhenThereIsSpaceAgain) {
 TEST_F(FullDisk, ProgramThatStartsOnOneOffersTheMissionAndRefusesOthersUntilThereIsSpace) {
   {
     ToldLedger ledger;
-    Daemon daemon(kSlow, folder);
+    Daemon daemon(kSlowSimulation, folder);
     Listener listener(daemon, ledger);
     ASSERT_NO_FATAL_FAILURE(explore_until_full(daemon, listener));
     kill(daemon);
   }
   disk.fill();
-  const Daemon again(kSlow, folder);
+  const Daemon again(kSlowSimulation, folder);
   ToldLedger ledger;
   Listener listener(again, ledger);
   const api::RobotStatus status = Watcher(again).status();
@@ -140,7 +140,7 @@ TEST_F(FullDisk, ProgramThatStartsOnOneOffersTheMissionAndRefusesOthersUntilTher
   EXPECT_THAT(output, HasSubstr("free space"));
   EXPECT_FALSE(Watcher(again).status().motors_armed) << "the mission that could not be kept has ended";
   disk.free();
-  ASSERT_TRUE(listener.hears("fault-cleared", kFault));
+  ASSERT_TRUE(listener.hears("fault-cleared", kDiskFault));
   EXPECT_EQ(seeker(again, {"goto", "0.5,0"}, &output), 0) << output;
 }
 

@@ -103,8 +103,8 @@ Stop stop_for(const std::string& fault, const std::string& name) {
   lines.insert(lines.end(), {"--set", "sensors.sonar=false", "--set", "loop.mission.fault_grace_s=5"});
   const Daemon daemon(lines, fresh_folder(name + "_daemon"), robot_file("pioneer3dx_lms200"));
   std::string output;
-  constexpr int kFault = 1;
-  EXPECT_EQ(seeker(daemon, {"goto", "8,0", "--json", "-q"}, &output, kMission), kFault) << output;
+  constexpr int kStuckFault = 1;
+  EXPECT_EQ(seeker(daemon, {"goto", "8,0", "--json", "-q"}, &output, kMission), kStuckFault) << output;
   EXPECT_TRUE(contains(output, "\"outcome\":\"FAULT\"")) << output;
   EXPECT_EQ(hardware.contacts(), 0);
   return stop_of(hardware, kTrouble_s);
