@@ -249,7 +249,7 @@ void FleetServer::on_frame(const std::shared_ptr<Peer>& peer, std::string_view p
   });
 }
 
-void FleetServer::record(Peer& peer, const v1::FleetRequest& request, const v1::CommonError& outcome) const {
+void FleetServer::record(Peer& peer, const v1::FleetRequest& request, const v1::CommonError& outcome) {
   if (request.call_case() != v1::FleetRequest::kDecide) {
     return;
   }
