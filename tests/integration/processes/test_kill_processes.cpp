@@ -40,8 +40,10 @@ std::vector<std::string> left_over(const fs::path& state) {
 void let_work(ToldLedger& ledger, Rng& rng) {
   constexpr std::uint64_t kMostTold = 80;
   constexpr std::uint64_t kMostTurns = 20'000'000;
-  constexpr seconds kPatience{20};
-  EXPECT_TRUE(ledger.wait_for(1 + rng.below(kMostTold), kPatience)) << "the robot tells nothing";
+  constexpr seconds kSilence{60};
+  constexpr seconds kSlow{5};  // a busy machine: it is killed anyway
+  EXPECT_TRUE(ledger.wait_for(1, kSilence)) << "the robot tells nothing";
+  static_cast<void>(ledger.wait_for(rng.below(kMostTold), kSlow));
   const std::uint64_t turns = rng.below(kMostTurns);
   volatile std::uint64_t turn = 0;
   while (turn < turns) {
