@@ -108,13 +108,16 @@ class AbuseProcesses : public ::testing::Test {
         be_another_machine();
       }
       SlowLoris loris(port_, loris_connections);
-      for (int k = 0; k < attackers() || std::chrono::steady_clock::now() < end; ++k) {
-        if (k % kEvery == 0) {
-          loris.go_on();
+      try {
+        for (int k = 0; k < attackers() || std::chrono::steady_clock::now() < end; ++k) {
+          if (k % kEvery == 0) {
+            loris.go_on();
+          }
+          offence(k);
         }
-        offence(k);
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << "the attacker cannot go on: " << error.what();
       }
-      loris.go_on();
     });
     honest();
     attacker.join();
