@@ -43,6 +43,10 @@ class Pair : public std::enable_shared_from_this<Pair> {
         self->close();
         return;
       }
+      // Else it would wait for acknowledgements that the receiver holds back for 40 ms.
+      error_code ignored;
+      self->client_.set_option(tcp::no_delay(true), ignored);
+      self->server_.set_option(tcp::no_delay(true), ignored);
       self->pump(0);
       self->pump(1);
     });
