@@ -139,17 +139,13 @@ std::optional<OutFrame> StreamSender::next_status(WallTime now) {
   return std::nullopt;
 }
 
-std::optional<OutFrame> StreamSender::next(WallTime now) {
-  if (!std::exchange(status_went_, false)) {
-    if (auto status = next_status(now)) {
-      status_went_ = true;
-      return status;
-    }
-  }
+std::optional<OutFrame> StreamSender::next_other(WallTime now) {
   std::vector<std::pair<std::uint64_t, TopicState*>> all;
   for (auto& [id, subscription] : subscriptions_) {
     for (TopicState& state : subscription.topics) {
-      all.emplace_back(id, &state);
+      if (state.request.topic != api::Topic::kStatus) {
+        all.emplace_back(id, &state);
+      }
     }
   }
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -160,6 +156,20 @@ std::optional<OutFrame> StreamSender::next(WallTime now) {
     }
   }
   return std::nullopt;
+}
+
+std::optional<OutFrame> StreamSender::next(WallTime now) {
+  const bool others_first = std::exchange(status_went_, false);
+  if (!others_first) {
+    if (auto status = next_status(now)) {
+      status_went_ = true;
+      return status;
+    }
+  }
+  if (auto other = next_other(now)) {
+    return other;
+  }
+  return others_first ? next_status(now) : std::nullopt;
 }
 
 std::optional<WallTime> StreamSender::next_due() const {

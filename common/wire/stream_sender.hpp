@@ -82,6 +82,7 @@ class StreamSender {
   [[nodiscard]] seeker::v1::TopicReply place(TopicState& state, std::uint64_t resume_stream_id) const;
   [[nodiscard]] std::optional<OutFrame> next_of(std::uint64_t id, TopicState& state, WallTime now) const;
   [[nodiscard]] std::optional<OutFrame> next_status(WallTime now);
+  [[nodiscard]] std::optional<OutFrame> next_other(WallTime now);
   [[nodiscard]] const Backlog& backlog(api::Topic topic) const { return backlogs_[static_cast<std::size_t>(topic)]; }
 
   const Backlogs& backlogs_;

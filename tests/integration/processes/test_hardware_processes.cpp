@@ -140,8 +140,8 @@ TEST(HardwareProcesses, TheBaseStandsByItsOwnWatchdogWhenTheLoopIsStuckAndSystem
   const Daemon daemon(hardware.lines(), fresh_folder("stuck_loop_daemon"), robot_file("pioneer3dx_lms200"));
   EXPECT_EQ(seeker(daemon, {"goto", "8,0", "--detach"}), 0) << daemon.process->output();
   std::vector<std::string> heard;
-  constexpr double kSpan_s = 1.0;
-  constexpr double kOnItsWay_m = 0.2;
+  static constexpr double kSpan_s = 1.0;
+  static constexpr double kOnItsWay_m = 0.2;
   const auto drives =
       when(hardware, systemd, heard, [](const auto& rows) { return moved_m(rows, kSpan_s) > kOnItsWay_m; });
   ASSERT_TRUE(drives) << daemon.process->output();
