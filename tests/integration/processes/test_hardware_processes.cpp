@@ -134,14 +134,16 @@ double moved_m(const std::vector<TruthRow>& rows, double span_s) {
   return (rows.back().p_world - first->p_world).norm();
 }
 
+/// A robot that has moved so far in so much time is on its way.
+constexpr double kSpan_s = 1.0;
+constexpr double kOnItsWay_m = 0.2;
+
 TEST(HardwareProcesses, TheBaseStandsByItsOwnWatchdogWhenTheLoopIsStuckAndSystemdHearsNothing) {
   const ServiceManager systemd(seconds(1));
   const EmulatedHardware hardware("corridor", "lms200", {}, fresh_folder("stuck_loop"));
   const Daemon daemon(hardware.lines(), fresh_folder("stuck_loop_daemon"), robot_file("pioneer3dx_lms200"));
   EXPECT_EQ(seeker(daemon, {"goto", "8,0", "--detach"}), 0) << daemon.process->output();
   std::vector<std::string> heard;
-  static constexpr double kSpan_s = 1.0;
-  static constexpr double kOnItsWay_m = 0.2;
   const auto drives =
       when(hardware, systemd, heard, [](const auto& rows) { return moved_m(rows, kSpan_s) > kOnItsWay_m; });
   ASSERT_TRUE(drives) << daemon.process->output();
