@@ -41,10 +41,10 @@ pb::Envelope info_request(std::uint64_t id) {
 
 TEST(RequiredRole, CallsThatChangeSomethingNeedAnOperator) {
   const std::set<std::string> for_everybody = {
-      "get_info",          "get_status",     "list_components", "get_mission",  "stop",         "get_tiles",
-      "get_grid",          "get_detections", "get_trajectory",  "grab_image",   "subscribe",    "unsubscribe",
-      "time_sync",         "list_maps",      "inspect_map",     "download_map", "get_segments", "list_landmarks",
-      "inspect_landmarks", "get_landmarks",  "get_settings",    "read_file"};
+      "get_info",          "get_status",     "list_components", "get_mission",  "stop",          "get_tiles",
+      "get_grid",          "get_detections", "get_trajectory",  "grab_image",   "subscribe",     "unsubscribe",
+      "time_sync",         "list_maps",      "inspect_map",     "download_map", "get_segments",  "list_landmarks",
+      "inspect_landmarks", "get_landmarks",  "get_settings",    "read_file",    "get_diagnosis", "get_audit"};
   const google::protobuf::OneofDescriptor* calls = pb::Request::descriptor()->FindOneofByName("call");
   ASSERT_NE(calls, nullptr);
   for (int k = 0; k < calls->field_count(); ++k) {

@@ -50,7 +50,7 @@ TEST(ShippedWorlds, AreAllInTheTestAbove) {
   for (const auto& entry : std::filesystem::directory_iterator(testing::source_file("config/worlds"))) {
     files += entry.path().extension() == ".yaml" ? 1 : 0;
   }
-  EXPECT_EQ(files, 20U);
+  EXPECT_EQ(files, 22U);
 }
 
 TEST(ShippedWorlds, AreAsLargeAsTheyShouldBe) {
