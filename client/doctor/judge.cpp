@@ -84,8 +84,11 @@ Finding of_fault(const api::Fault& fault) {
 }  // namespace
 
 Finding failure(std::string check, const Error& error, const std::string& remedy) {
-  auto [cause, told] = cause_and_remedy(error);
-  return {std::move(check), Verdict::kFailed, std::move(cause), told.empty() ? remedy : std::move(told)};
+  CauseAndRemedy parts = cause_and_remedy(error);
+  if (parts.remedy.empty()) {
+    parts.remedy = remedy;
+  }
+  return {std::move(check), Verdict::kFailed, std::move(parts.cause), std::move(parts.remedy)};
 }
 
 std::vector<Finding> judge(const OwnFiles& files, pki::CalendarTime now) {
