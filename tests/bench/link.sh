@@ -202,6 +202,8 @@ for ((pair = 1; pair <= pairs; ++pair)); do
     done
   done
 done
+# Memory alone is of interest here; robots that go before so many clients would leave them no processor.
+first=()
 for stack in "${stacks[@]}"; do
   latencies 0 "$stack" crowd "$crowd" "$crowd_s"
   for scenario in alone beside; do
