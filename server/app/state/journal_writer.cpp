@@ -133,6 +133,7 @@ void JournalWriter::attempt(std::unique_lock<std::mutex>& lock) {
   Batch batch = take_batch();
   std::vector<OnKept> dropped = std::exchange(dropped_callbacks_, {});
   const bool full = dropped_ > 0;
+  const bool last = quit_;  // the end may be asked for meanwhile: then another attempt follows
   lock.unlock();
   for (const OnKept& on_kept : dropped) {
     on_kept(fail(Errc::kIo, "the disk does not follow"));
@@ -163,7 +164,7 @@ void JournalWriter::attempt(std::unique_lock<std::mutex>& lock) {
     lock.lock();
   }
   report_failing(lock);
-  if (quit_) {
+  if (last) {
     first_.clear();
     waiting_.clear();
   }
