@@ -16,8 +16,11 @@ Verdict of_amount(std::uint64_t amount, std::uint64_t few, std::uint64_t none) {
 }
 
 Finding failed(std::string check, const Error& error, const std::string& remedy) {
-  auto [cause, told] = cause_and_remedy(error);
-  return {std::move(check), Verdict::kFailed, std::move(cause), told.empty() ? remedy : std::move(told)};
+  CauseAndRemedy parts = cause_and_remedy(error);
+  if (parts.remedy.empty()) {
+    parts.remedy = remedy;
+  }
+  return {std::move(check), Verdict::kFailed, std::move(parts.cause), std::move(parts.remedy)};
 }
 
 Finding judge_disk(const HostFacts& facts) {
