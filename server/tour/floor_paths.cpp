@@ -87,7 +87,7 @@ void FloorPaths::spread(CellIndex from, const CellIndex* until) {
     if (until != nullptr && cell == *until) {
       return;
     }
-    for (std::uint8_t k = 0; k < kSteps.size(); ++k) {
+    for (std::size_t k = 0; k < kSteps.size(); ++k) {
       const CellIndex next = plus(cell, kSteps[k]);
       if (!floor_->contains(next)) {
         continue;
@@ -95,7 +95,7 @@ void FloorPaths::spread(CellIndex from, const CellIndex* until) {
       const float longer = length + length_of(kSteps[k]);
       if (longer < lengths_[next] && step_is_free(cell, kSteps[k])) {
         lengths_[next] = longer;
-        came_by_[next] = k;
+        came_by_[next] = static_cast<std::uint8_t>(k);
         open.emplace(longer, lengths_.index(next));
       }
     }
