@@ -26,7 +26,8 @@ stop_server() {
   kill -KILL "$pid" 2>/dev/null || true
   # shellcheck disable=SC2034
   server_code=0
-  wait "$pid" 2>/dev/null || server_code=$? # shellcheck disable=SC2034
+  # shellcheck disable=SC2034  # read by the scripts that source this
+  wait "$pid" 2>/dev/null || server_code=$?
 }
 trap 'stop_server; rm -rf "$server_folder"' EXIT
 trap 'exit 130' INT
