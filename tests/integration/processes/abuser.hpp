@@ -72,8 +72,8 @@ class BadBytes {
 
 /// They are other machines: what they compute is not to be taken from the robot's processor.
 inline void be_another_machine() {
-  constexpr int kLeast = 19;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLeast);
+  constexpr int kLower = 5;
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLower);
 }
 
 /// Connections that say a byte now and then and never say anything.
