@@ -28,7 +28,7 @@ void append(Findings& to, const Findings& from) { to.insert(to.end(), from.begin
 void check_files(const Context& context, const rpc::Endpoint& robot, Findings& findings) {
   const Result<std::optional<pki::BundleFiles>> files = bundle_for(context.tls, robot.host);
   if (!files) {
-    findings.push_back(doctor::failure("tls-files", files.error()));
+    findings.push_back(api::failed_finding("tls-files", files.error()));
   } else if (!*files) {
     findings.push_back({"tls-files", Verdict::kOk, "plain TCP is spoken, without certificates", ""});
   } else {
@@ -40,7 +40,7 @@ void check_files(const Context& context, const rpc::Endpoint& robot, Findings& f
 void check_name(const rpc::Endpoint& robot, Findings& findings) {
   const Result<std::vector<std::string>> addresses = doctor::addresses_of(robot.host);
   if (!addresses) {
-    findings.push_back(doctor::failure("name", addresses.error()));
+    findings.push_back(api::failed_finding("name", addresses.error()));
     return;
   }
   std::string list;
@@ -53,14 +53,14 @@ void check_name(const rpc::Endpoint& robot, Findings& findings) {
 /// Where no session came about: because nobody listens, or for another reason.
 void check_port(const Context& context, const rpc::Endpoint& robot, const Error& why, Findings& findings) {
   if (const Status port = doctor::try_port(robot.host, robot.port, context.timeout.value_or(kPortTime)); !port) {
-    findings.push_back(doctor::failure(
+    findings.push_back(api::failed_finding(
         "port", port.error(),
         "start seekerd on the robot ('seekerd --config FILE --print-config' checks its file), let it listen on an "
         "address that this machine reaches (server.address), and look for a firewall"));
     return;
   }
   findings.push_back({"port", Verdict::kOk, "something listens at " + rpc::to_string(robot), ""});
-  findings.push_back(doctor::failure("session", why, "look at the log of seekerd on the robot"));
+  findings.push_back(api::failed_finding("session", why, "look at the log of seekerd on the robot"));
 }
 
 /// Compares the clocks some times; the best comparison counts. A link without comparisons is timed by other calls.
@@ -75,7 +75,7 @@ void check_clocks(const Context& context, const Connection& connection, Findings
       best = tl::unexpected<Error>(info.error());
     }
     if (best && !*best) {
-      findings.push_back(doctor::failure("round-trip", best->error()));
+      findings.push_back(api::failed_finding("round-trip", best->error()));
       return;
     }
     round_trips.emplace_back(std::chrono::steady_clock::now() - asked);
@@ -93,7 +93,7 @@ void check_call(const Context& context, const std::string& check, void (api::Rob
   if (const Result<T> answer = ask<T>(context, method)) {
     append(findings, judge(*answer));
   } else {
-    findings.push_back(doctor::failure(check, answer.error()));
+    findings.push_back(api::failed_finding(check, answer.error()));
   }
 }
 
@@ -104,7 +104,7 @@ void check_machine(const Context& context, Findings& findings) {
     append(findings, *found);
     return;
   }
-  Finding finding = doctor::failure("robot", found.error());
+  Finding finding = api::failed_finding("robot", found.error());
   const bool too_old = found.error().code == Errc::kUnsupportedVersion || found.error().code == Errc::kNotReady;
   if (too_old) {
     finding.verdict = Verdict::kWarning;

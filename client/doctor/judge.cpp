@@ -11,6 +11,7 @@
 namespace seeker::doctor {
 namespace {
 
+using api::failed_finding;
 using api::Finding;
 using api::Verdict;
 
@@ -29,12 +30,12 @@ Finding judge_certificate(const OwnFiles& files, pki::CalendarTime now) {
   const std::string check = "tls-certificate";
   const std::string again = "have it issued again ('seeker pki issue --overwrite')";
   if (!files.believed) {
-    return failure(check, files.believed.error(), again);
+    return failed_finding(check, files.believed.error(), again);
   }
   const pki::CertificateFacts& facts = *files.certificate;
   const std::string role = facts.role ? std::string(pki::to_string(*facts.role)) : "no role";
   const std::string who = "the certificate is of '" + facts.name + "', " + role + ", ";
-  if (facts.not_after - now <= pki::kExpiryWarning) {
+  if (pki::expires_soon(facts.not_after, now)) {
     return {check, Verdict::kWarning, who + "and expires on " + pki::date_text(facts.not_after), again};
   }
   return {check, Verdict::kOk, who + "valid until " + pki::date_text(facts.not_after), ""};
@@ -83,17 +84,9 @@ Finding of_fault(const api::Fault& fault) {
 
 }  // namespace
 
-Finding failure(std::string check, const Error& error, const std::string& remedy) {
-  CauseAndRemedy parts = cause_and_remedy(error);
-  if (parts.remedy.empty()) {
-    parts.remedy = remedy;
-  }
-  return {std::move(check), Verdict::kFailed, std::move(parts.cause), std::move(parts.remedy)};
-}
-
 std::vector<Finding> judge(const OwnFiles& files, pki::CalendarTime now) {
   if (!files.usable) {
-    return {failure("tls-files", files.usable.error(), "have a bundle issued again ('seeker pki issue')")};
+    return {failed_finding("tls-files", files.usable.error(), "have a bundle issued again ('seeker pki issue')")};
   }
   SEEKER_ASSERT(files.certificate);
   return {{"tls-files", Verdict::kOk, "certificate, key and CA can be read and belong together", ""},

@@ -22,9 +22,6 @@ inline constexpr Duration kSlowAnswer = std::chrono::milliseconds(150);
 /// A loop of which more than this share of ticks is late is a warning.
 inline constexpr double kLateShare = 0.001;
 
-/// An error as a finding; `remedy` where its sentence names none.
-[[nodiscard]] api::Finding failure(std::string check, const Error& error, const std::string& remedy = "");
-
 /// tls-files and tls-certificate.
 [[nodiscard]] std::vector<api::Finding> judge(const OwnFiles& files, pki::CalendarTime now);
 

@@ -6,14 +6,12 @@ namespace seeker::doctor {
 
 OwnFiles look_at(const pki::BundleFiles& files, pki::CalendarTime now) {
   OwnFiles found;
-  if (const Result<pki::Certificate> certificate = pki::Certificate::read(files.certificate)) {
-    found.certificate = certificate->facts();
-  }
   const auto context = net::TlsContext::make(files, net::TlsSide::kClient);
   if (!context) {
     found.usable = tl::unexpected<Error>(context.error());
     return found;
   }
+  found.certificate = (*context)->own().facts();
   found.believed = (*context)->trust().check((*context)->own(), now);
   return found;
 }

@@ -13,7 +13,7 @@ namespace seeker::doctor {
 struct OwnFiles {
   /// Whether all are there, can be read, and belong together; the error names the file and the remedy.
   Status usable;
-  std::optional<pki::CertificateFacts> certificate;  ///< where it could be read
+  std::optional<pki::CertificateFacts> certificate;  ///< where the files are usable
   /// Whether the site's CA has made the certificate, and it is valid at the time of the look and not revoked.
   Status believed;
 };

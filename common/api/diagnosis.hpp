@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "common/core/result.hpp"
+
 namespace seeker::api {
 
 enum class Verdict : std::uint8_t {
@@ -25,5 +27,8 @@ struct Finding {
 
   friend bool operator==(const Finding&, const Finding&) = default;
 };
+
+/// A failure as a finding; `remedy` where its sentence names none.
+[[nodiscard]] Finding failed_finding(std::string check, const Error& error, const std::string& remedy = "");
 
 }  // namespace seeker::api

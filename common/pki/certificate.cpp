@@ -124,6 +124,8 @@ bool is_certificate_name(std::string_view name) {
          std::all_of(name.begin(), name.end(), allowed);
 }
 
+bool expires_soon(CalendarTime not_after, CalendarTime now) { return not_after - now <= kExpiryWarning; }
+
 std::string date_text(CalendarTime time) { return formatted(time, "%Y-%m-%d %H:%M UTC"); }
 std::string iso_text(CalendarTime time) { return formatted(time, "%Y-%m-%dT%H:%M:%SZ"); }
 

@@ -56,6 +56,9 @@ class Certificate {
 /// Whether a text may be the name in a certificate: 1 to 32 of [A-Za-z0-9._-], the first a letter or digit.
 [[nodiscard]] bool is_certificate_name(std::string_view name);
 
+/// Whether people should be warned of the end of a certificate: it is near, or has passed.
+[[nodiscard]] bool expires_soon(CalendarTime not_after, CalendarTime now);
+
 /// A day and time in UTC as "2027-03-01 12:00 UTC".
 [[nodiscard]] std::string date_text(CalendarTime time);
 /// The same as ISO 8601 writes it, for programs: "2027-03-01T12:00:00Z".

@@ -36,7 +36,7 @@ std::vector<api::Fault> link_faults(const net::LinkHealth& health, pki::Calendar
                       .message = "the former certificates stay in use: " + health.problem->message,
                       .remedy = "copy the files of one bundle again"});
   }
-  if (health.tls && health.expires - now <= pki::kExpiryWarning) {
+  if (health.tls && pki::expires_soon(health.expires, now)) {
     faults.push_back(expiry_fault(health, now));
   }
   return faults;

@@ -52,6 +52,9 @@ void SessionAudit::asked(const pb::Request& request, const api::Caller& caller, 
 
 void SessionAudit::answered(const pb::Response& response, const AuditClocks& now) {
   const auto [first, last] = waiting_.equal_range(response.header().request_id());
+  if (first == last) {
+    return;  // most answers are to questions
+  }
   const std::string call = wire::call_name(static_cast<wire::CallNumber>(response.result_case()));
   const bool named = response.result_case() != pb::Response::RESULT_NOT_SET;
   for (auto it = first; it != last; ++it) {

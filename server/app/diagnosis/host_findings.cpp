@@ -1,10 +1,9 @@
 #include "server/app/diagnosis/host_findings.hpp"
 
-#include <utility>
-
 namespace seeker::app {
 namespace {
 
+using api::failed_finding;
 using api::Finding;
 using api::Verdict;
 
@@ -15,20 +14,12 @@ Verdict of_amount(std::uint64_t amount, std::uint64_t few, std::uint64_t none) {
   return amount < none ? Verdict::kFailed : amount < few ? Verdict::kWarning : Verdict::kOk;
 }
 
-Finding failed(std::string check, const Error& error, const std::string& remedy) {
-  CauseAndRemedy parts = cause_and_remedy(error);
-  if (parts.remedy.empty()) {
-    parts.remedy = remedy;
-  }
-  return {std::move(check), Verdict::kFailed, std::move(parts.cause), std::move(parts.remedy)};
-}
-
 Finding judge_disk(const HostFacts& facts) {
   const std::string remedy =
       "delete maps and landmarks that nobody needs ('seeker map list', 'seeker landmarks info'), or give --state a "
       "folder on a larger disk";
   if (!facts.disk) {
-    return failed("robot-disk", facts.disk.error(), "look whether the disk of the state folder is mounted");
+    return failed_finding("robot-disk", facts.disk.error(), "look whether the disk of the state folder is mounted");
   }
   const Verdict verdict = of_amount(facts.disk->free_bytes, kFewDisk_bytes, kNoDisk_bytes);
   return {"robot-disk", verdict,
@@ -39,8 +30,8 @@ Finding judge_disk(const HostFacts& facts) {
 
 Finding judge_folder(const HostFacts& facts) {
   if (!facts.writable) {
-    return failed("robot-folder", facts.writable.error(),
-                  "free space there, and let the user that runs seekerd write into the state folder");
+    return failed_finding("robot-folder", facts.writable.error(),
+                          "free space there, and let the user that runs seekerd write into the state folder");
   }
   return {"robot-folder", Verdict::kOk, "the state folder '" + facts.folder.string() + "' can be written", ""};
 }
@@ -81,7 +72,7 @@ Finding judge_journal(const std::optional<JournalHealth>& journal) {
     return {"robot-journal", Verdict::kWarning, "the robot keeps no journal", "start seekerd with --state FOLDER"};
   }
   if (journal->failed) {
-    return failed("robot-journal", *journal->failed, "free space on the disk of the state folder, restart seekerd");
+    return failed_finding("robot-journal", *journal->failed, kJournalRemedy);
   }
   if (journal->dropped > 0) {
     return {"robot-journal", Verdict::kWarning,
@@ -110,7 +101,7 @@ Finding judge_certificate(const std::optional<Result<pki::CertificateFacts>>& ce
     return {check, Verdict::kOk, "the robot listens without TLS and has no certificate", ""};
   }
   if (!*certificate) {
-    return failed(check, certificate->error(), again);
+    return failed_finding(check, certificate->error(), again);
   }
   const pki::CertificateFacts& facts = **certificate;
   const std::string until = "the robot's certificate '" + facts.name + "' ";
@@ -121,7 +112,7 @@ Finding judge_certificate(const std::optional<Result<pki::CertificateFacts>>& ce
     return {check, Verdict::kFailed, until + "is valid from " + pki::date_text(facts.not_before) + " on only",
             "set the robot's clock, or that of the machine that has issued it"};
   }
-  const bool soon = facts.not_after - now <= pki::kExpiryWarning;
+  const bool soon = pki::expires_soon(facts.not_after, now);
   return {check, soon ? Verdict::kWarning : Verdict::kOk,
           until + (soon ? "expires on " : "is valid until ") + pki::date_text(facts.not_after), soon ? again : ""};
 }

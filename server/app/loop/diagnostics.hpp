@@ -20,6 +20,8 @@ namespace seeker::app {
 
 /// The fault while the disk takes nothing: what happens is not kept, so that no mission may begin.
 inline constexpr const char* kJournalFailed = "journal-failed";
+/// The fault while who commands what cannot be recorded.
+inline constexpr const char* kAuditFailed = "audit-failed";
 
 /// Owns the faults, the component states and the event numbers. A fault that is new, or that goes, is an
 /// event. Lives on the loop's thread.

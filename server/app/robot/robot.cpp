@@ -17,9 +17,6 @@ constexpr std::chrono::milliseconds kIdleWait{200};
 /// How long a loop that waits for its world leaves clients without an answer.
 constexpr std::chrono::milliseconds kAwaitSlice{10};
 
-constexpr const char* kJournalRemedy =
-    "free space on the disk of the state folder; it is tried again by itself, and missions that run go on";
-
 constexpr const char* kMapWaits =
     "the map of the mission that was cut off has not been taken up again; 'seeker resume' does, and so does a new "
     "mission with a new map";
@@ -88,7 +85,7 @@ Robot::~Robot() {
     journal_->set_watch({});
   }
   if (audit_) {
-    audit_->set_on_error(nullptr);
+    audit_->set_watch(nullptr);
   }
 }
 
@@ -205,26 +202,25 @@ void Robot::watch_journal() {
                               "the robot works as before; this is said until the program starts again",
                               api::Severity::kWarning);
   }
-  journal_->set_watch(
-      {.failing =
-           [this](const Error& error) {
-             static_cast<void>(mailbox_.post([this, error] {
-               loop_.diagnostics().raise(
-                   kJournalFailed, "journal",
-                   "the journal in '" + journal_->folder().string() + "' cannot be written: " + error.message,
-                   std::string(kJournalRemedy), api::Severity::kWarning);
-             }));
-           },
-       .writes_again =
-           [this] { static_cast<void>(mailbox_.post([this] { loop_.diagnostics().clear(kJournalFailed); })); },
-       .lost =
-           [this](const Error& error) {
-             static_cast<void>(mailbox_.post([this, error] {
-               loop_.diagnostics().raise("journal-gap", "journal", "the journal lacks a record: " + error.message,
-                                         "missions go on; look at the disk of the state folder",
-                                         api::Severity::kWarning);
-             }));
-           }});
+  const auto warn = [this](const char* fault, const std::string& message, const char* remedy) {
+    static_cast<void>(mailbox_.post([this, fault, message, remedy] {
+      loop_.diagnostics().raise(fault, "journal", message, remedy, api::Severity::kWarning);
+    }));
+  };
+  JournalWatch watch;
+  watch.failing = [this, warn](const Error& error) {
+    const auto cause = cause_and_remedy(error).cause;
+    warn(kJournalFailed, "the journal in '" + journal_->folder().string() + "' cannot be written: " + cause,
+         kJournalRemedy);
+  };
+  watch.writes_again = [this] {
+    static_cast<void>(mailbox_.post([this] { loop_.diagnostics().clear(kJournalFailed); }));
+  };
+  watch.lost = [warn](const Error& error) {
+    warn("journal-gap", "the journal lacks a record: " + error.message,
+         "missions go on; look at the disk of the state folder");
+  };
+  journal_->set_watch(std::move(watch));
 }
 
 void Robot::record(std::unique_ptr<DriveRecorder> recorder) {
@@ -240,10 +236,15 @@ void Robot::record(std::unique_ptr<DriveRecorder> recorder) {
 
 void Robot::keep_audit(std::unique_ptr<AuditTrail> audit) {
   audit_ = std::move(audit);
-  audit_->set_on_error([this](const Error& error) {
-    static_cast<void>(mailbox_.post([this, error] {
-      loop_.diagnostics().raise("audit-failed", "audit", "who commands what cannot be recorded: " + error.message,
-                                "free space on the disk of the state folder; commands are carried out unrecorded",
+  audit_->set_watch([this](const Status& written) {
+    static_cast<void>(mailbox_.post([this, written] {
+      if (written) {
+        loop_.diagnostics().clear(kAuditFailed);
+        return;
+      }
+      const auto [cause, remedy] = cause_and_remedy(written.error());
+      loop_.diagnostics().raise(kAuditFailed, "audit", "who commands what cannot be recorded: " + cause,
+                                (remedy.empty() ? "" : remedy + "; ") + "commands are carried out unrecorded",
                                 api::Severity::kWarning);
     }));
   });

@@ -2,6 +2,8 @@
 /// The robot as a whole: the loop on its own thread, and the API body that others call.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -101,6 +103,9 @@ class Robot final : public api::RobotHost {
   TransferService transfers_;
   std::vector<std::string> link_faults_;  ///< ids of those that are raised; the loop's thread
   std::thread thread_;
+  /// Stops that were asked for, and changes of the emergency stop: what was asked for before one must not begin after
+  /// it.
+  std::atomic<std::uint64_t> stops_{0};
   std::atomic<bool> client_seen_{false};
   std::atomic<bool> ended_{false};
   LoopClock clock_;

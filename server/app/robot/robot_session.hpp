@@ -50,14 +50,16 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
       start(request, std::move(reply));
       return;
     }
-    robot_.transfers_.add_pictures(
-        request, [self = shared_from_this(), reply = std::move(reply)](Result<api::MissionRequest> whole) {
-          if (whole) {
-            self->start(*whole, reply);
-          } else {
-            reply(tl::unexpected<Error>(whole.error()));
-          }
-        });
+    robot_.transfers_.add_pictures(request, [self = shared_from_this(), stops = robot_.stops_.load(),
+                                             reply = std::move(reply)](Result<api::MissionRequest> whole) {
+      if (!whole) {
+        reply(tl::unexpected<Error>(whole.error()));
+      } else if (self->robot_.stops_.load() != stops) {
+        reply(fail(Errc::kCancelled, "the robot was stopped while the pictures were read; start the mission again"));
+      } else {
+        self->start(*whole, reply);
+      }
+    });
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     if (command == api::MissionCommand::kResume) {
@@ -76,19 +78,18 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     });
   }
   void stop(api::Reply<void> reply) override {
+    ++robot_.stops_;
     ask_kept(std::move(reply), [this] {
       loop().commands().stop();
       return Status();
     });
   }
   void set_estop(bool engaged, api::Reply<void> reply) override {
-    const auto shared = std::make_shared<api::Reply<void>>(std::move(reply));
-    if (!robot_.mailbox_.post([this, shared, engaged, self = shared_from_this()] {
-          loop().commands().set_estop(engaged, client_);
-          robot_.keep_estop(engaged, *shared);
-        })) {
-      (*shared)(busy());
-    }
+    ++robot_.stops_;
+    on_loop(std::move(reply), [this, engaged](const api::Reply<void>& answer) {
+      loop().commands().set_estop(engaged, client_);
+      robot_.keep_estop(engaged, answer);
+    });
   }
   void command_lease(const api::LeaseCommand& command, api::Reply<api::LeaseState> reply) override {
     ask(std::move(reply), [this, command] {
@@ -208,41 +209,37 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
         request.task);
   }
   void start(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) {
-    const auto shared = std::make_shared<api::Reply<api::MissionAccepted>>(std::move(reply));
-    if (!robot_.mailbox_.post([this, shared, request, self = shared_from_this()] {
-          const bool again = loop().mission_control().runs(request.id);
-          const Result<api::MissionId> id = loop().commands().start_mission(request, client_);
-          if (!id) {
-            (*shared)(tl::unexpected<Error>(id.error()));
-            return;
-          }
-          robot_.accept({*id, loop().missions().last()->link_steps}, again, *shared);
-        })) {
-      (*shared)(busy());
-    }
+    on_loop(std::move(reply), [this, request](const api::Reply<api::MissionAccepted>& answer) {
+      const bool again = loop().mission_control().runs(request.id);
+      const Result<api::MissionId> id = loop().commands().start_mission(request, client_);
+      if (!id) {
+        answer(tl::unexpected<Error>(id.error()));
+        return;
+      }
+      robot_.accept({*id, loop().missions().last()->link_steps}, again, answer);
+    });
   }
 
   template <class T, class Work>
   void ask(api::Reply<T> reply, Work work) {
-    auto shared = std::make_shared<api::Reply<T>>(std::move(reply));
-    // The task keeps the session alive: its client may be gone before the loop comes to it.
-    if (!robot_.mailbox_.post(
-            [shared, self = shared_from_this(), work = std::move(work)]() mutable { (*shared)(work()); })) {
-      (*shared)(busy());
-    }
+    on_loop(std::move(reply), [work = std::move(work)](const api::Reply<T>& answer) mutable { answer(work()); });
   }
   /// Answers when what the work has changed is on the disk, so that a kill after the answer does not undo it.
   template <class Work>
   void ask_kept(api::Reply<void> reply, Work work) {
-    const auto shared = std::make_shared<api::Reply<void>>(std::move(reply));
-    if (!robot_.mailbox_.post([this, shared, self = shared_from_this(), work = std::move(work)]() mutable {
-          robot_.answer_kept(work(), *shared);
-        })) {
-      (*shared)(busy());
-    }
+    on_loop(std::move(reply), [this, work = std::move(work)](const api::Reply<void>& answer) mutable {
+      robot_.answer_kept(work(), answer);
+    });
   }
-  [[nodiscard]] static tl::unexpected<Error> busy() {
-    return fail(Errc::kBusy, "the robot is overloaded or shutting down; try again");
+  /// Lets the loop's thread do work(reply).
+  template <class T, class Work>
+  void on_loop(api::Reply<T> reply, Work work) {
+    const auto shared = std::make_shared<api::Reply<T>>(std::move(reply));
+    // The task keeps the session alive: its client may be gone before the loop comes to it.
+    if (!robot_.mailbox_.post(
+            [shared, self = shared_from_this(), work = std::move(work)]() mutable { work(*shared); })) {
+      (*shared)(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));
+    }
   }
 
   Robot& robot_;

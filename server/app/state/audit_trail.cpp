@@ -114,9 +114,9 @@ void AuditTrail::newest(const api::AuditQuery& query, const api::Reply<std::vect
   }
 }
 
-void AuditTrail::set_on_error(std::function<void(const Error&)> on_error) {
+void AuditTrail::set_watch(std::function<void(const Status&)> watch) {
   const std::lock_guard lock(mutex_);
-  on_error_ = std::move(on_error);
+  watch_ = std::move(watch);
 }
 
 std::uint64_t AuditTrail::lost() const {
@@ -126,21 +126,18 @@ std::uint64_t AuditTrail::lost() const {
 
 void AuditTrail::write_waiting() {
   std::vector<api::AuditRecord> records;
-  {
-    const std::lock_guard lock(mutex_);
-    records.swap(waiting_);
-  }
-  if (!records.empty()) {
-    write(records);
-  }
-}
-
-void AuditTrail::write(const std::vector<api::AuditRecord>& records) {
   std::uint64_t untold = 0;
   {
     const std::lock_guard lock(mutex_);
+    records.swap(waiting_);
     untold = lost_untold_;
   }
+  if (!records.empty()) {
+    write(records, untold);
+  }
+}
+
+void AuditTrail::write(const std::vector<api::AuditRecord>& records, std::uint64_t untold) {
   std::vector<store::AuditRow> rows;
   rows.reserve(records.size() + 1);
   if (untold > 0) {
@@ -150,18 +147,22 @@ void AuditTrail::write(const std::vector<api::AuditRecord>& records) {
     tell_log(record);
     rows.push_back(row_of(record));
   }
-  const Status written = file_.append(rows);
-  std::function<void(const Error&)> on_error;
-  {
-    const std::lock_guard lock(mutex_);
-    lost_untold_ = written ? lost_untold_ - untold : lost_untold_ + records.size();
-    lost_ += written ? 0 : records.size();
-    if (!written && !std::exchange(error_reported_, true)) {
-      on_error = on_error_;
-    }
+  note_outcome(file_.append(rows), records.size(), untold);
+}
+
+void AuditTrail::note_outcome(const Status& written, std::size_t records, std::uint64_t untold) {
+  std::unique_lock lock(mutex_);
+  if (written) {
+    lost_untold_ -= untold;
+  } else {
+    lost_untold_ += records;
+    lost_ += records;
   }
-  if (on_error) {
-    on_error(written.error());
+  const bool changed = std::exchange(failing_, !written) != failing_;
+  const std::function<void(const Status&)> watch = changed ? watch_ : nullptr;
+  lock.unlock();
+  if (watch) {
+    watch(written);
   }
 }
 

@@ -31,23 +31,25 @@ class AuditTrail {
   void note(const api::AuditRecord& record);
   /// The newest records, also those that were noted just now; the reply comes on the trail's thread.
   void newest(const api::AuditQuery& query, const api::Reply<std::vector<api::AuditRecord>>& reply);
-  /// Called on the trail's thread with the sentence of the first failed write.
-  void set_on_error(std::function<void(const Error&)> on_error);
+  /// Called on the trail's thread with the error of the first write that fails, and without one when the disk takes
+  /// records again.
+  void set_watch(std::function<void(const Status&)> watch);
   /// Records that were not kept since the start.
   [[nodiscard]] std::uint64_t lost() const;
 
  private:
   explicit AuditTrail(store::AuditFile file);
   void write_waiting();
-  void write(const std::vector<api::AuditRecord>& records);
+  void write(const std::vector<api::AuditRecord>& records, std::uint64_t untold);
+  void note_outcome(const Status& written, std::size_t records, std::uint64_t untold);
 
   store::AuditFile file_;  ///< the worker's thread
   mutable std::mutex mutex_;
   std::vector<api::AuditRecord> waiting_;
   std::uint64_t lost_ = 0;
   std::uint64_t lost_untold_ = 0;  ///< not yet said in the file
-  bool error_reported_ = false;    ///< the first one only
-  std::function<void(const Error&)> on_error_;
+  bool failing_ = false;           ///< the last write failed
+  std::function<void(const Status&)> watch_;
   DiskWorker worker_;
 };
 

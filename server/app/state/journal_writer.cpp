@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace seeker::app {
@@ -46,13 +47,15 @@ JournalHealth JournalWriter::health() const {
   return {first_.size() + waiting_.size(), dropped_, failure_};
 }
 
-void JournalWriter::write(Write write, OnKept on_kept) { enqueue(waiting_, {std::move(write), std::move(on_kept)}); }
-
-void JournalWriter::write_first(Write write, OnKept on_kept) {
-  enqueue(first_, {std::move(write), std::move(on_kept)});
+void JournalWriter::write(Write write, OnKept on_kept) {
+  enqueue(waiting_, kMaxWaiting, {std::move(write), std::move(on_kept)});
 }
 
-void JournalWriter::enqueue(std::deque<Entry>& queue, Entry entry) {
+void JournalWriter::write_first(Write write, OnKept on_kept) {
+  enqueue(first_, std::numeric_limits<std::size_t>::max(), {std::move(write), std::move(on_kept)});
+}
+
+void JournalWriter::enqueue(std::deque<Entry>& queue, std::size_t most, Entry entry) {
   std::unique_lock lock(mutex_);
   if (ended_) {
     lock.unlock();
@@ -61,8 +64,8 @@ void JournalWriter::enqueue(std::deque<Entry>& queue, Entry entry) {
     }
     return;
   }
-  if (waiting_.size() >= kMaxWaiting) {
-    drop_oldest();
+  if (queue.size() >= most) {
+    drop_oldest(queue);
   }
   queue.push_back(std::move(entry));
   unreported_ = true;
@@ -70,12 +73,12 @@ void JournalWriter::enqueue(std::deque<Entry>& queue, Entry entry) {
   wake_.notify_one();
 }
 
-void JournalWriter::drop_oldest() {
-  if (waiting_.front().on_kept) {
-    dropped_callbacks_.push_back(std::move(waiting_.front().on_kept));
+void JournalWriter::drop_oldest(std::deque<Entry>& queue) {
+  if (queue.front().on_kept) {
+    dropped_callbacks_.push_back(std::move(queue.front().on_kept));
   }
-  dropped_ += waiting_.front().write ? 1 : 0;
-  waiting_.pop_front();
+  dropped_ += queue.front().write ? 1 : 0;
+  queue.pop_front();
 }
 
 void JournalWriter::work() {
@@ -163,6 +166,7 @@ void JournalWriter::attempt(std::unique_lock<std::mutex>& lock) {
     failing(written.error());
     lock.lock();
   }
+  ended_ = last;  // before the lock is given up: what comes now is refused, not forgotten
   report_failing(lock);
   if (last) {
     first_.clear();

@@ -26,6 +26,10 @@ struct JournalWatch {
   std::function<void(const Error&)> lost;
 };
 
+/// What to do about a disk that takes nothing.
+inline constexpr const char* kJournalRemedy =
+    "free space on the disk of the state folder; it is tried again by itself, and missions that run go on";
+
 /// How it goes with the journal.
 struct JournalHealth {
   std::size_t waiting = 0;      ///< writes that the disk has not taken yet
@@ -68,8 +72,8 @@ class JournalWriter {
     std::vector<Status> outcomes;  ///< of each, in this order
   };
 
-  void enqueue(std::deque<Entry>& queue, Entry entry);
-  void drop_oldest();
+  void enqueue(std::deque<Entry>& queue, std::size_t most, Entry entry);
+  void drop_oldest(std::deque<Entry>& queue);
   void work();
   [[nodiscard]] bool wait_for_work(std::unique_lock<std::mutex>& lock);
   [[nodiscard]] Batch take_batch();
