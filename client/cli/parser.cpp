@@ -7,9 +7,9 @@
 #include <CLI/CLI.hpp>
 
 #include "client/cli/command_line.hpp"
-#include "client/cli/names.hpp"
 #include "client/cli/parser_errors.hpp"
 #include "client/cli/targets.hpp"
+#include "client/values/names.hpp"
 #include "common/api/audit.hpp"
 #include "common/config/number_text.hpp"
 #include "common/pki/role.hpp"
@@ -156,9 +156,9 @@ void add_explore(Parse& parse) {
          "active: the published rule, a step at a time: three to seven times as long, errors of the pose half "
          "as large; frontier: drives to the nearest unknown floor: a quarter less time than horizon, the pose "
          "less certain, walls that were seen too poorly left out; gain: most unknown floor for the distance: "
-         "about the time of horizon, walls left out as by frontier; tour: the shortest tour over all that is left: "
-         "in an office a sixth less path and time than frontier; topological: by the goals of a map of "
-         "places, which robots of a fleet share; roam: straight on until something is near: only to compare "
+         "about the time of horizon, walls left out as by frontier; tour: a tour over all that it still has to see: "
+         "in offices about a sixth less path than frontier, in small worlds no less; topological: by the goals of a "
+         "map of places, which robots of a fleet share; roam: straight on until something is near: only to compare "
          "with, it never ends by itself")
       ->check(CLI::IsMember(names_of(api::kExploreStrategies)))
       ->capture_default_str();

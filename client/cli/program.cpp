@@ -4,8 +4,8 @@
 
 #include "client/cli/run_script.hpp"
 #include "client/cli/targets.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values_json.hpp"
 
 #ifndef SEEKER_VERSION
 #define SEEKER_VERSION "0.1.0"

@@ -7,8 +7,8 @@
 
 #include "client/cli/export_check.hpp"
 #include "client/cli/scene.hpp"
-#include "client/cli/values.hpp"
-#include "client/cli/values_json.hpp"
+#include "client/values/values.hpp"
+#include "client/values/values_json.hpp"
 
 namespace seeker::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "client/cli/export_check.hpp"
-#include "client/cli/values.hpp"
+#include "client/values/values.hpp"
 #include "common/files/files.hpp"
 #include "common/image/export_mark.hpp"
 #include "common/image/map_server.hpp"

@@ -1,7 +1,7 @@
 #include "client/cli/script.hpp"
 
-#include "client/cli/names.hpp"
 #include "client/cli/targets.hpp"
+#include "client/values/names.hpp"
 #include "common/config/yaml.hpp"
 #include "common/core/angle.hpp"
 

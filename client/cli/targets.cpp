@@ -5,7 +5,7 @@
 #include <set>
 #include <system_error>
 
-#include "client/cli/names.hpp"
+#include "client/values/names.hpp"
 #include "common/config/yaml.hpp"
 #include "common/files/config_folder.hpp"
 #include "common/image/pgm.hpp"

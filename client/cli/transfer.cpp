@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "client/cli/values.hpp"
+#include "client/values/values.hpp"
 #include "common/digest/sha256.hpp"
 #include "common/files/file_pieces.hpp"
 #include "common/image/png.hpp"

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values_json.hpp"
 #include "common/pki/certificate.hpp"
 
 namespace seeker::cli {

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/cli/values.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values.hpp"
+#include "client/values/values_json.hpp"
 
 namespace seeker::cli {
 namespace {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/tls_bundle.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
 #include "client/doctor/judge.hpp"
 #include "client/doctor/way.hpp"
+#include "client/values/values_json.hpp"
 #include "common/rpc/endpoint.hpp"
 
 namespace seeker::cli {

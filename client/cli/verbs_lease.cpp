@@ -2,9 +2,9 @@
 
 #include "client/cli/held_lease.hpp"
 #include "client/cli/show_done.hpp"
-#include "client/cli/values.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values.hpp"
+#include "client/values/values_json.hpp"
 
 namespace seeker::cli {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "client/cli/scene.hpp"
 #include "client/cli/update_queue.hpp"
-#include "client/cli/values.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values.hpp"
+#include "client/values/values_json.hpp"
 #include "common/core/angle.hpp"
 #include "common/image/export_mark.hpp"
 #include "common/image/scan_picture.hpp"

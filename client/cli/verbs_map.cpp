@@ -9,9 +9,9 @@
 #include "client/cli/show_done.hpp"
 #include "client/cli/targets.hpp"
 #include "client/cli/transfer.hpp"
-#include "client/cli/values.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values.hpp"
+#include "client/values/values_json.hpp"
 #include "common/core/angle.hpp"
 #include "common/files/files.hpp"
 

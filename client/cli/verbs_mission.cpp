@@ -5,9 +5,9 @@
 #include "client/cli/export_check.hpp"
 #include "client/cli/scene.hpp"
 #include "client/cli/targets.hpp"
-#include "client/cli/values.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values.hpp"
+#include "client/values/values_json.hpp"
 #include "common/core/angle.hpp"
 
 namespace seeker::cli {

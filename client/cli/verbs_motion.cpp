@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/held_lease.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values_json.hpp"
 
 namespace seeker::cli {
 namespace {

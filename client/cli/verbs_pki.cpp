@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/show_done.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values_json.hpp"
 #include "common/pki/bundle.hpp"
 #include "common/pki/site_authority.hpp"
 

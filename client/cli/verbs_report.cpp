@@ -6,9 +6,9 @@
 #include "client/cli/export_files.hpp"
 #include "client/cli/scene.hpp"
 #include "client/cli/show_done.hpp"
-#include "client/cli/values.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/values.hpp"
+#include "client/values/values_json.hpp"
 #include "common/image/export_mark.hpp"
 #include "common/image/png.hpp"
 

@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/cli/names.hpp"
 #include "client/cli/update_queue.hpp"
-#include "client/cli/values.hpp"
-#include "client/cli/values_json.hpp"
 #include "client/cli/verbs.hpp"
+#include "client/values/names.hpp"
+#include "client/values/values.hpp"
+#include "client/values/values_json.hpp"
 
 namespace seeker::cli {
 namespace {

@@ -13,8 +13,11 @@
 #include "client/cli/program.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/fake_robot.hpp"
+#include "tests/support/json_text.hpp"
 
 namespace seeker::cli {
+
+using testing::is_json;
 
 struct Ran {
   int code = 0;
@@ -76,8 +79,5 @@ class CliFixture {
     }
   }
 };
-
-/// Checks that a text is one JSON document (RFC 8259).
-bool is_json(const std::string& text);
 
 }  // namespace seeker::cli

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "client/cli/values.hpp"
 #include "common/image/canvas.hpp"
 #include "tests/unit/client/cli/cli_fixture.hpp"
 
@@ -70,12 +69,6 @@ TEST_F(SceneOfMission, EvidenceThatIsAskedForIsShownUnderItsOwnTitle) {
   EXPECT_LT(image::text_width_px(scene.title, 13.0), kPanel_px);
   EXPECT_TRUE(scene.evidence);
   EXPECT_EQ(scene.detections.size(), 1U);
-}
-
-TEST(Gaps, AreNumberedInTheListAsInThePicture) {
-  const std::vector<api::Gap> gaps{{Point2(1, 1), 0.01, "not seen"}, {Point2(2, 2), 0.5, "cut off"}, {{3, 3}, 2, "x"}};
-  EXPECT_EQ(lines_of(gaps), (std::vector<std::string>{"1  2.0 m\xC2\xB2 at (3.00, 3.00) x",
-                                                      "2  0.5 m\xC2\xB2 at (2.00, 2.00) cut off"}));
 }
 
 }  // namespace

@@ -4,20 +4,17 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client/cli/values_json.hpp"
-#include "tests/unit/client/cli/cli_fixture.hpp"
+#include "client/values/values_json.hpp"
+#include "tests/support/json_text.hpp"
 
 namespace seeker::cli {
-
-bool is_json(const std::string& text) { return nlohmann::json::accept(text); }
-
 namespace {
 
 TEST(Json, EscapesAndNestsAsTheStandardAsks) {
   const Json list = Json::array({1, std::uint64_t{18446744073709551615U}, nullptr, Json::object()});
   const std::string line = json_line({{"text", "a\"b\\c\n\x01"}, {"n", 1.5}, {"flag", true}, {"list", list}});
   EXPECT_EQ(line, R"({"text":"a\"b\\c\n\u0001","n":1.5,"flag":true,"list":[1,18446744073709551615,null,{}]})");
-  EXPECT_TRUE(is_json(line));
+  EXPECT_TRUE(testing::is_json(line));
 }
 
 TEST(Json, NumbersThatAreNoneBecomeNull) {

@@ -1,11 +1,11 @@
-#include "client/cli/values_json.hpp"
+#include "client/values/values_json.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
-#include "client/cli/values.hpp"
+#include "client/values/values.hpp"
 
 namespace seeker {
 

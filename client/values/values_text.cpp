@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "client/cli/values.hpp"
+#include "client/values/values.hpp"
 #include "common/core/angle.hpp"
 
 namespace seeker::cli {

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/cli/values_json.hpp"
+#include "client/values/values_json.hpp"
 
 namespace seeker::api {
 
