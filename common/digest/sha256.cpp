@@ -7,6 +7,11 @@
 #include "common/files/file_pieces.hpp"
 
 namespace seeker::digest {
+namespace {
+
+constexpr std::string_view kHexDigits = "0123456789abcdef";
+
+}  // namespace
 
 static_assert(SHA256_DIGEST_LENGTH == std::tuple_size_v<Sha256Sum>);
 
@@ -60,15 +65,18 @@ Result<Sha256Sum> sha256_of_file(const std::filesystem::path& path) {
 }
 
 std::string to_hex(std::span<const std::uint8_t> bytes) {
-  constexpr const char* kDigits = "0123456789abcdef";
   constexpr unsigned kLowNibble = 0xF;
   std::string text;
   text.reserve(2 * bytes.size());
   for (const std::uint8_t byte : bytes) {
-    text += kDigits[byte >> 4U];
-    text += kDigits[byte & kLowNibble];
+    text += kHexDigits[byte >> 4U];
+    text += kHexDigits[byte & kLowNibble];
   }
   return text;
+}
+
+bool is_sha256_hex(std::string_view text) {
+  return text.size() == kSha256HexDigits && text.find_first_not_of(kHexDigits) == std::string_view::npos;
 }
 
 }  // namespace seeker::digest

@@ -3,17 +3,21 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "common/core/result.hpp"
 
 namespace seeker::digest {
 
 using Sha256Sum = std::array<std::uint8_t, 32>;
+/// The length of a sum as to_hex() writes it.
+inline constexpr std::size_t kSha256HexDigits = 2 * std::tuple_size_v<Sha256Sum>;
 
 /// The sum of bytes that come one after the other.
 class Sha256 {
@@ -38,5 +42,7 @@ class Sha256 {
 
 /// Lower-case hexadecimal digits.
 [[nodiscard]] std::string to_hex(std::span<const std::uint8_t> bytes);
+/// Whether the text is a sum as to_hex() writes it: 64 lower-case hexadecimal digits and nothing else.
+[[nodiscard]] bool is_sha256_hex(std::string_view text);
 
 }  // namespace seeker::digest

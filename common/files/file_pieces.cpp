@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/files/file_descriptor.hpp"
 #include "common/files/file_error.hpp"
 #include "common/files/files.hpp"
 
@@ -24,26 +23,17 @@ Result<FileReader> FileReader::open(const fs::path& path) {
   if (!fs::is_regular_file(status)) {
     return fail(Errc::kIo, path.string() + " is not a regular file");
   }
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) {
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) {
     return cannot("read", path, errno);
   }
-  return FileReader(path, fd);
-}
-
-FileReader::FileReader(FileReader&& other) noexcept
-    : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)) {}
-
-FileReader::~FileReader() {
-  if (fd_ >= 0) {
-    ::close(fd_);
-  }
+  return FileReader(path, std::move(file));
 }
 
 Result<FileIdentity> FileReader::identity() const {
   constexpr std::int64_t kNsPerSecond = 1'000'000'000;
   struct stat about {};
-  if (::fstat(fd_, &about) != 0) {
+  if (::fstat(file_.get(), &about) != 0) {
     return cannot("read", path_, errno);
   }
   return FileIdentity{about.st_dev, about.st_ino, static_cast<std::uint64_t>(about.st_size),
@@ -54,7 +44,7 @@ Result<std::vector<std::uint8_t>> FileReader::read(std::uint64_t offset, std::si
   std::vector<std::uint8_t> bytes(limit_bytes);
   std::size_t have = 0;
   while (have < limit_bytes) {
-    const ssize_t n = ::pread(fd_, bytes.data() + have, limit_bytes - have, static_cast<off_t>(offset + have));
+    const ssize_t n = ::pread(file_.get(), bytes.data() + have, limit_bytes - have, static_cast<off_t>(offset + have));
     if (n < 0 && errno == EINTR) {
       continue;
     }

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/core/result.hpp"
+#include "common/files/file_descriptor.hpp"
 
 namespace seeker::files {
 
@@ -29,22 +31,16 @@ class FileReader {
   /// kNotFound: none there; kIo: no regular file, no permission.
   [[nodiscard]] static Result<FileReader> open(const std::filesystem::path& path);
 
-  FileReader(const FileReader&) = delete;
-  FileReader& operator=(const FileReader&) = delete;
-  FileReader(FileReader&& other) noexcept;
-  FileReader& operator=(FileReader&&) = delete;
-  ~FileReader();
-
   /// As the file is now. kIo.
   [[nodiscard]] Result<FileIdentity> identity() const;
   /// At most `limit_bytes` from `offset` on; fewer at the end of the file only. kIo.
   [[nodiscard]] Result<std::vector<std::uint8_t>> read(std::uint64_t offset, std::size_t limit_bytes) const;
 
  private:
-  FileReader(std::filesystem::path path, int fd) : path_(std::move(path)), fd_(fd) {}
+  FileReader(std::filesystem::path path, FileDescriptor file) : path_(std::move(path)), file_(std::move(file)) {}
 
   std::filesystem::path path_;
-  int fd_;
+  FileDescriptor file_;
 };
 
 /// Writes the bytes at `offset`, which is the end of the file or before it; the file ends with them, and is made where

@@ -9,36 +9,41 @@
 
 #include "common/files/file_descriptor.hpp"
 #include "common/files/file_error.hpp"
+#include "common/files/file_pieces.hpp"
 #include "common/files/temporary_file.hpp"
 
 namespace seeker::files {
+namespace {
+
+tl::unexpected<Error> too_large(const std::filesystem::path& path, std::size_t limit_bytes) {
+  return fail(Errc::kTooLarge, path.string() + " is larger than " + std::to_string(limit_bytes) + " bytes");
+}
+
+}  // namespace
+
 Result<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path, std::size_t limit_bytes) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    return fail(Errc::kNotFound, "there is no file " + path.string());
+  constexpr std::size_t kPiece_bytes = 65536;
+  const Result<FileReader> file = FileReader::open(path);
+  const Result<FileIdentity> found = file ? file->identity() : tl::unexpected<Error>(file.error());
+  if (!found) {
+    return tl::unexpected<Error>(found.error());
   }
-  if (!std::filesystem::is_regular_file(status)) {
-    return fail(Errc::kIo, path.string() + " is not a regular file");
-  }
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) {
-    return cannot("read", path, errno);
+  if (found->size_bytes > limit_bytes) {
+    return too_large(path, limit_bytes);
   }
   std::vector<std::uint8_t> bytes;
-  constexpr std::size_t kChunk_bytes = 65536;
+  bytes.reserve(found->size_bytes);
+  // It may grow while it is read: its end is where no more comes.
   for (;;) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + kChunk_bytes);
-    const ssize_t n = ::read(file.get(), bytes.data() + before, kChunk_bytes);
-    if (n < 0 && errno != EINTR) {
-      return cannot("read", path, errno);
+    const Result<std::vector<std::uint8_t>> piece = file->read(bytes.size(), kPiece_bytes);
+    if (!piece) {
+      return piece;
     }
-    bytes.resize(before + static_cast<std::size_t>(n < 0 ? 0 : n));
+    bytes.insert(bytes.end(), piece->begin(), piece->end());
     if (bytes.size() > limit_bytes) {
-      return fail(Errc::kTooLarge, path.string() + " is larger than " + std::to_string(limit_bytes) + " bytes");
+      return too_large(path, limit_bytes);
     }
-    if (n == 0) {
+    if (piece->size() < kPiece_bytes) {
       return bytes;
     }
   }

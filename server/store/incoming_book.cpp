@@ -4,16 +4,13 @@
 #include <charconv>
 #include <tuple>
 
+#include "common/digest/sha256.hpp"
+
 namespace seeker::store {
 namespace {
 
-constexpr std::size_t kHashDigits = 64;
+constexpr std::size_t kHashDigits = digest::kSha256HexDigits;
 constexpr std::string_view kPartEnding = ".part";
-
-bool is_hash(std::string_view text) {
-  return text.size() == kHashDigits &&
-         std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
-}
 
 }  // namespace
 
@@ -22,11 +19,11 @@ std::string to_string(const IncomingName& name) {
 }
 
 std::optional<IncomingName> parse_incoming_name(std::string_view text) {
-  if (is_hash(text)) {
+  if (digest::is_sha256_hex(text)) {
     return IncomingName{std::string(text), 0, true};
   }
-  if (text.size() <= kHashDigits + 1 || !is_hash(text.substr(0, kHashDigits)) || text[kHashDigits] != '-' ||
-      !text.ends_with(kPartEnding)) {
+  if (text.size() <= kHashDigits + 1 || !digest::is_sha256_hex(text.substr(0, kHashDigits)) ||
+      text[kHashDigits] != '-' || !text.ends_with(kPartEnding)) {
     return std::nullopt;
   }
   IncomingName name{std::string(text.substr(0, kHashDigits)), 0, false};

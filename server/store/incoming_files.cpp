@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/files/file_pieces.hpp"
+#include "common/files/files.hpp"
 
 namespace seeker::store {
 namespace {
@@ -26,12 +27,27 @@ void touch(const fs::path& path) {
   fs::last_write_time(path, fs::file_time_type::clock::now(), error);
 }
 
+/// Where that fails, the file counts on when room is made.
+void delete_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+}
+
 tl::unexpected<Error> not_begun() {
   return fail(Errc::kNotFound,
               "the file is not here: it was not begun, or was deleted to make room for others; send it again");
 }
 
-tl::unexpected<Error> wrong_hash() {
+/// Deletes the file where it has another hash.
+Status check_hash(const fs::path& path, const digest::Sha256Sum& hash) {
+  const Result<digest::Sha256Sum> found = digest::sha256_of_file(path);
+  if (!found) {
+    return tl::unexpected<Error>(found.error());
+  }
+  if (*found == hash) {
+    return {};
+  }
+  delete_file(path);
   return fail(Errc::kCorrupt,
               "what has arrived has another SHA-256 than was announced, and was deleted; send the file again");
 }
@@ -41,16 +57,25 @@ tl::unexpected<Error> wrong_hash() {
 IncomingFiles::IncomingFiles(fs::path folder, const IncomingLimits& limits)
     : folder_(std::move(folder)), limits_(limits) {}
 
-std::vector<IncomingEntry> IncomingFiles::entries() const {
-  std::vector<IncomingEntry> all;
+std::vector<IncomingName> IncomingFiles::names() const {
+  std::vector<IncomingName> all;
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string file = entry->path().filename().string();
-    const std::optional<IncomingName> name = parse_incoming_name(file);
+    if (std::optional<IncomingName> name = parse_incoming_name(entry->path().filename().string())) {
+      all.push_back(std::move(*name));
+    }
+  }
+  return all;
+}
+
+std::vector<IncomingEntry> IncomingFiles::entries() const {
+  std::vector<IncomingEntry> all;
+  for (const IncomingName& name : names()) {
+    const fs::path path = path_of(name);
     std::error_code unread;
-    const auto used = entry->last_write_time(unread);
-    if (name && !unread) {
-      all.push_back({file, name->whole ? size_of(entry->path()) : name->size_bytes,
+    const auto used = fs::last_write_time(path, unread);
+    if (!unread) {
+      all.push_back({to_string(name), name.whole ? size_of(path) : name.size_bytes,
                      std::chrono::duration_cast<std::chrono::nanoseconds>(used.time_since_epoch()).count()});
     }
   }
@@ -58,13 +83,10 @@ std::vector<IncomingEntry> IncomingFiles::entries() const {
 }
 
 std::optional<IncomingName> IncomingFiles::part_of(const std::string& hash) const {
-  for (const IncomingEntry& entry : entries()) {
-    const std::optional<IncomingName> name = parse_incoming_name(entry.file);
-    if (name && !name->whole && name->hash == hash) {
-      return name;
-    }
-  }
-  return std::nullopt;
+  const std::vector<IncomingName> all = names();
+  const auto part =
+      std::find_if(all.begin(), all.end(), [&](const IncomingName& name) { return !name.whole && name.hash == hash; });
+  return part != all.end() ? std::optional(*part) : std::nullopt;
 }
 
 Status IncomingFiles::make_room(std::uint64_t size_bytes) const {
@@ -72,14 +94,13 @@ Status IncomingFiles::make_room(std::uint64_t size_bytes) const {
     return fail(Errc::kTooLarge, "the file has " + std::to_string(size_bytes) + " bytes, more than the " +
                                      std::to_string(limits_.total_bytes) + " that arriving files may take");
   }
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) {
-    return fail(Errc::kIo, "cannot make the folder '" + folder_.string() + "': " + error.message());
+  if (const Status made = files::make_folder(folder_); !made) {
+    return made;
   }
   for (const std::string& file : to_drop(entries(), size_bytes, limits_)) {
-    fs::remove(folder_ / file, error);
+    delete_file(folder_ / file);
   }
+  std::error_code error;
   const fs::space_info space = fs::space(folder_, error);
   if (!error && space.available < size_bytes) {
     return fail(Errc::kIo, "the disk has " + std::to_string(space.available) + " free bytes, the file needs " +
@@ -93,7 +114,7 @@ Result<std::uint64_t> IncomingFiles::begin(const digest::Sha256Sum& hash, std::u
     return fail(Errc::kInvalidArgument, "the file is empty; choose another one");
   }
   const std::string hex = digest::to_hex(hash);
-  if (const fs::path here = path_of({hex, 0, true}); size_of(here) > 0) {
+  if (const fs::path here = whole_path_of(hex); size_of(here) > 0) {
     if (size_of(here) != size_bytes) {
       return fail(Errc::kInvalidArgument, "the file with this SHA-256 has " + std::to_string(size_of(here)) +
                                               " bytes, not " + std::to_string(size_bytes));
@@ -111,8 +132,7 @@ Result<std::uint64_t> IncomingFiles::begin(const digest::Sha256Sum& hash, std::u
     if (*begun == part && have == size_bytes) {
       return take_whole(part, hash);  // the program ended between the last piece and its check
     }
-    std::error_code error;
-    fs::remove(path_of(*begun), error);
+    delete_file(path_of(*begun));
   }
   if (const Status room = make_room(size_bytes); !room) {
     return tl::unexpected<Error>(room.error());
@@ -126,7 +146,7 @@ Result<std::uint64_t> IncomingFiles::begin(const digest::Sha256Sum& hash, std::u
 Result<std::uint64_t> IncomingFiles::append(const digest::Sha256Sum& hash, std::uint64_t offset,
                                             std::span<const std::uint8_t> bytes) {
   const std::string hex = digest::to_hex(hash);
-  if (const std::uint64_t all = size_of(path_of({hex, 0, true})); all > 0) {
+  if (const std::uint64_t all = size_of(whole_path_of(hex)); all > 0) {
     return all;
   }
   const std::optional<IncomingName> part = part_of(hex);
@@ -154,31 +174,19 @@ Result<std::uint64_t> IncomingFiles::append(const digest::Sha256Sum& hash, std::
 
 Result<std::uint64_t> IncomingFiles::take_whole(const IncomingName& part, const digest::Sha256Sum& hash) const {
   const fs::path path = path_of(part);
-  const Result<digest::Sha256Sum> found = digest::sha256_of_file(path);
-  if (!found) {
-    return tl::unexpected<Error>(found.error());
+  if (const Status same = check_hash(path, hash); !same) {
+    return tl::unexpected<Error>(same.error());
   }
-  if (*found != hash) {
-    std::error_code error;
-    fs::remove(path, error);
-    return wrong_hash();
-  }
-  if (const Status placed = files::put_in_place(path, path_of({part.hash, 0, true})); !placed) {
+  if (const Status placed = files::put_in_place(path, whole_path_of(part.hash)); !placed) {
     return tl::unexpected<Error>(placed.error());
   }
   return part.size_bytes;
 }
 
 Result<fs::path> IncomingFiles::whole(const digest::Sha256Sum& hash) const {
-  const fs::path path = path_of({digest::to_hex(hash), 0, true});
-  const Result<digest::Sha256Sum> found = digest::sha256_of_file(path);
-  if (!found) {
-    return found.error().code == Errc::kNotFound ? Result<fs::path>(not_begun()) : tl::unexpected<Error>(found.error());
-  }
-  if (*found != hash) {
-    std::error_code error;
-    fs::remove(path, error);
-    return wrong_hash();
+  const fs::path path = whole_path_of(digest::to_hex(hash));
+  if (const Status same = check_hash(path, hash); !same) {
+    return same.error().code == Errc::kNotFound ? not_begun() : tl::unexpected<Error>(same.error());
   }
   touch(path);
   return path;

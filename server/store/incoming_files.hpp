@@ -35,9 +35,12 @@ class IncomingFiles {
   [[nodiscard]] Result<std::filesystem::path> whole(const digest::Sha256Sum& hash) const;
 
  private:
+  /// Of the files that are there; an absent folder has none.
+  [[nodiscard]] std::vector<IncomingName> names() const;
   [[nodiscard]] std::vector<IncomingEntry> entries() const;
   [[nodiscard]] std::optional<IncomingName> part_of(const std::string& hash) const;
   [[nodiscard]] std::filesystem::path path_of(const IncomingName& name) const { return folder_ / to_string(name); }
+  [[nodiscard]] std::filesystem::path whole_path_of(const std::string& hash) const { return path_of({hash, 0, true}); }
   [[nodiscard]] Status make_room(std::uint64_t size_bytes) const;
   [[nodiscard]] Result<std::uint64_t> take_whole(const IncomingName& part, const digest::Sha256Sum& hash) const;
 

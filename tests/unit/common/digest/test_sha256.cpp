@@ -32,5 +32,14 @@ TEST(Sha256, ComesToTheSameInPiecesAndFromAFile) {
   EXPECT_EQ(sha256_of_file(folder.path() / "absent").error().code, Errc::kNotFound);
 }
 
+TEST(Sha256, IsKnownByItsLowerCaseDigitsAndTheirCount) {
+  EXPECT_TRUE(is_sha256_hex(to_hex(sha256_of(bytes_of("abc")))));
+  EXPECT_TRUE(is_sha256_hex("0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef"));
+  for (const std::string& other : {std::string(), std::string(63, 'a'), std::string(65, 'a'), std::string(64, 'A'),
+                                   std::string(64, 'g'), std::string(63, 'a') + '\0', " " + std::string(63, 'a')}) {
+    EXPECT_FALSE(is_sha256_hex(other)) << other;
+  }
+}
+
 }  // namespace
 }  // namespace seeker::digest

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,22 @@ TEST(Files, ReadingTellsAbsenceAndSizeApart) {
   ASSERT_TRUE(write_file(file, std::string(200'000, 'x')));
   EXPECT_EQ(read_file(file, 199'999).error().code, Errc::kTooLarge);
   EXPECT_EQ(read_file(file, 200'000)->size(), 200'000U);
+}
+
+TEST(Files, AreReadWholeWhateverTheirSize) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "file";
+  constexpr std::size_t kPiece_bytes = 65536;
+  for (const std::size_t size_bytes : {std::size_t{0}, std::size_t{1}, kPiece_bytes, kPiece_bytes + 1}) {
+    std::vector<std::uint8_t> bytes(size_bytes);
+    for (std::size_t k = 0; k < bytes.size(); ++k) {
+      bytes[k] = static_cast<std::uint8_t>(k % 251);
+    }
+    ASSERT_TRUE(write_file(file, bytes));
+    EXPECT_EQ(read_file(file, size_bytes), bytes) << size_bytes;
+  }
+  EXPECT_EQ(read_file(folder.path(), 100).error().code, Errc::kIo) << "a folder is no file";
+  EXPECT_FALSE(read_file("/proc/self/status")->empty()) << "its size is 0 until it is read";
 }
 
 }  // namespace
