@@ -77,10 +77,12 @@ void read(const pb::Landmark& from, api::LandmarkPoint& to, Check& check);
 void write(const Grid<std::uint8_t>& from, pb::ByteGrid* to);
 void write(const api::Detection& from, pb::Detection* to);
 void write(const api::CoverageSummary& from, pb::CoverageSummary* to);
+void write(const api::GridLists& from, pb::GridLists* to);
 void write(const api::GridReport& from, pb::GridReport* to);
 void read(const pb::ByteGrid& from, Grid<std::uint8_t>& to, Check& check);
 void read(const pb::Detection& from, api::Detection& to, Check& check);
 void read(const pb::CoverageSummary& from, api::CoverageSummary& to, Check& check);
+void read(const pb::GridLists& from, api::GridLists& to, Check& check);
 void read(const pb::GridReport& from, api::GridReport& to, Check& check);
 
 void write(const api::LinkSteps& from, google::protobuf::RepeatedPtrField<pb::LinkStep>& to);

@@ -15,33 +15,6 @@ void read(const pb::Covariance2& from, Matrix2& to, Check& check) {
   to << check.finite("xx_m2", from.xx_m2()), xy, xy, check.finite("yy_m2", from.yy_m2());
 }
 
-void write(const api::GridLists& from, pb::GridLists* to) {
-  to->set_cell_size_m(from.cell_size_m);
-  wire::write(from.searched, to->mutable_searched());
-  wire::write(from.unsearched, to->mutable_unsearched());
-  wire::write(from.unreachable, to->mutable_unreachable());
-  to->set_passes_n(static_cast<std::uint32_t>(from.passes_n));
-  to->set_passes_limit_n(static_cast<std::uint32_t>(from.passes_limit_n));
-}
-
-void read(const pb::GridLists& from, api::GridLists& to, Check& check) {
-  to.cell_size_m = check.finite("cell_size_m", from.cell_size_m());
-  {
-    const auto scope = check.in("searched");
-    wire::read(from.searched(), to.searched, check);
-  }
-  {
-    const auto scope = check.in("unsearched");
-    wire::read(from.unsearched(), to.unsearched, check);
-  }
-  {
-    const auto scope = check.in("unreachable");
-    wire::read(from.unreachable(), to.unreachable, check);
-  }
-  to.passes_n = check.natural("passes_n", from.passes_n());
-  to.passes_limit_n = check.natural("passes_limit_n", from.passes_limit_n());
-}
-
 void write(const api::EvidenceMap& from, pb::EvidenceMap* to) {
   wire::write(from.probability, to->mutable_probability());
   for (std::size_t k = 0; k < std::min(from.gaps.size(), kMaxGaps); ++k) {
@@ -76,6 +49,33 @@ void read(const pb::EvidenceMap& from, api::EvidenceMap& to, Check& check) {
 }
 
 }  // namespace
+
+void write(const api::GridLists& from, pb::GridLists* to) {
+  to->set_cell_size_m(from.cell_size_m);
+  write(from.searched, to->mutable_searched());
+  write(from.unsearched, to->mutable_unsearched());
+  write(from.unreachable, to->mutable_unreachable());
+  to->set_passes_n(static_cast<std::uint32_t>(from.passes_n));
+  to->set_passes_limit_n(static_cast<std::uint32_t>(from.passes_limit_n));
+}
+
+void read(const pb::GridLists& from, api::GridLists& to, Check& check) {
+  to.cell_size_m = check.finite("cell_size_m", from.cell_size_m());
+  {
+    const auto scope = check.in("searched");
+    read(from.searched(), to.searched, check);
+  }
+  {
+    const auto scope = check.in("unsearched");
+    read(from.unsearched(), to.unsearched, check);
+  }
+  {
+    const auto scope = check.in("unreachable");
+    read(from.unreachable(), to.unreachable, check);
+  }
+  to.passes_n = check.natural("passes_n", from.passes_n());
+  to.passes_limit_n = check.natural("passes_limit_n", from.passes_limit_n());
+}
 
 void write(const Grid<std::uint8_t>& from, pb::ByteGrid* to) {
   to->set_origin_x_m(from.frame().origin.x());

@@ -82,6 +82,12 @@ void CoverageLists::drop_unreachable(const Point2& goal_map) {
   lists_.unreachable.push_back(goal_map);
 }
 
+void CoverageLists::take_back(const GridLists& lists) {
+  if (lists.cell_size_m == lists_.cell_size_m && lists.passes_limit_n >= 1) {
+    lists_ = lists;
+  }
+}
+
 void CoverageLists::transform(const MapMove& move) {
   for (auto* list : {&lists_.searched, &lists_.unsearched, &lists_.unreachable}) {
     for (Point2& p : *list) {

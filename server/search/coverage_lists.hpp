@@ -42,6 +42,8 @@ class CoverageLists {
   void drop_unreachable(const Point2& goal_map);
 
   void transform(const MapMove& move);
+  /// Goes on from the lists and the counters of an earlier run; those of cells of another size are ignored.
+  void take_back(const GridLists& lists);
   [[nodiscard]] bool searched(const Point2& p_map) const;
   [[nodiscard]] const GridLists& lists() const { return lists_; }
 

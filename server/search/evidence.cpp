@@ -14,6 +14,8 @@ namespace seeker::search {
 namespace {
 
 constexpr std::uint32_t kNewPlace = std::numeric_limits<std::uint32_t>::max();
+/// Observations of an earlier run, from all its places; no robot is ever there.
+constexpr std::uint32_t kEarlierPlace = kNewPlace - 1;
 constexpr double kProbabilityScale = 254.0;  // of SearchedFloor::probability
 
 /// Calls f(cell, probability) for every cell that one look from `camera_map` can show.
@@ -163,6 +165,19 @@ EvidenceGrid::CellBox EvidenceGrid::box_of_looks(const CellBox& within) const {
     }
   }
   return any ? box : CellBox{{0, 0}, {-1, -1}};
+}
+
+void EvidenceGrid::take_back(const Grid<std::uint8_t>& looks) {
+  if (looks.frame().resolution_m != params_.cell_m) {
+    return;
+  }
+  for (std::size_t k = 0; k < looks.cells().size(); ++k) {
+    if (looks.cells()[k] != 0) {
+      const double p = std::min(looks.cells()[k] / kProbabilityScale, params_.max_probability);
+      const CellIndex cell = frame().cell_of(looks.frame().centre_of(looks.cell(k)));
+      cells_[key_of(cell)].by_place.emplace_back(kEarlierPlace, static_cast<float>(p));
+    }
+  }
 }
 
 Grid<std::uint8_t> EvidenceGrid::own_looks(const Point2& middle_map, int side_cells) const {

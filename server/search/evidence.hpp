@@ -44,6 +44,9 @@ class EvidenceGrid {
   /// Uses what other robots have searched, with the same cells, as observations from separate places. It replaces
   /// earlier data of the others. Floor with cells of another size, or without cells, is ignored. No cells are copied.
   void set_others(const std::vector<SearchedFloor>& others);
+  /// Takes observations of an earlier run that own_looks() gave, as one place apart from all others. Cells of another
+  /// size are ignored. Call it once, before the first look.
+  void take_back(const Grid<std::uint8_t>& looks);
   /// The evidence of this grid's own observations: all of it where that fits into a square of `side_cells`, otherwise
   /// the part within such a square around `middle_map`; empty where there is none.
   [[nodiscard]] Grid<std::uint8_t> own_looks(const Point2& middle_map, int side_cells) const;

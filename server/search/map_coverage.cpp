@@ -230,16 +230,12 @@ void MapCoverage::interrupted(RobotTime /*now*/) {
 
 void MapCoverage::transform(const MapMove& move) {
   chooser_->transform(move);
-  const GridFrame frame{Point2::Zero(), params_.cell_m};
-  searched_cells_.clear();
   for (auto* list : {&lists_.searched, &lists_.unsearched, &lists_.unreachable}) {
     for (Point2& p : *list) {
       p = move * p;
     }
   }
-  for (const Point2& p : lists_.searched) {
-    searched_cells_.insert(frame.cell_of(p));
-  }
+  note_searched_cells();
   for (Failed& one : failed_) {
     one.p_map = move * one.p_map;
   }
@@ -250,6 +246,22 @@ void MapCoverage::transform(const MapMove& move) {
   driver_.stop();
   if (state_ == State::kDrive) {
     state_ = State::kChoose;
+  }
+}
+
+void MapCoverage::take_back(const GridLists& lists) {
+  if (lists.cell_size_m == params_.cell_m) {
+    lists_.searched = lists.searched;
+    lists_.unsearched = lists.unsearched;
+    note_searched_cells();
+  }
+}
+
+void MapCoverage::note_searched_cells() {
+  const GridFrame frame{Point2::Zero(), params_.cell_m};
+  searched_cells_.clear();
+  for (const Point2& p : lists_.searched) {
+    searched_cells_.insert(frame.cell_of(p));
   }
 }
 

@@ -27,6 +27,8 @@ class MapCoverage final : public CoverageStrategy {
   void image_taken(const StrategyInput& input) override;
   void interrupted(RobotTime now) override;
   void transform(const MapMove& move) override;
+  /// Places that could not be reached are tried again.
+  void take_back(const GridLists& lists) override;
   [[nodiscard]] const GridLists& lists() const override { return lists_; }
   [[nodiscard]] std::vector<UnreachablePlace> unreachable() const override;
 
@@ -52,6 +54,7 @@ class MapCoverage final : public CoverageStrategy {
                   const nav::DistanceField& costs, StrategyStep& out);
   void wait(const StrategyInput& input, StrategyStep& out);
   void update_lists(const StrategyInput& input);
+  void note_searched_cells();
   [[nodiscard]] bool look_due(const StrategyInput& input) const;
 
   /// Failed drives to about this place since the robot last waited there.

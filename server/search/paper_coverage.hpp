@@ -25,6 +25,7 @@ class PaperCoverage final : public CoverageStrategy {
   void image_taken(const StrategyInput& input) override;
   void interrupted(RobotTime now) override;
   void transform(const MapMove& move) override;
+  void take_back(const GridLists& lists) override { lists_.take_back(lists); }
   [[nodiscard]] const GridLists& lists() const override { return lists_.lists(); }
 
  private:

@@ -62,6 +62,10 @@ void SearchMission::set_others(const std::vector<SearchedFloor>& others) {
   });
   impl_->evidence_.set_others(same);
 }
+void SearchMission::take_back(const Grid<std::uint8_t>& looks, const GridLists& lists) {
+  impl_->evidence_.take_back(looks);
+  impl_->strategy_->take_back(lists);
+}
 const GridLists& SearchMission::lists() const { return impl_->strategy_->lists(); }
 std::vector<Detection> SearchMission::detections() const { return impl_->tracker_.detections(); }
 EvidenceReport SearchMission::evidence_report() const { return impl_->evidence_report(); }

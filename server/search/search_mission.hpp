@@ -88,6 +88,9 @@ class SearchMission {
   /// Sets the evidence of an earlier search, for SearchRequest::gaps_only. Call it before the first step.
   void keep_evidence(EvidenceGrid evidence);
   [[nodiscard]] const EvidenceGrid& evidence() const;
+  /// Goes on from what an earlier run of this search had seen (EvidenceGrid::own_looks) and listed, frame `map`. Call
+  /// it before the first step.
+  void take_back(const Grid<std::uint8_t>& looks, const GridLists& lists);
   /// Sets what other robots have searched, frame `map`; it replaces earlier data. Only searches for all targets of this
   /// one count.
   void set_others(const std::vector<SearchedFloor>& others);

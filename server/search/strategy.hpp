@@ -52,6 +52,9 @@ class CoverageStrategy {
   /// Another activity moved the robot meanwhile: present drives are dropped.
   virtual void interrupted(RobotTime now) = 0;
   virtual void transform(const MapMove& move) = 0;
+  /// Goes on from the lists of an earlier run, frame `map`; before the first step. Lists of cells of another size are
+  /// ignored.
+  virtual void take_back(const GridLists& lists) = 0;
   [[nodiscard]] virtual const GridLists& lists() const = 0;
   /// Why the places of lists().unreachable were given up, as far as the strategy knows; in the same order.
   [[nodiscard]] virtual std::vector<UnreachablePlace> unreachable() const;

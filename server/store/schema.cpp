@@ -19,12 +19,6 @@ CREATE TABLE missions (
 ) STRICT;
 CREATE UNIQUE INDEX missions_by_begun ON missions (begun);
 
-CREATE TABLE checkpoints (
-  mission TEXT PRIMARY KEY REFERENCES missions (id) ON DELETE CASCADE,
-  robot_time_ns INTEGER NOT NULL,
-  journal BLOB NOT NULL             -- zstd frame with checksum
-) STRICT;
-
 -- Without a reference to missions: an event outside a mission has the empty id.
 CREATE TABLE mission_events (
   mission TEXT NOT NULL,

@@ -25,14 +25,6 @@ MissionRecord read_mission(const Statement& row) {
   return mission;
 }
 
-Status remove_checkpoint(Database& database, const std::string& mission) {
-  Result<Statement> remove = database.prepare("DELETE FROM checkpoints WHERE mission = ?");
-  if (!remove) {
-    return tl::unexpected(remove.error());
-  }
-  return remove->bind(mission).run();
-}
-
 /// Of a mission that has ended, or of none: those of one without an end are its own.
 Status remove_events_of_ended(Database& database, const std::string& mission) {
   Result<Statement> remove = database.prepare(
@@ -42,25 +34,6 @@ Status remove_events_of_ended(Database& database, const std::string& mission) {
     return tl::unexpected(remove.error());
   }
   return remove->bind(mission).run();
-}
-
-Result<std::optional<Checkpoint>> read_checkpoint(Database& database, const std::string& mission) {
-  Result<Statement> select = database.prepare("SELECT robot_time_ns, journal FROM checkpoints WHERE mission = ?");
-  if (!select) {
-    return tl::unexpected(select.error());
-  }
-  const Result<bool> row = select->bind(mission).step();
-  if (!row) {
-    return tl::unexpected(row.error());
-  }
-  if (!*row) {
-    return std::nullopt;
-  }
-  Result<Blob> journal = unpack(select->blob(1), kMaxBlob_bytes);
-  if (!journal) {
-    return fail_with_context("checkpoint of mission '" + mission + "'", journal.error());
-  }
-  return Checkpoint{select->integer(0), std::move(*journal)};
 }
 
 }  // namespace
@@ -100,9 +73,6 @@ Status Store::begin_mission(const MissionRecord& mission) {
   if (!transaction) {
     return tl::unexpected(transaction.error());
   }
-  if (Status ok = remove_checkpoint(body_->database, mission.id); !ok) {
-    return ok;
-  }
   if (Status ok = remove_events_of_ended(body_->database, mission.id); !ok) {
     return ok;
   }
@@ -128,10 +98,6 @@ Status Store::end_mission(const std::string& id, const MissionEndRecord& end) {
   if (Status ok = check_texts({end.outcome, end.cause, end.remedy}); !ok) {
     return ok;
   }
-  Result<Transaction> transaction = Transaction::begin(body_->database);
-  if (!transaction) {
-    return tl::unexpected(transaction.error());
-  }
   Result<Statement> update =
       body_->database.prepare("UPDATE missions SET ended_ns = ?, outcome = ?, cause = ?, remedy = ? WHERE id = ?");
   if (!update) {
@@ -143,35 +109,10 @@ Status Store::end_mission(const std::string& id, const MissionEndRecord& end) {
   if (body_->database.changes() == 0) {
     return fail(Errc::kNotFound, "there is no mission '" + id + "' to end");
   }
-  if (Status ok = remove_checkpoint(body_->database, id); !ok) {
-    return ok;
-  }
-  return transaction->commit();
-}
-
-Status Store::save_checkpoint(const std::string& mission, const Checkpoint& checkpoint) {
-  if (Status ok = check_blob("a checkpoint", checkpoint.journal); !ok) {
-    return ok;
-  }
-  const Result<Blob> frame = pack(checkpoint.journal);
-  if (!frame) {
-    return tl::unexpected(frame.error());
-  }
-  Result<Statement> insert =
-      body_->database.prepare("INSERT OR REPLACE INTO checkpoints SELECT id, ?, ? FROM missions WHERE id = ?");
-  if (!insert) {
-    return tl::unexpected(insert.error());
-  }
-  if (Status ok = insert->bind(checkpoint.robot_time_ns).bind(*frame).bind(mission).run(); !ok) {
-    return ok;
-  }
-  if (body_->database.changes() == 0) {
-    return fail(Errc::kNotFound, "there is no mission '" + mission + "' to keep a checkpoint of");
-  }
   return {};
 }
 
-Result<std::optional<UnfinishedMission>> Store::unfinished_mission() const {
+Result<std::optional<MissionRecord>> Store::unfinished_mission() const {
   Result<Statement> select =
       body_->database.prepare(std::string(kMissionColumns) + "WHERE ended_ns IS NULL ORDER BY begun DESC LIMIT 1");
   if (!select) {
@@ -181,16 +122,7 @@ Result<std::optional<UnfinishedMission>> Store::unfinished_mission() const {
   if (!row) {
     return tl::unexpected(row.error());
   }
-  if (!*row) {
-    return std::nullopt;
-  }
-  UnfinishedMission unfinished{read_mission(*select), std::nullopt};
-  Result<std::optional<Checkpoint>> checkpoint = read_checkpoint(body_->database, unfinished.mission.id);
-  if (!checkpoint) {
-    return tl::unexpected(checkpoint.error());
-  }
-  unfinished.checkpoint = std::move(*checkpoint);
-  return unfinished;
+  return *row ? std::optional(read_mission(*select)) : std::nullopt;
 }
 
 Result<std::optional<MissionRecord>> Store::mission(const std::string& id) const {

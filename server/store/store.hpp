@@ -69,22 +69,6 @@ struct DetectionRecord {
   friend bool operator==(const DetectionRecord&, const DetectionRecord&) = default;
 };
 
-/// State from which a mission is resumed: its grid lists and evidence as bytes. Stored compressed, with a checksum.
-struct Checkpoint {
-  std::int64_t robot_time_ns = 0;
-  Blob journal;
-
-  friend bool operator==(const Checkpoint&, const Checkpoint&) = default;
-};
-
-/// A mission that has a beginning and no end: the program was killed while it ran.
-struct UnfinishedMission {
-  MissionRecord mission;
-  std::optional<Checkpoint> checkpoint;
-
-  friend bool operator==(const UnfinishedMission&, const UnfinishedMission&) = default;
-};
-
 /// The state file `seeker.db` in a folder. One program at a time, one thread at a time. Every call that returns
 /// without an error is on the disk: a kill or a power cut afterwards does not undo it, and never leaves half of it.
 ///
@@ -107,16 +91,13 @@ class Store {
   /// undoes only itself; an error that `work` returns undoes all.
   [[nodiscard]] Status together(const std::function<Status()>& work);
 
-  /// Records a mission as running. A known id replaces its request, start and end, and drops its checkpoint. If that
-  /// mission had no end, it is continued and keeps its events; if it had one, this is another mission and they are
-  /// deleted.
+  /// Records a mission as running. A known id replaces its request, start and end. If that mission had no end, it
+  /// is continued and keeps its events; if it had one, this is another mission and they are deleted.
   [[nodiscard]] Status begin_mission(const MissionRecord& mission);
-  /// Records the end of a mission and drops its checkpoint. kNotFound: no such mission.
+  /// Records the end of a mission. kNotFound: no such mission.
   [[nodiscard]] Status end_mission(const std::string& id, const MissionEndRecord& end);
-  /// Replaces the mission's checkpoint. kNotFound: no such mission.
-  [[nodiscard]] Status save_checkpoint(const std::string& mission, const Checkpoint& checkpoint);
-  /// The newest mission without an end.
-  [[nodiscard]] Result<std::optional<UnfinishedMission>> unfinished_mission() const;
+  /// The newest mission without an end: the program ended while it ran.
+  [[nodiscard]] Result<std::optional<MissionRecord>> unfinished_mission() const;
   [[nodiscard]] Result<std::optional<MissionRecord>> mission(const std::string& id) const;
   /// The newest `limit` missions, newest first.
   [[nodiscard]] Result<std::vector<MissionRecord>> missions(std::size_t limit) const;

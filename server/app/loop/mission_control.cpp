@@ -101,8 +101,8 @@ Result<api::MissionId> MissionControl::start(const api::MissionRequest& request,
   parties_.motion.authority().arm();
   if (!resumption_.has_own_map() || !goes_on) {
     drop_checkpoints();
-  } else if (resumption_.kept().topology) {
-    parties_.executor.remember(*resumption_.kept().topology);
+  } else {
+    parties_.executor.remember(resumption_.kept().memory);
   }
   resumption_.mission_began();
   checkpoints_.begin(parties_.world.now());

@@ -29,7 +29,7 @@ Twist2 MissionResumption::look_round(double heading_rad, RobotTime now) {
 }
 
 void MissionResumption::go_on_without_map(const MissionSoFar& so_far) {
-  kept_ = {.map_T_base = std::nullopt, .topology = std::nullopt, .so_far = {std::nullopt, so_far.running}};
+  kept_ = {.map_T_base = std::nullopt, .memory = {}, .so_far = {std::nullopt, so_far.running}};
   has_own_map_ = false;
 }
 

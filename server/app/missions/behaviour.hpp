@@ -15,6 +15,7 @@
 #include "common/core/scan.hpp"
 #include "common/core/topology.hpp"
 #include "server/app/estimators/stereo_look.hpp"
+#include "server/app/missions/mission_memory.hpp"
 #include "server/nav/movers.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/slam/map_tracker.hpp"
@@ -103,8 +104,8 @@ class Behaviour {
   [[nodiscard]] virtual const Topology* topology() const { return nullptr; }
   [[nodiscard]] virtual std::optional<Point2> target_map() const { return std::nullopt; }
   /// What it goes on from when the program is cut off, and is given back before its first step.
-  [[nodiscard]] virtual std::optional<TopologyMemory> memory() const { return std::nullopt; }
-  virtual void remember(const TopologyMemory& /*memory*/) {}
+  [[nodiscard]] virtual MissionMemory memory() const { return {}; }
+  virtual void remember(const MissionMemory& /*memory*/) {}
   /// Where the mission began, when that is not where the robot makes its first step. Before that.
   virtual void remember_start(const Point2& /*start_map*/) {}
   /// What it has searched itself, within a square of so many cells around a point, as it is reported to other robots.

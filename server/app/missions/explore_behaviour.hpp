@@ -39,8 +39,14 @@ class ExploreBehaviour final : public Behaviour {
   [[nodiscard]] std::optional<api::MissionEnd> pending_end() const override;
   [[nodiscard]] const Topology* topology() const override { return exploration_.strategy().topology(); }
   [[nodiscard]] std::optional<Point2> target_map() const override { return exploration_.strategy().target_map(); }
-  [[nodiscard]] std::optional<TopologyMemory> memory() const override { return exploration_.strategy().memory(); }
-  void remember(const TopologyMemory& memory) override { exploration_.remember(memory); }
+  [[nodiscard]] MissionMemory memory() const override {
+    return {.topology = exploration_.strategy().memory(), .search = std::nullopt};
+  }
+  void remember(const MissionMemory& memory) override {
+    if (memory.topology) {
+      exploration_.remember(*memory.topology);
+    }
+  }
   void remember_start(const Point2& start_map) override { exploration_.remember_start(start_map); }
 
  private:

@@ -67,7 +67,7 @@ Result<api::MissionId> MissionExecutor::start(const api::MissionRequest& request
   return request.id;
 }
 
-void MissionExecutor::remember(const TopologyMemory& memory) {
+void MissionExecutor::remember(const MissionMemory& memory) {
   if (active_) {
     active_->behaviour->remember(memory);
   }

@@ -79,7 +79,7 @@ class MissionExecutor {
     return active_ ? active_->behaviour->use(params) : Status();
   }
   /// What the behaviour knew when the program was cut off; before its first step.
-  void remember(const TopologyMemory& memory);
+  void remember(const MissionMemory& memory);
   /// The client has been silent since then: the link policy of its mission counts from there.
   void client_silent(const std::string& client, WallTime since);
   /// The client has sent something again. What its mission's link policy has done stays done.

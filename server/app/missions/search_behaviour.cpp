@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/api/fleet.hpp"
 #include "server/app/missions/target_values.hpp"
 
 namespace seeker::app {
@@ -48,6 +49,20 @@ api::CoverageSummary to_api(const search::CoverageSummary& summary) {
           .mean_probability = summary.mean_probability,
           .gaps = summary.gaps};
 }
+
+/// Both sides have a type of their own with the same fields.
+template <class To, class From>
+To convert_lists(const From& lists) {
+  return {.cell_size_m = lists.cell_size_m,
+          .searched = lists.searched,
+          .unsearched = lists.unsearched,
+          .unreachable = lists.unreachable,
+          .passes_n = lists.passes_n,
+          .passes_limit_n = lists.passes_limit_n};
+}
+
+api::GridLists to_api(const search::GridLists& lists) { return convert_lists<api::GridLists>(lists); }
+search::GridLists from_api(const api::GridLists& lists) { return convert_lists<search::GridLists>(lists); }
 
 }  // namespace
 
@@ -106,6 +121,7 @@ Decision SearchBehaviour::look_around(const Situation& situation) {
 
 Decision SearchBehaviour::step(const Situation& situation) {
   stepped_ = true;
+  place_map_ = situation.pose.map_T_base.translation();
   if (round_ && round_->active()) {
     return look_around(situation);
   }
@@ -182,19 +198,28 @@ void SearchBehaviour::resumed(RobotTime now) {
   mission_.resume(now);
 }
 
+MissionMemory SearchBehaviour::memory() const {
+  SearchMemory search{mission_.evidence().own_looks(place_map_, api::kMaxFleetSearchedSide_cells),
+                      to_api(mission_.lists())};
+  if (!stepped_ || search.looks.empty()) {
+    return {};
+  }
+  return {.topology = std::nullopt, .search = std::move(search)};
+}
+
+void SearchBehaviour::remember(const MissionMemory& memory) {
+  if (memory.search) {
+    mission_.take_back(memory.search->looks, from_api(memory.search->lists));
+  }
+}
+
 std::optional<api::GridReport> SearchBehaviour::grid() const {
   if (!stepped_) {
     return std::nullopt;
   }
-  const search::GridLists& lists = mission_.lists();
   search::EvidenceReport evidence = mission_.evidence_report();
   api::GridReport report;
-  report.lists = {.cell_size_m = lists.cell_size_m,
-                  .searched = lists.searched,
-                  .unsearched = lists.unsearched,
-                  .unreachable = lists.unreachable,
-                  .passes_n = lists.passes_n,
-                  .passes_limit_n = lists.passes_limit_n};
+  report.lists = to_api(mission_.lists());
   report.evidence.probability = std::move(evidence.probability);
   for (const search::Gap& gap : evidence.gaps) {
     report.evidence.gaps.push_back({gap.centre_map, gap.area_m2, gap.reason});

@@ -53,6 +53,8 @@ class SearchBehaviour final : public Behaviour {
   void on_recognition(const Recognition& recognition) override;
   void resumed(RobotTime now) override;
   void map_moved(const MapMove& move) override;
+  [[nodiscard]] MissionMemory memory() const override;
+  void remember(const MissionMemory& memory) override;
   [[nodiscard]] std::optional<api::GridReport> grid() const override;
   [[nodiscard]] std::optional<SearchedFloor> searched(const Point2& middle_map, int side_cells) const override;
   [[nodiscard]] std::vector<api::Detection> detections() const override;
@@ -71,6 +73,7 @@ class SearchBehaviour final : public Behaviour {
   std::optional<PictureRound> round_;  ///< in place of a single picture
   int pictures_around_ = 1;
   bool stepped_ = false;
+  Point2 place_map_ = Point2::Zero();  ///< of the robot at the last step
 };
 
 }  // namespace seeker::app

@@ -32,8 +32,8 @@ void CheckpointService::write(const api::MissionId& mission, Checkpoint checkpoi
     const Result<store::MapListing> written = files_.write(store_.file_of(shared->map, mission), true);
     Status kept = written ? Status() : Status(tl::unexpected<Error>(written.error()));
     // After the map: what is remembered of an older one is less, and never of places that the map does not have.
-    if (kept && shared->topology) {
-      kept = keep_topology(folder_, mission, *shared->topology, shared->map.map.epoch);
+    if (kept) {
+      kept = keep_memory(folder_, mission, shared->memory, shared->map.map.epoch);
     }
     answer(kept);
   });

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "common/api/mission.hpp"
-#include "common/core/topology.hpp"
 #include "server/app/maps/robot_map.hpp"
 #include "server/app/missions/mission_executor.hpp"
+#include "server/app/missions/mission_memory.hpp"
 
 namespace seeker::app {
 
@@ -22,15 +22,15 @@ struct MissionPlace {
 /// One moment: what the mission knows belongs to this state of the map.
 struct Checkpoint {
   LoopMap map;
-  std::optional<TopologyMemory> topology;  ///< of an exploration by topology
+  MissionMemory memory;
   MissionPlace place;
 };
 
 /// What there is besides the map.
 struct KeptState {
-  std::optional<Pose2> map_T_base;         ///< where the robot was last, kept more often than the map
-  std::optional<TopologyMemory> topology;  ///< nothing where it belongs to another state of the map
-  MissionSoFar so_far = {};                ///< kept with map_T_base
+  std::optional<Pose2> map_T_base;  ///< where the robot was last, kept more often than the map
+  MissionMemory memory = {};        ///< only what belongs to this state of the map
+  MissionSoFar so_far = {};         ///< kept with map_T_base
 };
 
 }  // namespace seeker::app

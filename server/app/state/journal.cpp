@@ -75,14 +75,14 @@ void Journal::read_estop() {
 }
 
 void Journal::find_unfinished() {
-  Result<std::optional<store::UnfinishedMission>> found = store_.unfinished_mission();
+  Result<std::optional<store::MissionRecord>> found = store_.unfinished_mission();
   if (!found) {
     note_lost("the mission that was cut off cannot be read: " + found.error().message);
   }
   if (!found || !found->has_value()) {
     return;
   }
-  store::MissionRecord& mission = (*found)->mission;
+  store::MissionRecord& mission = **found;
   unfinished_ = parse_request(mission.request);
   if (unfinished_) {
     open_ = std::move(mission);

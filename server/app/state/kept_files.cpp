@@ -1,6 +1,8 @@
 #include "server/app/state/kept_files.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "common/wire/convert.hpp"
 #include "common/wire/convert_fleet.hpp"
@@ -15,7 +17,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlaceKind = "place";
 constexpr const char* kTopologyKind = "topology";
-/// A topology within its limits takes less.
+constexpr const char* kSearchKind = "search";
+constexpr std::array kKinds{kPlaceKind, kTopologyKind, kSearchKind};
+/// A topology or a search within its limits takes less.
 constexpr std::size_t kMaxFileBytes = 4UL << 20U;
 /// The message is that of a fleet, which wants a name.
 constexpr const char* kOwner = "self";
@@ -65,6 +69,32 @@ Result<std::optional<TopologyMemory>> read_topology(const fs::path& path, std::u
   return std::optional<TopologyMemory>({std::move(told->topology), std::move(*closed), std::move(*looked_at)});
 }
 
+/// Nothing where it belongs to another state of the map.
+Result<std::optional<SearchMemory>> read_search(const fs::path& path, std::uint32_t map_epoch) {
+  const auto message = read_kept_message<v1::KeptSearch>(path, kSearchKind, kMaxFileBytes);
+  if (!message) {
+    return tl::unexpected<Error>(message.error());
+  }
+  if (message->map_epoch() != map_epoch) {
+    return std::optional<SearchMemory>();
+  }
+  const Result<SearchedFloor> looks = wire::from_message<SearchedFloor>(message->looks());
+  Result<api::GridLists> lists = wire::from_message<api::GridLists>(message->lists());
+  if (!looks || !lists) {
+    return tl::unexpected<Error>(!looks ? looks.error() : lists.error());
+  }
+  return std::optional<SearchMemory>({*looks->probability, std::move(*lists)});
+}
+
+void write_topology(const TopologyMemory& memory, v1::KeptTopology& message) {
+  RobotTopology told;
+  told.robot_id = kOwner;
+  told.topology = memory.topology;
+  wire::write(api::within_limits(std::move(told)), message.mutable_topology());
+  wire::write(memory.closed_map, message.mutable_closed_map());
+  wire::write(memory.looked_at_map, message.mutable_looked_at_map());
+}
+
 /// "Not found" is no trouble: nothing was kept.
 void note(const Error& error, std::string& trouble) {
   if (error.code != Errc::kNotFound) {
@@ -87,33 +117,47 @@ Status keep_place(const fs::path& folder, const api::MissionId& mission, const M
                                   files::Outlives::kItsProgram);
 }
 
-Status keep_topology(const fs::path& folder, const api::MissionId& mission, const TopologyMemory& memory,
-                     std::uint32_t map_epoch) {
-  RobotTopology told;
-  told.robot_id = kOwner;
-  told.topology = memory.topology;
-  v1::KeptTopology message;
-  message.set_map_epoch(map_epoch);
-  wire::write(api::within_limits(std::move(told)), message.mutable_topology());
-  wire::write(memory.closed_map, message.mutable_closed_map());
-  wire::write(memory.looked_at_map, message.mutable_looked_at_map());
-  return store::write_sealed_file(path_of(folder, mission, kTopologyKind), kTopologyKind, message.SerializeAsString());
+Status keep_memory(const fs::path& folder, const api::MissionId& mission, const MissionMemory& memory,
+                   std::uint32_t map_epoch) {
+  const auto write = [&](const char* kind, const google::protobuf::MessageLite& message) {
+    return store::write_sealed_file(path_of(folder, mission, kind), kind, message.SerializeAsString());
+  };
+  Status kept;
+  if (memory.topology) {
+    v1::KeptTopology message;
+    message.set_map_epoch(map_epoch);
+    write_topology(*memory.topology, message);
+    kept = write(kTopologyKind, message);
+  }
+  if (kept && memory.search) {
+    v1::KeptSearch message;
+    message.set_map_epoch(map_epoch);
+    const SearchedFloor looks{{}, {}, std::make_shared<const Grid<std::uint8_t>>(memory.search->looks)};
+    wire::write(looks, message.mutable_looks());
+    wire::write(memory.search->lists, message.mutable_lists());
+    kept = write(kSearchKind, message);
+  }
+  return kept;
 }
 
 KeptState read_kept(const fs::path& folder, const api::MissionId& mission, std::uint32_t map_epoch,
                     std::string& trouble) {
+  const auto found = [&trouble](auto&& read) {
+    if (!read) {
+      note(read.error(), trouble);
+    }
+    return std::forward<decltype(read)>(read);
+  };
   KeptState kept;
-  if (const Result<MissionPlace> place = read_place(path_of(folder, mission, kPlaceKind))) {
+  if (const auto place = found(read_place(path_of(folder, mission, kPlaceKind)))) {
     kept.map_T_base = place->map_T_base;
     kept.so_far = place->so_far;
-  } else {
-    note(place.error(), trouble);
   }
-  if (Result<std::optional<TopologyMemory>> topology =
-          read_topology(path_of(folder, mission, kTopologyKind), map_epoch)) {
-    kept.topology = std::move(*topology);
-  } else {
-    note(topology.error(), trouble);
+  if (auto topology = found(read_topology(path_of(folder, mission, kTopologyKind), map_epoch))) {
+    kept.memory.topology = std::move(*topology);
+  }
+  if (auto search = found(read_search(path_of(folder, mission, kSearchKind), map_epoch))) {
+    kept.memory.search = std::move(*search);
   }
   return kept;
 }
@@ -122,7 +166,9 @@ void drop_kept(const fs::path& folder) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string ending = entry.path().extension().string();
-    if (ending == std::string(".") + kPlaceKind || ending == std::string(".") + kTopologyKind) {
+    const bool ours =
+        std::any_of(kKinds.begin(), kKinds.end(), [&](const char* kind) { return ending == std::string(".") + kind; });
+    if (ours) {
       fs::remove(entry.path(), error);
     }
   }

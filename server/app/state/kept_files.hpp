@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <string>
 
-#include "common/core/topology.hpp"
 #include "server/app/state/checkpoint.hpp"
 
 namespace seeker::app {
@@ -14,8 +13,8 @@ namespace seeker::app {
 /// Of one mission, in the folder of the checkpoints. The place outlives the program only, not a power cut. kIo.
 [[nodiscard]] Status keep_place(const std::filesystem::path& folder, const api::MissionId& mission,
                                 const MissionPlace& place);
-[[nodiscard]] Status keep_topology(const std::filesystem::path& folder, const api::MissionId& mission,
-                                   const TopologyMemory& memory, std::uint32_t map_epoch);
+[[nodiscard]] Status keep_memory(const std::filesystem::path& folder, const api::MissionId& mission,
+                                 const MissionMemory& memory, std::uint32_t map_epoch);
 /// What is there and whole; `trouble` says what was damaged, empty where nothing was. `map_epoch` is the map's.
 [[nodiscard]] KeptState read_kept(const std::filesystem::path& folder, const api::MissionId& mission,
                                   std::uint32_t map_epoch, std::string& trouble);

@@ -1,15 +1,10 @@
 // The map of a mission that builds one: kept while it runs, loaded again when a crash has cut the mission off.
 
-#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "server/app/composition/robot_assembly.hpp"
-#include "server/app/estimators/tracker_estimator.hpp"
-#include "server/app/loop/robot_loop.hpp"
-#include "tests/support/data.hpp"
-#include "tests/support/maps/fake_map_tracker.hpp"
+#include "tests/integration/maps/loop_with_map.hpp"
 #include "tests/support/maps/random_map.hpp"
 
 namespace seeker::testing {
@@ -17,7 +12,7 @@ namespace {
 
 /// What a mission was told of its life before a crash.
 struct Remembered {
-  std::optional<TopologyMemory> topology;
+  app::MissionMemory memory;
   std::optional<Point2> start_map;
   std::optional<Duration> time_left;
 };
@@ -30,7 +25,7 @@ class Standing final : public app::Behaviour {
     remembered_.time_left = situation.time_left;
     return {};
   }
-  void remember(const TopologyMemory& memory) override { remembered_.topology = memory; }
+  void remember(const app::MissionMemory& memory) override { remembered_.memory = memory; }
   void remember_start(const Point2& start_map) override { remembered_.start_map = start_map; }
 
  private:
@@ -53,17 +48,14 @@ api::Detection found_bag() {
   return bag;
 }
 
-class MapCheckpoints : public ::testing::Test {
+class MapCheckpoints : public LoopWithMap {
  protected:
-  MapCheckpoints() {
-    const app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml")).value();
-    app::Assembly assembly = app::assemble(options).value();
-    assembly.parts.estimator = std::make_unique<app::TrackerEstimator>(std::make_unique<FakeMapTracker>(state));
-    assembly.parts.behaviours = [this](const api::MissionTask&, const app::Situation&) {
-      return Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Standing>(remembered));
-    };
-    loop = std::make_unique<app::RobotLoop>(options.loop, std::move(assembly.parts), hub);
-    loop->hooks().on_event = [this](const api::Event& event) { events.push_back(event); };
+  MapCheckpoints()
+      : LoopWithMap([this](app::LoopParts& parts) {
+          parts.behaviours = [this](const api::MissionTask&, const app::Situation&) {
+            return Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Standing>(remembered));
+          };
+        }) {
     loop->hooks().on_checkpoint = [this](const api::MissionId& mission, const app::Checkpoint& checkpoint) {
       kept.push_back(mission);
       EXPECT_EQ(checkpoint.map.map.segments.size(), state->map.segments.size());
@@ -79,27 +71,12 @@ class MapCheckpoints : public ::testing::Test {
     state->changed();
   }
 
-  void ticks(int count) {
-    for (int k = 0; k < count; ++k) {
-      wall += std::chrono::milliseconds(100);
-      loop->tick(wall);
-    }
-  }
-  [[nodiscard]] std::ptrdiff_t count(const std::string& kind) const {
-    return std::count_if(events.begin(), events.end(), [&](const api::Event& e) { return e.kind == kind; });
-  }
-
-  std::shared_ptr<FakeMapState> state = std::make_shared<FakeMapState>();
-  app::UpdateHub hub;
-  std::unique_ptr<app::RobotLoop> loop;
-  std::vector<api::Event> events;
   std::vector<api::MissionId> kept;
   std::vector<api::MissionId> set_aside;
   Remembered remembered;
   int places = 0;
   app::MissionPlace place_kept;
   int dropped = 0;
-  app::WallTime wall;
 };
 
 TEST_F(MapCheckpoints, ChangedMapIsKeptOncePerPeriodAndDroppedAtTheEnd) {
@@ -168,7 +145,8 @@ TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSe
   EXPECT_TRUE(loop->mission_control().map_waits_for_resume());
   state->lost_because = "no scan fits";
   ASSERT_TRUE(loop->mission_control().resume_in_map(
-      room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, TopologyMemory{}, {Point2(5.0, 5.0), {}, {found_bag()}}}));
+      room_map(), {}, "tester",
+      {Pose2{1.0, 0.0, 0.0}, {TopologyMemory{}, std::nullopt}, {Point2(5.0, 5.0), {}, {found_bag()}}}));
   EXPECT_FALSE(loop->mission_control().map_waits_for_resume());
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
@@ -176,15 +154,15 @@ TEST_F(MapCheckpoints, RobotThatDoesNotFindItsPlaceBeginsANewMapAndTheOldOneIsSe
   EXPECT_EQ(set_aside, (std::vector<api::MissionId>{"look-round"}));
   EXPECT_EQ(dropped, 1) << "the new map is kept under the mission's name from now on";
   EXPECT_TRUE(state->map.segments.empty());
-  EXPECT_FALSE(remembered.topology) << "places of another map";
+  EXPECT_FALSE(remembered.memory.topology) << "places of another map";
   EXPECT_FALSE(remembered.start_map);
   EXPECT_TRUE(loop->missions().detections().empty());
 }
 
 TEST_F(MapCheckpoints, WhatWasFoundBeforeACrashIsListedAgainOnceTheRobotIsFound) {
   loop->mission_control().offer_unfinished(exploration());
-  ASSERT_TRUE(loop->mission_control().resume_in_map(
-      room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt, {Point2(1.0, 0.0), {}, {found_bag()}}}));
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester",
+                                                    {Pose2{1.0, 0.0, 0.0}, {}, {Point2(1.0, 0.0), {}, {found_bag()}}}));
   EXPECT_TRUE(loop->missions().detections().empty()) << "where it is, is not known yet";
   ticks(20);
   ASSERT_EQ(loop->missions().detections().size(), 1U);
@@ -197,7 +175,7 @@ TEST_F(MapCheckpoints, WhatWasFoundBeforeACrashIsListedAgainOnceTheRobotIsFound)
 TEST_F(MapCheckpoints, RobotThatIsNotFoundAtOnceTurnsOnceOnTheSpotAndStands) {
   loop->mission_control().offer_unfinished(exploration());
   state->scans_to_search = 100'000;
-  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}}));
   ticks(25);
   EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01) << "it may be found without";
   ticks(20);
@@ -212,7 +190,7 @@ TEST_F(MapCheckpoints, RobotThatLooksRoundIsStoppedByStopAndByEstop) {
   for (const bool estop : {false, true}) {
     loop->mission_control().offer_unfinished(exploration());
     state->scans_to_search = 100'000;
-    ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+    ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}}));
     ticks(45);
     ASSERT_GT(loop->status().velocity.omega_rad_s, 0.1);
     estop ? loop->commands().set_estop(true) : loop->commands().stop();
@@ -225,7 +203,7 @@ TEST_F(MapCheckpoints, RobotWhoseLeaseSomebodyHoldsDoesNotLookRound) {
   loop->mission_control().offer_unfinished(exploration());
   state->scans_to_search = 100'000;
   ASSERT_TRUE(loop->commands().command_lease({"somebody"}, {api::LeaseAction::kAcquire, false}, {}));
-  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}, std::nullopt}));
+  ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.0, 0.0}}));
   ticks(45);
   EXPECT_LT(std::abs(loop->status().velocity.omega_rad_s), 0.01);
 }
@@ -245,8 +223,8 @@ TEST_F(MapCheckpoints, WhoHoldsTheLeaseMayResumeAndOwnsTheMission) {
 
 TEST_F(MapCheckpoints, ResumptionThatIsRefusedForgetsNothing) {
   loop->mission_control().offer_unfinished(exploration());
-  TopologyMemory memory;
-  memory.closed_map = {{2.0, 3.0}};
+  app::MissionMemory memory;
+  memory.topology.emplace().closed_map = {{2.0, 3.0}};
   ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
   ASSERT_TRUE(loop->commands().command_lease({"somebody"}, {api::LeaseAction::kAcquire, false}, {}));
   ticks(20);
@@ -254,7 +232,7 @@ TEST_F(MapCheckpoints, ResumptionThatIsRefusedForgetsNothing) {
   EXPECT_FALSE(loop->missions().present());
   ASSERT_TRUE(loop->commands().command_lease({"somebody"}, {api::LeaseAction::kRelease, false}, {}));
   ASSERT_TRUE(loop->commands().command_mission(api::MissionCommand::kResume, "tester"));
-  EXPECT_EQ(remembered.topology, memory);
+  EXPECT_EQ(remembered.memory, memory);
 }
 
 TEST_F(MapCheckpoints, MissionGoesOnFromItsStartWithTheTimeThatIsLeft) {
@@ -262,7 +240,7 @@ TEST_F(MapCheckpoints, MissionGoesOnFromItsStartWithTheTimeThatIsLeft) {
   limited.time_limit = std::chrono::seconds(100);
   loop->mission_control().offer_unfinished(limited);
   ASSERT_TRUE(loop->mission_control().resume_in_map(
-      room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, std::nullopt, {Point2(4.0, -2.0), std::chrono::seconds(60)}}));
+      room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, {}, {Point2(4.0, -2.0), std::chrono::seconds(60)}}));
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
   EXPECT_EQ(remembered.start_map, std::optional(Point2(4.0, -2.0)));
@@ -277,13 +255,13 @@ TEST_F(MapCheckpoints, MissionGoesOnFromItsStartWithTheTimeThatIsLeft) {
 
 TEST_F(MapCheckpoints, MissionGoesOnFromWhereItWasWithWhatItRemembered) {
   loop->mission_control().offer_unfinished(exploration());
-  TopologyMemory memory;
-  memory.closed_map = {{2.0, 3.0}};
+  app::MissionMemory memory;
+  memory.topology.emplace().closed_map = {{2.0, 3.0}};
   ASSERT_TRUE(loop->mission_control().resume_in_map(room_map(), {}, "tester", {Pose2{1.0, 0.5, 0.0}, memory}));
   ticks(20);
   ASSERT_TRUE(loop->missions().running());
   EXPECT_LT(distance_m(loop->status().pose.map_T_base, {1.0, 0.5, 0.0}), 0.01) << "it was looked for there";
-  EXPECT_EQ(remembered.topology, memory);
+  EXPECT_EQ(remembered.memory, memory);
 }
 
 TEST_F(MapCheckpoints, PlaceIsKeptMoreOftenThanTheMapItIsIn) {

@@ -1,14 +1,8 @@
 // A loop closure in the middle of a mission: who follows the map, and when.
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
-#include "server/app/composition/robot_assembly.hpp"
-#include "server/app/estimators/tracker_estimator.hpp"
-#include "server/app/loop/robot_loop.hpp"
-#include "tests/support/data.hpp"
-#include "tests/support/maps/fake_map_tracker.hpp"
+#include "tests/integration/maps/loop_with_map.hpp"
 #include "tests/support/maps/random_map.hpp"
 
 namespace seeker::testing {
@@ -32,35 +26,24 @@ class Finder final : public app::Behaviour {
   Point2& mug_map_;
 };
 
-class MapMoves : public ::testing::Test {
+class MapMoves : public LoopWithMap {
  protected:
-  MapMoves() {
-    const app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml")).value();
-    app::Assembly assembly = app::assemble(options).value();
-    assembly.parts.estimator = std::make_unique<app::TrackerEstimator>(std::make_unique<FakeMapTracker>(state));
-    assembly.parts.behaviours = [this, real = assembly.parts.behaviours](const api::MissionTask& task,
-                                                                         const app::Situation& situation) {
-      return std::holds_alternative<api::ReturnMission>(task) || std::holds_alternative<api::LocaliseMission>(task)
-                 ? Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Finder>(mug_map))
-                 : real(task, situation);
-    };
-    loop = std::make_unique<app::RobotLoop>(options.loop, std::move(assembly.parts), hub);
-    loop->hooks().on_event = [this](const api::Event& event) { events.push_back(event); };
+  MapMoves()
+      : LoopWithMap([this](app::LoopParts& parts) {
+          parts.behaviours = [this, real = parts.behaviours](const api::MissionTask& task,
+                                                             const app::Situation& situation) {
+            return std::holds_alternative<api::ReturnMission>(task) ||
+                           std::holds_alternative<api::LocaliseMission>(task)
+                       ? Result<std::unique_ptr<app::Behaviour>>(std::make_unique<Finder>(mug_map))
+                       : real(task, situation);
+          };
+        }) {
     loop->start();
     state->map = room_map();
     state->map.keyframes.resize(100, state->map.keyframes.front());
     state->changed();
   }
 
-  void ticks(int count) {
-    for (int k = 0; k < count; ++k) {
-      wall += std::chrono::milliseconds(100);
-      loop->tick(wall);
-    }
-  }
-  [[nodiscard]] std::ptrdiff_t count(const std::string& kind) const {
-    return std::count_if(events.begin(), events.end(), [&](const api::Event& e) { return e.kind == kind; });
-  }
   [[nodiscard]] Status go() {
     return go(api::GotoMission{.waypoints = {Point2(2.0, 0.0)}, .final_heading_rad = std::nullopt, .keep_out = {}});
   }
@@ -72,11 +55,6 @@ class MapMoves : public ::testing::Test {
     return id ? Status() : Status(tl::unexpected<Error>(id.error()));
   }
 
-  std::shared_ptr<FakeMapState> state = std::make_shared<FakeMapState>();
-  app::UpdateHub hub;
-  std::unique_ptr<app::RobotLoop> loop;
-  std::vector<api::Event> events;
-  app::WallTime wall;
   Point2 mug_map{2.0, 1.0};  ///< as the behaviour that stands in for `return` has found it
 };
 

@@ -12,18 +12,6 @@ namespace {
 
 using seeker::testing::Point2Near;
 
-/// Two rooms of 5 x 5 m joined by a door of 1.2 m, with a box of furniture in the second.
-ToyWorld two_rooms() {
-  ToyWorld world;
-  world.walls = box(0, 0, 10.2, 5);
-  world.walls.push_back({{5.1, 0.0}, {5.1, 1.9}});
-  world.walls.push_back({{5.1, 3.1}, {5.1, 5.0}});
-  for (const Wall& wall : box(7.2, 2.0, 8.0, 2.8)) {
-    world.walls.push_back(wall);
-  }
-  return world;
-}
-
 ToyWorld one_room() {
   ToyWorld world;
   world.walls = box(0, 0, 5, 5);
@@ -33,20 +21,9 @@ ToyWorld one_room() {
   return world;
 }
 
-SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::kApproach, nav::ForbiddenAreas areas = {}) {
-  SearchRequest request;
-  request.targets = {{"box", 0.4, 0.4, 0.3}};
-  request.strategy = strategy;
-  request.on_found = on_found;
-  request.areas = std::move(areas);
-  auto mission = SearchMission::create(request, {}, shared_table());
-  EXPECT_TRUE(mission.has_value());
-  return std::move(*mission);
-}
-
 TEST(SearchMission, PlanCoversTwoRoomsWithoutTarget) {
   auto mission = mission_of(Strategy::kPlan);
-  ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 5);
+  ToyRobot robot(furnished_rooms(), {1.0, 1.0, 0.3}, true, 5);
   const ToyRun run = robot.run(mission, 1200.0);
   print("plan", run);
   ASSERT_TRUE(run.end.has_value());
@@ -61,7 +38,7 @@ TEST(SearchMission, PlanCoversTwoRoomsWithoutTarget) {
 
 TEST(SearchMission, FloorThatAnotherRobotHasSearchedIsNotSearchedAgain) {
   const Pose2 there_T_here{3.0, -7.0, 0.8};  // the other one has a frame of its own
-  ToyRobot other(two_rooms(), {9.0, 1.0, 2.0}, true, 7);
+  ToyRobot other(furnished_rooms(), {9.0, 1.0, 2.0}, true, 7);
   auto its_mission = mission_of(Strategy::kPlan, OnFound::kApproach,
                                 {.bound = Polygon{{5.1, 0.0}, {10.2, 0.0}, {10.2, 5.0}, {5.1, 5.0}}, .keep_out = {}});
   ASSERT_TRUE(other.run(its_mission, 1200.0).end.has_value());
@@ -77,7 +54,7 @@ TEST(SearchMission, FloorThatAnotherRobotHasSearchedIsNotSearchedAgain) {
     auto mission = mission_of(Strategy::kPlan);
     searched.targets = targets;
     mission.set_others({searched});
-    ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 5);
+    ToyRobot robot(furnished_rooms(), {1.0, 1.0, 0.3}, true, 5);
     runs.push_back(robot.run(mission, 1200.0));
     ASSERT_TRUE(runs.back().end.has_value());
     EXPECT_GE(runs.back().summary.covered_area_m2, 0.97 * runs.back().summary.reachable_area_m2);
@@ -157,7 +134,7 @@ TEST(SearchMission, EvidenceFollowsAMovedMap) {
 }
 
 TEST(SearchMission, PlanFindsAndApproachesATargetInTheOtherRoom) {
-  ToyWorld world = two_rooms();
+  ToyWorld world = furnished_rooms();
   world.target = Point2(9.4, 0.8);
   auto mission = mission_of(Strategy::kPlan);
   ToyRobot robot(world, {1.0, 1.0, 0.3}, true, 6);
@@ -175,7 +152,7 @@ TEST(SearchMission, PlanFindsAndApproachesATargetInTheOtherRoom) {
 }
 
 TEST(SearchMission, OfSeveralTargetsTheEndNamesThoseNotFound) {
-  ToyWorld world = two_rooms();
+  ToyWorld world = furnished_rooms();
   world.target = Point2(4.0, 4.0);
   SearchRequest request;
   request.strategy = Strategy::kPlan;
@@ -191,7 +168,7 @@ TEST(SearchMission, OfSeveralTargetsTheEndNamesThoseNotFound) {
 }
 
 TEST(SearchMission, WhatIsNotThereFromNearIsRefusedAndTheSearchGoesOn) {
-  ToyWorld world = two_rooms();
+  ToyWorld world = furnished_rooms();
   world.target = Point2(8.9, 4.0);
   world.recognise_range_m = 4.0;
   world.recognise_from_m = 2.2;  // beyond all places of an approach
@@ -259,7 +236,7 @@ TEST(SearchMission, PlanKeepsOutAndListsWhy) {
   nav::ForbiddenAreas areas;
   areas.keep_out.push_back({{5.2, 0.0}, {10.2, 0.0}, {10.2, 5.0}, {5.2, 5.0}});
   auto mission = mission_of(Strategy::kPlan, OnFound::kApproach, areas);
-  ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 11);
+  ToyRobot robot(furnished_rooms(), {1.0, 1.0, 0.3}, true, 11);
   const ToyRun run = robot.run(mission, 900.0);
   print("plan, keep-out", run);
   ASSERT_TRUE(run.end.has_value());
@@ -272,7 +249,7 @@ TEST(SearchMission, PlanKeepsOutAndListsWhy) {
 TEST(SearchMission, BaselinesEnd) {
   for (const Strategy strategy : {Strategy::kSpiral, Strategy::kFrontier}) {
     auto mission = mission_of(strategy);
-    ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 12);
+    ToyRobot robot(furnished_rooms(), {1.0, 1.0, 0.3}, true, 12);
     const ToyRun run = robot.run(mission, 2400.0);
     print(std::string(to_string(strategy)).c_str(), run);
     ASSERT_TRUE(run.end.has_value());
@@ -284,7 +261,7 @@ TEST(SearchMission, BaselinesEnd) {
 
 TEST(SearchMission, GapsOnlyContinuesFromEarlierEvidence) {
   auto first = mission_of(Strategy::kPlan);
-  ToyRobot robot(two_rooms(), {1.0, 1.0, 0.3}, true, 13);
+  ToyRobot robot(furnished_rooms(), {1.0, 1.0, 0.3}, true, 13);
   const ToyRun run = robot.run(first, 1200.0);
   ASSERT_TRUE(run.end.has_value());
   SearchRequest request = first.request();
@@ -299,7 +276,7 @@ TEST(SearchMission, GapsOnlyContinuesFromEarlierEvidence) {
 }
 
 TEST(SearchMission, SameInputsGiveTheSameEvents) {
-  ToyWorld world = two_rooms();
+  ToyWorld world = furnished_rooms();
   world.target = Point2(9.4, 0.8);
   std::vector<ToyRun> runs;
   for (int k = 0; k < 2; ++k) {

@@ -128,6 +128,30 @@ inline std::shared_ptr<const ControlTable> shared_table() {
   return table;
 }
 
+/// Two rooms of 5 x 5 m joined by a door of 1.2 m, with a box of furniture in the second.
+inline ToyWorld furnished_rooms() {
+  ToyWorld world;
+  world.walls = box(0, 0, 10.2, 5);
+  world.walls.push_back({{5.1, 0.0}, {5.1, 1.9}});
+  world.walls.push_back({{5.1, 3.1}, {5.1, 5.0}});
+  for (const Wall& wall : box(7.2, 2.0, 8.0, 2.8)) {
+    world.walls.push_back(wall);
+  }
+  return world;
+}
+
+inline SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::kApproach,
+                                nav::ForbiddenAreas areas = {}) {
+  SearchRequest request;
+  request.targets = {{"box", 0.4, 0.4, 0.3}};
+  request.strategy = strategy;
+  request.on_found = on_found;
+  request.areas = std::move(areas);
+  auto mission = SearchMission::create(request, {}, shared_table());
+  EXPECT_TRUE(mission.has_value());
+  return std::move(*mission);
+}
+
 inline SearchMission planned_search() {
   SearchRequest request;
   request.targets = {{"box", 0.4, 0.4, 0.3}};

@@ -50,15 +50,12 @@ TEST(Store, EverythingIsThereAfterReopening) {
   MissionRecord ended = mission_named("first");
   const EventRecord outside{"", 7, -5, std::nullopt, "WARNING", "link-lost", "no client; \"stop\" ''"};
   const DetectionRecord detection{9, "first", "cross", kLate_ns, Blob(1000, 3)};
-  const Checkpoint checkpoint{99, Blob(5000, 17)};
   {
     Store store = open_or_die(folder.path() / "deep" / "er");
     ASSERT_TRUE(store.begin_mission(ended));
     ended.end = MissionEndRecord{77, "TARGET_FOUND", "the cross was seen", ""};
     ASSERT_TRUE(store.end_mission("first", *ended.end));
     ASSERT_TRUE(store.begin_mission(mission_named("second")));
-    ASSERT_TRUE(store.save_checkpoint("second", {1, Blob{1}}));
-    ASSERT_TRUE(store.save_checkpoint("second", checkpoint));
     ASSERT_TRUE(store.record_event(outside));
     ASSERT_TRUE(store.record_event(event_of("first", 2)));
     ASSERT_TRUE(store.record_event(event_of("first", 1)));
@@ -71,7 +68,7 @@ TEST(Store, EverythingIsThereAfterReopening) {
   EXPECT_EQ(store.mission("third").value(), std::nullopt);
   EXPECT_EQ(store.missions(10).value(), (std::vector{mission_named("second"), ended}));
   EXPECT_EQ(store.missions(1).value(), (std::vector{mission_named("second")}));
-  EXPECT_EQ(store.unfinished_mission().value(), (UnfinishedMission{mission_named("second"), checkpoint}));
+  EXPECT_EQ(store.unfinished_mission().value(), mission_named("second"));
   EXPECT_EQ(store.events("first").value(), (std::vector{event_of("first", 1), event_of("first", 2)}));
   EXPECT_EQ(store.events("").value(), std::vector{outside});
   EXPECT_EQ(store.detections("first").value(), std::vector{detection});
@@ -81,16 +78,15 @@ TEST(Store, EverythingIsThereAfterReopening) {
   EXPECT_EQ(store.get("never").value(), std::nullopt);
 }
 
-TEST(Store, EndingAMissionDropsItsCheckpointAndLeavesNothingUnfinished) {
+TEST(Store, EndingAMissionLeavesNothingUnfinished) {
   const TemporaryFolder folder;
   Store store = open_or_die(folder.path());
   EXPECT_EQ(store.unfinished_mission().value(), std::nullopt);
   ASSERT_TRUE(store.begin_mission(mission_named("a")));
-  ASSERT_TRUE(store.save_checkpoint("a", {1, Blob{1}}));
   ASSERT_TRUE(store.end_mission("a", {2, "OPERATOR", "stopped", ""}));
   EXPECT_EQ(store.unfinished_mission().value(), std::nullopt);
   ASSERT_TRUE(store.begin_mission(mission_named("a")));
-  EXPECT_EQ(store.unfinished_mission().value(), (UnfinishedMission{mission_named("a"), std::nullopt}));
+  EXPECT_EQ(store.unfinished_mission().value(), mission_named("a"));
 }
 
 TEST(Store, AMissionThatGoesOnKeepsItsEventsAndAnotherOfItsNameHasNone) {
@@ -111,7 +107,6 @@ TEST(Store, UnknownMissionAndEmptyIdAreRefused) {
   const TemporaryFolder folder;
   Store store = open_or_die(folder.path());
   EXPECT_EQ(store.end_mission("ghost", {}).error().code, Errc::kNotFound);
-  EXPECT_EQ(store.save_checkpoint("ghost", {}).error().code, Errc::kNotFound);
   EXPECT_EQ(store.begin_mission(mission_named("")).error().code, Errc::kInvalidArgument);
   EXPECT_EQ(store.put("", {}).error().code, Errc::kInvalidArgument);
   EXPECT_EQ(store.put("big", Blob(kMaxBlob_bytes + 1)).error().code, Errc::kTooLarge);
@@ -239,22 +234,6 @@ TEST(Store, FileThatIsDamagedAnywhereOpensOrSaysWhatItLost) {
     told += store->lost().empty() ? 0 : 1;
   }
   EXPECT_GT(told, kRounds / 10);
-}
-
-TEST(Store, AlteredCheckpointIsAnErrorAndNotAWrongMap) {
-  const TemporaryFolder folder;
-  {
-    Store store = open_or_die(folder.path());
-    ASSERT_TRUE(store.begin_mission(mission_named("a")));
-    ASSERT_TRUE(store.save_checkpoint("a", {1, Blob(300, 7)}));
-  }
-  tamper(folder.path(),
-         "UPDATE checkpoints SET journal = CAST(substr(journal, 1, length(journal) - 1) || x'00' AS BLOB)");
-  const Store store = open_or_die(folder.path());
-  const auto unfinished = store.unfinished_mission();
-  ASSERT_FALSE(unfinished);
-  EXPECT_EQ(unfinished.error().code, Errc::kCorrupt);
-  EXPECT_THAT(unfinished.error().message, HasSubstr("mission 'a'"));
 }
 
 TEST(Store, SecondProgramOnTheSameFolderIsRefused) {

@@ -14,7 +14,7 @@ using testing::TemporaryFolder;
 
 constexpr std::uint64_t kSeed = 20261121;
 
-/// Writes events 1, 2, 3... with a checkpoint after each.
+/// Writes events 1, 2, 3... with a setting after each.
 class EventWriter {
  public:
   explicit EventWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -28,7 +28,7 @@ class EventWriter {
     }
     const auto byte = static_cast<std::uint8_t>(n);
     return (*store_)->record_event({"m", n, 0, 0, "INFO", "cell-searched", std::string(50, 'x')}).has_value() &&
-           (*store_)->save_checkpoint("m", {static_cast<std::int64_t>(n), Blob(20000, byte)}).has_value();
+           (*store_)->put("state", Blob(20000, byte)).has_value();
   }
 
  private:
@@ -50,10 +50,10 @@ void expect_a_prefix(const std::filesystem::path& folder, std::uint64_t told) {
   ASSERT_TRUE(unfinished) << unfinished.error().message;
   ASSERT_TRUE(unfinished->has_value());
   if (told > 0) {
-    ASSERT_TRUE((*unfinished)->checkpoint.has_value());
-    const Checkpoint& checkpoint = *(*unfinished)->checkpoint;
-    ASSERT_GE(checkpoint.robot_time_ns, static_cast<std::int64_t>(told));
-    ASSERT_EQ(checkpoint.journal, Blob(20000, static_cast<std::uint8_t>(checkpoint.robot_time_ns)));
+    const auto state = store->get("state");
+    ASSERT_TRUE(state && state->has_value());
+    ASSERT_GE((*state)->front(), static_cast<std::uint8_t>(told));
+    ASSERT_EQ(**state, Blob(20000, (*state)->front())) << "half a setting";
   }
 }
 
