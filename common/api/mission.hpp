@@ -77,8 +77,8 @@ struct SearchMission {
 };
 
 /// How an exploration chooses its goals: the first two build the map actively, the next three are what they are
-/// compared with; the last one is shared among the robots of a fleet. docs/client.md says how long each takes and how
-/// certain the pose is by then.
+/// compared with; then one whose goals the robots of a fleet share, and tours. docs/client.md says how long each takes
+/// and how certain the pose is by then.
 enum class ExploreStrategy : std::uint8_t {
   kActive,    ///< the published rule: one step of the objective of spec S1.11, out of traps along walls
   kHorizon,   ///< the same objective over several drives to reachable viewpoints: what is used unless another is named
@@ -86,7 +86,7 @@ enum class ExploreStrategy : std::uint8_t {
   kFrontier,  ///< nearest frontier
   kGain,      ///< most unknown floor in sight for the path length
   kTopological,  ///< goals of space trees, kept at the nodes of a topology map (spec S4.4)
-  kTour,         ///< the shortest tour over all that is left, room by room, planned again while the robot drives
+  kTour,  ///< a tour over all still to be seen: in offices a sixth shorter than kFrontier, in small buildings not
 };
 /// All of them, in order.
 inline constexpr std::array kExploreStrategies{

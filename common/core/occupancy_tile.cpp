@@ -67,4 +67,13 @@ std::vector<OccupancyTile> cut(const Grid<std::uint8_t>& grid) {
   return all;
 }
 
+double free_area_m2(const std::optional<Grid<std::uint8_t>>& map) {
+  if (!map) {
+    return 0.0;
+  }
+  const auto free = std::count_if(map->cells().begin(), map->cells().end(),
+                                  [](std::uint8_t cell) { return cell != kUnknownCell && cell < kOccupiedCell / 2; });
+  return static_cast<double>(free) * map->frame().resolution_m * map->frame().resolution_m;
+}
+
 }  // namespace seeker

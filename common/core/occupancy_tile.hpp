@@ -33,4 +33,7 @@ struct OccupancyTile {
 /// its origin must lie on a multiple of it.
 [[nodiscard]] std::vector<OccupancyTile> cut(const Grid<std::uint8_t>& grid);
 
+/// Area of the known cells that are rather free than occupied, of a map as assemble() makes it.
+[[nodiscard]] double free_area_m2(const std::optional<Grid<std::uint8_t>>& map);
+
 }  // namespace seeker

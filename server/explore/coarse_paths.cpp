@@ -9,29 +9,12 @@
 #include <queue>
 #include <utility>
 
+#include "server/tour/nearest_cell.hpp"
+
 namespace seeker::explore {
 namespace {
 
-/// A place beside the coarse floor belongs to the nearest cell so near.
-constexpr int kSnap_cells = 3;
 constexpr std::array<CellIndex, 8> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
-
-std::optional<CellIndex> snap(const Grid<std::uint8_t>& floor, const Point2& p_map) {
-  const CellIndex centre = floor.frame().cell_of(p_map);
-  std::optional<CellIndex> best;
-  int best_distance = 2 * kSnap_cells * kSnap_cells + 1;
-  for (int dj = -kSnap_cells; dj <= kSnap_cells; ++dj) {
-    for (int di = -kSnap_cells; di <= kSnap_cells; ++di) {
-      const CellIndex cell{centre.i + di, centre.j + dj};
-      const int distance = di * di + dj * dj;
-      if (floor.contains(cell) && floor[cell] != 0 && distance < best_distance) {
-        best = cell;
-        best_distance = distance;
-      }
-    }
-  }
-  return best;
-}
 
 /// Dijkstra that ends when every cell of `targets` has its length.
 Grid<float> spread(const Grid<std::uint8_t>& floor, CellIndex start, const std::vector<CellIndex>& targets) {
@@ -75,7 +58,7 @@ Grid<float> spread(const Grid<std::uint8_t>& floor, CellIndex start, const std::
 
 std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, const std::vector<Point2>& to_map) const {
   std::vector<double> lengths(to_map.size(), kNoPath);
-  const auto start = snap(*floor_, from_map);
+  const auto start = tour::nearest_cell(*floor_, from_map);
   if (!start) {
     return lengths;
   }
@@ -84,7 +67,7 @@ std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, const std::ve
   cells.reserve(to_map.size());
   targets.reserve(to_map.size());
   for (const Point2& p : to_map) {
-    cells.push_back(snap(*floor_, p));
+    cells.push_back(tour::nearest_cell(*floor_, p));
     if (cells.back()) {
       targets.push_back(*cells.back());
     }

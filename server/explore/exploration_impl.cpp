@@ -29,7 +29,8 @@ StrategyInput Exploration::Impl::strategy_input(const ExploreInput& input) {
           input.segments_revision,
           input.belief,
           input.fleet,
-          request_.return_to_start ? start_ : std::nullopt};
+          request_.return_to_start ? start_ : std::nullopt,
+          &trail_};
 }
 
 ExploreStep Exploration::Impl::step(const ExploreInput& input) {

@@ -113,12 +113,12 @@ Status check_viewpoints(const ViewpointParams& p) {
 }
 
 Status check_tour(const TourParams& p) {
-  if (p.max_places < 1) {
-    return fail(Errc::kInvalidArgument, "tour.max_places must be 1 or more");
+  if (p.max_places < 1 || p.max_places > kMostTourPlaces) {
+    return fail(Errc::kInvalidArgument, "tour.max_places must be 1 to " + std::to_string(kMostTourPlaces));
   }
   if (const Status costs = none_negative({{"tour.passage_m", p.passage_m},
                                           {"tour.rotation_m_rad", p.rotation_m_rad},
-                                          {"tour.free_rotation_rad", p.free_rotation_rad},
+                                          {"tour.free_rotation_deg", p.free_rotation_rad},
                                           {"tour.beyond_m", p.beyond_m},
                                           {"tour.passing_m", p.passing_m},
                                           {"tour.passing_wall", p.passing_wall},

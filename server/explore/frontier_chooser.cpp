@@ -18,11 +18,7 @@ class FrontierChooser final : public PlaceChooser {
       if (choice.decision.candidates.size() == kMaxDecisionCandidates) {
         break;
       }
-      DecisionCandidate candidate;
-      candidate.map_T_base = opening.map_T_view;
-      candidate.path_m = opening.cost;
-      candidate.score = -opening.cost;
-      choice.decision.candidates.push_back(candidate);
+      choice.decision.candidates.push_back(candidate_of(opening, -opening.cost));
     }
     return choice;
   }

@@ -25,7 +25,7 @@ class GainChooser final : public PlaceChooser {
     const auto count = std::min(input.openings.size(), static_cast<std::size_t>(params_.viewpoints.max_candidates));
     for (std::size_t k = 0; k < count; ++k) {
       const Seen seen = best_view(input, input.openings[k]);
-      choice.decision.candidates.push_back(candidate_of(seen));
+      choice.decision.candidates.push_back(candidate_of(seen.opening, seen.score));
       if (seen.area_m2 >= params_.viewpoints.min_gain_m2 && seen.score > best_score) {
         best_score = seen.score;
         choice.opening = seen.opening;
@@ -73,14 +73,6 @@ class GainChooser final : public PlaceChooser {
       }
     }
     return best;
-  }
-
-  static DecisionCandidate candidate_of(const Seen& seen) {
-    DecisionCandidate candidate;
-    candidate.map_T_base = seen.opening.map_T_view;
-    candidate.path_m = seen.opening.cost;
-    candidate.score = seen.score;
-    return candidate;
   }
 
   ExploreParams params_;

@@ -47,13 +47,14 @@ class HorizonChooser final : public PlaceChooser {
 
 HorizonChooser::Outlook HorizonChooser::look_out(const PlaceInput& input) const {
   const OneStepParams& one_step = params_.one_step;
-  const StrategyInput& robot = input.robot;
-  SightScene scene(robot.segments, robot.map_T_base.translation(), kForecastReach_m + one_step.sensor.range_m, one_step,
-                   one_step.use_floor ? &input.floor.cost.states() : nullptr);
-  Belief belief = robot.belief ? Belief(*robot.belief)
-                               : Belief(robot.map_T_base, robot.covariance, robot.segments,
-                                        static_cast<std::size_t>(one_step.max_observed));
-  Outlook outlook{input, std::move(scene), std::move(belief), {}, 0.0, {}, CoarsePaths(input.floor.reachable), {}};
+  Outlook outlook{input,
+                  forecast_scene(input, one_step),
+                  forecast_belief(input.robot, one_step),
+                  {},
+                  0.0,
+                  {},
+                  CoarsePaths(input.floor.reachable),
+                  {}};
   outlook.views = horizon_views(input, outlook.scene, params_);
   outlook.least_uncertainty = least_uncertainty(outlook.belief, one_step.sensor);
   outlook.places.reserve(outlook.views.size());
@@ -175,9 +176,7 @@ ExploreDecision HorizonChooser::publish(const Outlook& outlook, const Beam& trie
   decision.rule = "horizon";
   for (std::size_t k = 0; k < outlook.views.size() && k < kMaxDecisionCandidates; ++k) {
     const HorizonView& view = outlook.views[k];
-    DecisionCandidate candidate;
-    candidate.map_T_base = view.opening.map_T_view;
-    candidate.path_m = view.path_m;
+    DecisionCandidate candidate = candidate_of(view.opening, 0.0);
     const auto first =
         std::find_if(tried.begin(), tried.end(), [&](const HorizonSequence& s) { return s.stops.front() == k; });
     if (first != tried.end()) {

@@ -15,6 +15,8 @@ constexpr std::size_t kMaxLooks = 8;
 /// Speeds of the predicted drive: what counts is the noise by distance and angle.
 constexpr double kSpeed_m_s = 0.3;
 constexpr double kRotation_rad_s = 0.5;
+/// Walls farther away from the robot than this and the sensor's range say nothing of a leg.
+constexpr double kReach_m = 15.0;
 
 /// Poses along a path, each looking where it leads; the last one as the view wants it.
 std::vector<Pose2> looks_along(const nav::Path& path, const Pose2& last) {
@@ -48,6 +50,17 @@ void move_to(PredictedBelief& belief, const Pose2& from, const Pose2& to, const 
 }
 
 }  // namespace
+
+SightScene forecast_scene(const PlaceInput& input, const OneStepParams& params) {
+  return {input.robot.segments, input.robot.map_T_base.translation(), kReach_m + params.sensor.range_m, params,
+          params.use_floor ? &input.floor.cost.states() : nullptr};
+}
+
+Belief forecast_belief(const StrategyInput& robot, const OneStepParams& params) {
+  return robot.belief ? Belief(*robot.belief)
+                      : Belief(robot.map_T_base, robot.covariance, robot.segments,
+                               static_cast<std::size_t>(params.max_observed));
+}
 
 LegForecast forecast_leg(const PlaceInput& input, const Opening& opening, const SightScene& scene, const Belief& belief,
                          const OneStepParams& params) {

@@ -7,13 +7,15 @@
 
 namespace seeker::explore {
 
-/// Walls farther away from the robot than this and the sensor's range say nothing of a leg.
-inline constexpr double kForecastReach_m = 15.0;
-
 struct LegForecast {
   double uncertainty = 0.0;    ///< U of eq (19) of robot and map after the drive
   double worst_sigma_m = 0.0;  ///< largest standard deviation of the position on the path, in its worst direction
 };
+
+/// The walls that the legs of a decision may show; valid as long as `input`.
+[[nodiscard]] SightScene forecast_scene(const PlaceInput& input, const OneStepParams& params);
+/// Robot and walls as they are known before a leg.
+[[nodiscard]] Belief forecast_belief(const StrategyInput& robot, const OneStepParams& params);
 
 /// Predicts the drive along the planned path to the viewpoint, with a look every metre or so.
 [[nodiscard]] LegForecast forecast_leg(const PlaceInput& input, const Opening& opening, const SightScene& scene,

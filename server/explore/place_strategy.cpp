@@ -25,6 +25,14 @@ Opening moved(Opening opening, const MapMove& move) {
 
 }  // namespace
 
+DecisionCandidate candidate_of(const Opening& opening, double score) {
+  DecisionCandidate candidate;
+  candidate.map_T_base = opening.map_T_view;
+  candidate.path_m = opening.cost;
+  candidate.score = score;
+  return candidate;
+}
+
 PlaceStrategy::PlaceStrategy(const ExploreParams& params, std::unique_ptr<PlaceChooser> chooser)
     : params_(params),
       chooser_(std::move(chooser)),
@@ -121,6 +129,7 @@ void PlaceStrategy::choose_from(const StrategyInput& input, const Survey& found,
 
 void PlaceStrategy::wait_or_finish(const StrategyInput& input, const Survey& found, StrategyStep& out) {
   goal_.reset();
+  out.command = {};  // that of the drive which has just ended
   if (found.resting) {
     state_ = State::kWait;
     why_ = "waiting to try again what could not be reached";
@@ -185,6 +194,10 @@ void PlaceStrategy::drive(const StrategyInput& input, StrategyStep& out) {
     case nav::DriveState::kArrived: arrive(input); return;
     case nav::DriveState::kFailed:
     case nav::DriveState::kIdle:
+      if (std::exchange(via_map_, std::nullopt)) {
+        set_out(input);  // what did not lead to the place on the way may lead to the goal
+        return;
+      }
       openings_.failed(*goal_, input.now);
       why_ = "no path to " + describe(*goal_) + ": " + driven.reason;
       state_ = State::kChoose;
@@ -300,7 +313,6 @@ void PlaceStrategy::try_again(RobotTime now) {
 
 void PlaceStrategy::transform(const MapMove& move) {
   openings_.transform(move);
-  chooser_->transform(move);
   driver_.transform(move);
   if (goal_) {
     goal_ = moved(std::move(*goal_), move);

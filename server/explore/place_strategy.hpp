@@ -27,10 +27,14 @@ struct PlaceInput {
 struct PlaceChoice {
   /// Map_T_view may have been moved to a better viewpoint; nothing: no opening is worth a drive.
   std::optional<Opening> opening;
-  /// A place to pass before it, frame `map`; the robot decides again when it is there.
+  /// A place to pass before it, frame `map`; the robot decides again when it is there, and sets out for the opening
+  /// itself where no drive leads there.
   std::optional<Point2> via_map = std::nullopt;
   ExploreDecision decision;
 };
+
+/// The opening as a candidate of a decision.
+[[nodiscard]] DecisionCandidate candidate_of(const Opening& opening, double score);
 
 /// How the robot drives from decision to decision.
 struct DriveManner {
@@ -56,8 +60,6 @@ class PlaceChooser {
   [[nodiscard]] virtual bool changes_its_mind() const = 0;
   /// Nothing: stop at every place, as the parameters of viewpoints say.
   [[nodiscard]] virtual std::optional<DriveManner> manner() const { return std::nullopt; }
-  /// The map was corrected.
-  virtual void transform(const MapMove& /*move*/) {}
 };
 
 /// Drives from opening to opening by the rule of a chooser. A goal that was observed during the drive is dropped. When

@@ -20,6 +20,8 @@
 
 namespace seeker::explore {
 
+class Trail;
+
 /// The inputs of one step of a strategy. `now` is the exploration's own time, which stands still while it is paused.
 struct StrategyInput : nav::DriveInput {
   Twist2 velocity;
@@ -31,6 +33,7 @@ struct StrategyInput : nav::DriveInput {
   const FleetView* fleet = nullptr;  ///< other robots, frame `map`; null: the robot is alone
   /// Where the robot drives once nothing is left to explore, frame `map`; nothing: it stays where it is then.
   std::optional<Point2> end_map = std::nullopt;
+  const Trail* trail = nullptr;  ///< where the robot was during this exploration, and how certain; null: not recorded
 };
 
 struct StrategyStep {
@@ -81,7 +84,7 @@ using StrategyMaker = std::function<std::unique_ptr<ExploreStrategy>(const Explo
 /// The strategies of this folder.
 /// active: one step of the objective, out of traps along walls, then by paths (spec S1.11, S1.12).
 /// horizon: reachable viewpoints over several drives, same objective; what an exploration uses that names none.
-/// tour: the shortest tour over all that is left, room by room.
+/// tour: a tour over all still to be seen: in offices a sixth shorter than frontier, in small buildings not.
 /// roam, frontier, gain: the baselines.
 enum class Strategy : std::uint8_t { kActive, kHorizon, kTour, kRoam, kFrontier, kGain };
 

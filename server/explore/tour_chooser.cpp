@@ -46,7 +46,6 @@ class TourChooser final : public PlaceChooser {
   [[nodiscard]] std::optional<DriveManner> manner() const override {
     return DriveManner{true, params_.tour.replan_period_s, params_.tour.look_s};
   }
-  void transform(const MapMove& move) override { trail_.transform(move); }
 
  private:
   [[nodiscard]] tour::RouteCosts costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
@@ -61,7 +60,6 @@ class TourChooser final : public PlaceChooser {
   [[nodiscard]] ExploreDecision publish(const Plan& plan, const TourPlace& chosen, bool by_the_way) const;
 
   ExploreParams params_;
-  Trail trail_;                                         ///< where the robot was, and how certain
   std::vector<std::vector<std::uint64_t>> last_order_;  ///< ids of the openings of the last tour's places
 };
 
@@ -208,21 +206,18 @@ const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vec
 /// Where to pass on the way so that the position stays certain enough; nothing: the leg is certain enough by itself, or
 /// no place would help.
 std::optional<Point2> TourChooser::certain_place_before(const PlaceInput& input, const Opening& goal) const {
-  const double limit_m = params_.guard.max_position_sigma_m;
-  if (forecast_blind_leg(input, goal, params_.one_step).worst_sigma_m <= limit_m) {
-    return std::nullopt;
-  }
   const StrategyInput& robot = input.robot;
   const OneStepParams& one_step = params_.one_step;
-  const SightScene scene(robot.segments, robot.map_T_base.translation(), kForecastReach_m + one_step.sensor.range_m,
-                         one_step, one_step.use_floor ? &input.floor.cost.states() : nullptr);
-  const Belief belief = robot.belief ? Belief(*robot.belief)
-                                     : Belief(robot.map_T_base, robot.covariance, robot.segments,
-                                              static_cast<std::size_t>(one_step.max_observed));
-  if (forecast_leg(input, goal, scene, belief, one_step).worst_sigma_m <= limit_m) {
+  const double limit_m = params_.guard.max_position_sigma_m;
+  if (robot.trail == nullptr || forecast_blind_leg(input, goal, one_step).worst_sigma_m <= limit_m) {
     return std::nullopt;
   }
-  const std::vector<Point2> certain = trail_.certain_places(params_.guard.regain_position_sigma_m);
+  const LegForecast seeing =
+      forecast_leg(input, goal, forecast_scene(input, one_step), forecast_belief(robot, one_step), one_step);
+  if (seeing.worst_sigma_m <= limit_m) {
+    return std::nullopt;
+  }
+  const std::vector<Point2> certain = robot.trail->certain_places(params_.guard.regain_position_sigma_m);
   const CoarsePaths paths(input.floor.reachable);
   const std::vector<double> there = paths.lengths_m(robot.map_T_base.translation(), certain);
   const std::vector<double> on = paths.lengths_m(goal.map_T_view.translation(), certain);
@@ -237,7 +232,6 @@ std::optional<Point2> TourChooser::certain_place_before(const PlaceInput& input,
 }
 
 PlaceChoice TourChooser::choose(const PlaceInput& input) {
-  trail_.note(input.robot.map_T_base.translation(), position_sigma_m(input.robot.covariance));
   const tour::Rooms rooms = rooms_of(input.floor, params_.tour.rooms);
   TourPlaces found = tour_places(input, rooms, params_);
   PlaceChoice choice;
@@ -273,11 +267,7 @@ ExploreDecision TourChooser::publish(const Plan& plan, const TourPlace& chosen, 
   decision.rule = "tour";
   const auto add = [&](const TourPlace& place, double score) {
     if (decision.candidates.size() < kMaxDecisionCandidates) {
-      DecisionCandidate candidate;
-      candidate.map_T_base = place.opening.map_T_view;
-      candidate.path_m = place.opening.cost;
-      candidate.score = score;
-      decision.candidates.push_back(std::move(candidate));
+      decision.candidates.push_back(candidate_of(place.opening, score));
     }
   };
   const double length_m = tour::route_cost(plan.costs, plan.route);

@@ -6,6 +6,10 @@
 
 namespace seeker::explore {
 
+/// Most places of a tour. A route is improved from every first place, and each improvement compares all pairs of
+/// places, so that the time of a decision rises with their third power and more, while the robot drives on.
+inline constexpr int kMostTourPlaces = 64;
+
 /// What takes time without being path counts as the path that the robot would drive meanwhile.
 struct TourParams {
   double passage_m = 1.5;          ///< cost of a passage from room to room: a room is left when it is finished
@@ -19,8 +23,8 @@ struct TourParams {
   double replan_period_s = 1.0;    ///< the tour is planned again this often while the robot drives
   /// The robot turns on the spot beyond this heading error only: smaller turns are driven as arcs.
   double rotate_in_place_rad = 1.0;
-  double look_s = 0.3;      ///< how long the robot stands at a place that the drive did not settle
-  int max_places = 64;      ///< number of places of a tour; farther ones wait
+  double look_s = 0.3;               ///< how long the robot stands at a place that the drive did not settle
+  int max_places = kMostTourPlaces;  ///< number of places of a tour; farther ones wait
   double together_m = 1.0;  ///< openings of a room within this distance of each other are one place of the tour
   tour::RoomsParams rooms;
 };

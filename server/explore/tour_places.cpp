@@ -59,7 +59,7 @@ TourPlaces tour_places(const PlaceInput& input, const tour::Rooms& rooms, const 
       beside->ids.push_back(found.id);
       beside->gain_m2 += gain_m2;
     } else if (list.size() < static_cast<std::size_t>(params.tour.max_places)) {
-      const std::optional<Opening> view = seen_from(found, scene, params.viewpoints);
+      const std::optional<Opening> view = worth_it ? seen_from(found, scene, params.viewpoints) : std::nullopt;
       list.push_back({found, view.value_or(found).map_T_view.translation(), {found.id}, gain_m2, room});
     }
   }

@@ -12,8 +12,10 @@ namespace seeker::explore {
 
 /// A place of the tour: an opening, and those beside it that are seen with it.
 struct TourPlace {
-  Opening opening;                 ///< the one that the robot drives to
-  Point2 seen_from_map;            ///< the cheapest place that shows it: so far the tour leads, frame `map`
+  Opening opening;  ///< the one that the robot drives to
+  /// The cheapest place that shows it: so far the tour leads, frame `map`. Of a place that is only passed the viewpoint
+  /// itself.
+  Point2 seen_from_map;
   std::vector<std::uint64_t> ids;  ///< of all openings of the place
   double gain_m2 = 0.0;            ///< unknown floor in sight of the opening
   std::uint16_t room = tour::Rooms::kNone;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/core/angle.hpp"
+#include "server/nav/flood.hpp"
 #include "server/nav/ray.hpp"
 
 namespace seeker::nav {
@@ -34,19 +35,15 @@ bool body_passes(const CostMap& map, const Point2& p_map, CellIndex to) {
 
 std::vector<CellIndex> connected_cells(const CostMap& map, CellIndex start, std::size_t enough) {
   Grid<std::uint8_t> seen(map.frame(), map.width(), map.height());
-  std::vector<CellIndex> cells{start};
   seen[start] = 1;
-  for (std::size_t k = 0; k < cells.size() && cells.size() < enough; ++k) {
-    const CellIndex c = cells[k];
-    for (const CellIndex next :
-         {CellIndex{c.i + 1, c.j}, CellIndex{c.i - 1, c.j}, CellIndex{c.i, c.j + 1}, CellIndex{c.i, c.j - 1}}) {
-      if (map.traversable(next) && seen[next] == 0) {
-        seen[next] = 1;
-        cells.push_back(next);
-      }
+  const auto enter = [&](CellIndex next) {
+    const bool is_new = map.traversable(next) && seen[next] == 0;
+    if (is_new) {
+      seen[next] = 1;
     }
-  }
-  return cells;
+    return is_new;
+  };
+  return flood(start, enter, enough);
 }
 
 std::optional<CellIndex> departure_cell(const CostMap& map, const Point2& p_map, double radius_m) {

@@ -5,14 +5,16 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
+
+#include "server/nav/flood.hpp"
+#include "server/tour/nearest_cell.hpp"
 
 namespace seeker::tour {
 namespace {
 
 constexpr std::array<CellIndex, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-/// A place beside the floor belongs to the nearest cell so near.
-constexpr int kSnap_cells = 3;
 
 CellIndex next_to(CellIndex cell, CellIndex step) { return {cell.i + step.i, cell.j + step.j}; }
 
@@ -25,18 +27,13 @@ std::uint16_t number_parts(Grid<std::uint16_t>& parts, std::uint16_t last, const
       continue;
     }
     parts[seed] = ++last;
-    std::vector<CellIndex> open{seed};
-    while (!open.empty()) {
-      const CellIndex cell = open.back();
-      open.pop_back();
-      for (const CellIndex step : kSides) {
-        const CellIndex next = next_to(cell, step);
-        if (parts.contains(next) && parts[next] == 0 && is_part(next)) {
-          parts[next] = last;
-          open.push_back(next);
-        }
+    nav::flood(seed, [&](CellIndex next) {
+      const bool is_new = parts.contains(next) && parts[next] == 0 && is_part(next);
+      if (is_new) {
+        parts[next] = last;
       }
-    }
+      return is_new;
+    });
   }
   return last;
 }
@@ -168,20 +165,8 @@ std::vector<int> Rooms::passages_from(std::uint16_t room) const {
 }
 
 std::uint16_t Rooms::at(const Point2& p_map) const {
-  const CellIndex centre = rooms_.frame().cell_of(p_map);
-  std::uint16_t best = kNone;
-  int best_distance = 2 * kSnap_cells * kSnap_cells + 1;
-  for (int dj = -kSnap_cells; dj <= kSnap_cells; ++dj) {
-    for (int di = -kSnap_cells; di <= kSnap_cells; ++di) {
-      const CellIndex cell{centre.i + di, centre.j + dj};
-      const int distance = di * di + dj * dj;
-      if (rooms_.contains(cell) && rooms_[cell] != kNone && distance < best_distance) {
-        best = rooms_[cell];
-        best_distance = distance;
-      }
-    }
-  }
-  return best;
+  const std::optional<CellIndex> cell = nearest_cell(rooms_, p_map);
+  return cell ? rooms_[*cell] : kNone;
 }
 
 }  // namespace seeker::tour

@@ -24,7 +24,7 @@ class Rooms {
   /// same grid. Every floor cell belongs to one room; rooms are numbered from 1 in the order of their cells.
   static Rooms find(const Grid<std::uint8_t>& floor, const Grid<float>& clearance_m, const RoomsParams& params = {});
 
-  /// The room of a place on the floor or at most three cells beside it; kNone: there is none.
+  /// The room of a place on the floor or beside it, as of nearest_cell(); kNone: there is none.
   [[nodiscard]] std::uint16_t at(const Point2& p_map) const;
   [[nodiscard]] std::size_t count() const { return neighbours_.size(); }
   /// Fewest passages on a path from the room to every room, by number; index 0 is unused. kUnreached: there is none.

@@ -38,6 +38,19 @@ Status keep(const ExploreSpec& spec, const ExploreRecord& record, const std::fil
   return save(explore_file(out, spec, ".json"), record.result);
 }
 
+Result<std::vector<ExploreSample>> load_curves(const std::filesystem::path& out, const ExploreSpec& spec) {
+  const std::filesystem::path file = explore_file(out, spec, ".csv");
+  const Result<std::string> text = config::read_text_file(file);
+  if (!text) {
+    return tl::unexpected<Error>(text.error());
+  }
+  Result<std::vector<ExploreSample>> curves = parse_curves(*text);
+  if (!curves) {
+    return fail_with_context(file.string(), curves.error());
+  }
+  return curves;
+}
+
 using Runs = std::vector<const ExploreResult*>;
 
 std::vector<Runs> groups_of(const std::vector<ExploreResult>& results) {
@@ -136,15 +149,18 @@ Result<std::vector<ExploreResult>> explore_missing(const std::vector<ExploreSpec
   return resume_runs(specs, kind, jobs, show_progress);
 }
 
-Result<std::vector<ExploreSample>> load_curves(const std::filesystem::path& out, const ExploreSpec& spec) {
-  const std::filesystem::path file = explore_file(out, spec, ".csv");
-  const Result<std::string> text = config::read_text_file(file);
-  if (!text) {
-    return tl::unexpected<Error>(text.error());
-  }
-  Result<std::vector<ExploreSample>> curves = parse_curves(*text);
-  if (!curves) {
-    return fail_with_context(file.string(), curves.error());
+Result<std::vector<NamedCurve>> curves_of_seed(const std::vector<ExploreSpec>& specs, std::uint64_t seed,
+                                               const std::filesystem::path& out) {
+  std::vector<NamedCurve> curves;
+  for (const ExploreSpec& spec : specs) {
+    if (spec.seed != seed) {
+      continue;
+    }
+    Result<std::vector<ExploreSample>> samples = load_curves(out, spec);
+    if (!samples) {
+      return tl::unexpected<Error>(samples.error());
+    }
+    curves.push_back({std::string(to_string(spec.strategy)), std::move(*samples)});
   }
   return curves;
 }
@@ -240,6 +256,17 @@ Table explore_summary_table(const std::vector<ExploreResult>& results) {
     table.add(summary_row(runs));
   }
   return table;
+}
+
+Status write_explore_tables(const std::filesystem::path& out, const Table& summary,
+                            const std::vector<ExploreResult>& results) {
+  if (Status ok = files::write_file(out / "table.csv", summary.csv()); !ok) {
+    return ok;
+  }
+  if (Status ok = files::write_file(out / "table.md", summary.markdown()); !ok) {
+    return ok;
+  }
+  return files::write_file(out / "runs.csv", explore_runs_table(results).csv());
 }
 
 }  // namespace seeker::lab

@@ -21,8 +21,9 @@ namespace seeker::lab {
                                                                  const std::filesystem::path& out, int jobs,
                                                                  bool show_progress);
 
-/// Loads the curves of a finished run. Errors: kNotFound, kParse.
-[[nodiscard]] Result<std::vector<ExploreSample>> load_curves(const std::filesystem::path& out, const ExploreSpec& spec);
+/// Loads the curves of the finished runs of one seed, each named by its strategy. Errors: kNotFound, kParse.
+[[nodiscard]] Result<std::vector<NamedCurve>> curves_of_seed(const std::vector<ExploreSpec>& specs, std::uint64_t seed,
+                                                             const std::filesystem::path& out);
 
 /// The mean of several runs and their spread around it.
 struct MeanSpread {
@@ -38,5 +39,8 @@ struct MeanSpread {
 /// Table with one row for each world and strategy, in the order in which they first occur: means and spreads, sums of
 /// contacts.
 [[nodiscard]] Table explore_summary_table(const std::vector<ExploreResult>& results);
+/// Writes table.csv and table.md with the summary, and runs.csv with the results. Error: kIo.
+[[nodiscard]] Status write_explore_tables(const std::filesystem::path& out, const Table& summary,
+                                          const std::vector<ExploreResult>& results);
 
 }  // namespace seeker::lab

@@ -112,17 +112,23 @@ void draw_text(WorldSheet& sheet, const ExploreRecord& record, const std::string
 
 using Curve = double ExploreSample::*;
 
-image::Chart chart_of(const std::string& title, const std::string& y_label, const std::vector<NamedCurve>& curves,
-                      Curve curve) {
+/// What an axis of a figure shows.
+struct Axis {
+  const char* label;
+  Curve curve;
+};
+constexpr Axis kTime{"time, s", &ExploreSample::time_s};
+
+image::Chart chart_of(const std::string& title, const std::vector<NamedCurve>& curves, const Axis& x, const Axis& y) {
   image::Chart chart;
   chart.title = title;
-  chart.x_label = "time, s";
-  chart.y_label = y_label;
+  chart.x_label = x.label;
+  chart.y_label = y.label;
   for (const NamedCurve& named : curves) {
     image::Series series{.name = named.name, .x = {}, .y = {}};
     for (const ExploreSample& sample : named.samples) {
-      series.x.push_back(sample.time_s);
-      series.y.push_back(sample.*curve);
+      series.x.push_back(sample.*x.curve);
+      series.y.push_back(sample.*y.curve);
     }
     chart.series.push_back(std::move(series));
   }
@@ -142,19 +148,24 @@ Image draw_exploration(const ExploreRecord& record, const std::string& title) {
 }
 
 Image error_figure(const std::string& title, const std::vector<NamedCurve>& curves) {
-  return image::draw_chart(chart_of(title, "position error, m", curves, &ExploreSample::error_m));
+  return image::draw_chart(chart_of(title, curves, kTime, {"position error, m", &ExploreSample::error_m}));
 }
 
 Image trace_figure(const std::string& title, const std::vector<NamedCurve>& curves) {
   const auto chart = [&](const std::string& what, Curve curve) {
     constexpr int kWidth_px = 900;
     constexpr int kHeight_px = 380;
-    return image::draw_chart(chart_of(title + ": " + what, "trace", curves, curve), kWidth_px, kHeight_px);
+    return image::draw_chart(chart_of(title + ": " + what, curves, kTime, {"trace", curve}), kWidth_px, kHeight_px);
   };
   return contact_sheet({{"", chart("robot and segments", &ExploreSample::full_trace)},
                         {"", chart("robot (x, y, theta)", &ExploreSample::robot_trace)},
                         {"", chart("mean of a segment", &ExploreSample::feature_trace)}},
                        1);
+}
+
+Image floor_figure(const std::string& title, const std::vector<NamedCurve>& curves) {
+  return image::draw_chart(
+      chart_of(title, curves, {"path, m", &ExploreSample::path_m}, {"floor, m\xC2\xB2", &ExploreSample::floor_m2}));
 }
 
 }  // namespace seeker::lab

@@ -15,16 +15,12 @@ namespace seeker::lab {
 /// path, dash-dotted where the robot followed a wall.
 [[nodiscard]] Image draw_exploration(const ExploreRecord& record, const std::string& title);
 
-/// One run's curve.
-struct NamedCurve {
-  std::string name;
-  std::vector<ExploreSample> samples;
-};
-
 /// Fig 6: localisation error over time.
 [[nodiscard]] Image error_figure(const std::string& title, const std::vector<NamedCurve>& curves);
 /// Fig 7: trace of the covariance over time: of robot and segments together, of the robot alone, and the mean over
 /// segments.
 [[nodiscard]] Image trace_figure(const std::string& title, const std::vector<NamedCurve>& curves);
+/// Area of known floor over the path.
+[[nodiscard]] Image floor_figure(const std::string& title, const std::vector<NamedCurve>& curves);
 
 }  // namespace seeker::lab

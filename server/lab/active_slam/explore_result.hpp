@@ -83,6 +83,12 @@ struct ExploreSample {
   friend bool operator==(const ExploreSample&, const ExploreSample&) = default;
 };
 
+/// One run's curves, and their name in a figure.
+struct NamedCurve {
+  std::string name;
+  std::vector<ExploreSample> samples;
+};
+
 /// CSV with a header line.
 [[nodiscard]] std::string curves_csv(const std::vector<ExploreSample>& samples);
 /// Parses the text of curves_csv(). kParse: the text has another form.

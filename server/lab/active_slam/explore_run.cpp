@@ -1,6 +1,5 @@
 #include "server/lab/active_slam/explore_run.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -16,19 +15,6 @@ constexpr const char* kWallPhase = "wall";
 constexpr Duration kSamplePeriod = std::chrono::seconds(1);
 constexpr double kPathSpacing_m = 0.05;
 constexpr double kShareSpacing_m = 1.0;
-
-/// Floor that the map shows as free.
-double free_floor_m2(const nav::OccupancyMap& map) {
-  constexpr std::uint8_t kFree = kOccupiedCell / 2;  // below: rather free than not
-  const std::optional<Grid<std::uint8_t>> cells = map.snapshot();
-  if (!cells) {
-    return 0.0;
-  }
-  const auto free = std::count_if(cells->cells().begin(), cells->cells().end(),
-                                  [](std::uint8_t cell) { return cell != kUnknownCell && cell < kFree; });
-  const double cell_m = cells->frame().resolution_m;
-  return cell_m * cell_m * static_cast<double>(free);
-}
 
 /// Watches an exploration from outside while it runs.
 class Observer {
@@ -101,7 +87,7 @@ class Observer {
       sample.map_wall_m += segment.length_m;
     }
     sample.path_m = watch_.truth().path_length_m;
-    sample.floor_m2 = free_floor_m2(loop_.robot_map().occupancy());
+    sample.floor_m2 = free_area_m2(loop_.robot_map().occupancy().snapshot());
     return sample;
   }
 

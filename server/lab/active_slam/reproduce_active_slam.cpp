@@ -1,11 +1,10 @@
 #include "server/lab/active_slam/reproduce_active_slam.hpp"
 
-#include <algorithm>
 #include <span>
 
-#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/active_slam/explore_picture.hpp"
+#include "server/lab/experiments/seeds.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -15,10 +14,6 @@ using api::ExploreStrategy;
 constexpr ExploreStrategy kAllStrategies[] = {ExploreStrategy::kActive, ExploreStrategy::kHorizon,
                                               ExploreStrategy::kRoam, ExploreStrategy::kFrontier,
                                               ExploreStrategy::kGain};
-
-bool chosen(const std::vector<std::string>& names, std::string_view name) {
-  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
 
 /// The folder of the results of the robot as printed.
 constexpr const char* kPrinted = "printed";
@@ -33,12 +28,7 @@ std::vector<ExploreSpec> specs_of(const ReproduceParams& params, const ExploreWo
   spec.time_limit_s = world.time_limit_s;
   spec.wall_near_m = world.wall_near_m;
   spec.overrides = params.overrides;
-  std::vector<ExploreSpec> specs;
-  for (const std::uint64_t seed : params.seeds) {
-    spec.seed = seed;
-    specs.push_back(spec);
-  }
-  return specs;
+  return with_seeds(spec, params.seeds);
 }
 
 /// All runs of one world, and their specs.
@@ -53,7 +43,7 @@ Result<WorldExperiment> run_world(const ReproduceParams& params, const ExploreWo
   experiment.runs.world = world;
   for (const ExploreStrategy strategy : strategies) {
     // Roaming needs the times of the active runs, which come first.
-    if (!chosen(params.strategies, to_string(strategy))) {
+    if (!params.takes_strategy(to_string(strategy))) {
       continue;
     }
     std::vector<ExploreSpec> specs = specs_of(params, world, strategy);
@@ -95,36 +85,18 @@ Status copy_maps(const ReproduceParams& params, const WorldExperiment& experimen
 }
 
 Status draw_curves(const ReproduceParams& params, const WorldExperiment& experiment) {
-  std::vector<NamedCurve> curves;
-  for (const ExploreSpec& spec : experiment.specs) {
-    if (spec.seed != params.seeds.front()) {
-      continue;
-    }
-    Result<std::vector<ExploreSample>> samples = load_curves(params.out, spec);
-    if (!samples) {
-      return tl::unexpected<Error>(samples.error());
-    }
-    curves.push_back({std::string(to_string(spec.strategy)), std::move(*samples)});
+  const Result<std::vector<NamedCurve>> curves = curves_of_seed(experiment.specs, params.seeds.front(), params.out);
+  if (!curves) {
+    return tl::unexpected<Error>(curves.error());
   }
   const std::string& name = experiment.runs.world.name;
   const std::string title = name + ", seed " + std::to_string(params.seeds.front());
   if (Status ok = image::write_png(params.out / ("fig6-" + name + ".png"),
-                                   error_figure("Localisation error, " + title, curves));
+                                   error_figure("Localisation error, " + title, *curves));
       !ok) {
     return ok;
   }
-  return image::write_png(params.out / ("fig7-" + name + ".png"), trace_figure("Covariance, " + title, curves));
-}
-
-Status write_tables(const std::filesystem::path& out, const std::vector<ExploreResult>& all) {
-  const Table summary = explore_summary_table(all);
-  if (Status ok = files::write_file(out / "table.csv", summary.csv()); !ok) {
-    return ok;
-  }
-  if (Status ok = files::write_file(out / "table.md", summary.markdown()); !ok) {
-    return ok;
-  }
-  return files::write_file(out / "runs.csv", explore_runs_table(all).csv());
+  return image::write_png(params.out / ("fig7-" + name + ".png"), trace_figure("Covariance, " + title, *curves));
 }
 
 Status draw_figures(const ReproduceParams& params, const WorldExperiment& experiment) {
@@ -148,7 +120,7 @@ Status reproduce_printed(ReproduceParams params, ExploreWorld world, Report& rep
     return ok;
   }
   check_figures(experiment->runs, true, report);
-  return write_tables(params.out, experiment->runs.runs);
+  return write_explore_tables(params.out, explore_summary_table(experiment->runs.runs), experiment->runs.runs);
 }
 
 }  // namespace
@@ -180,7 +152,7 @@ Status reproduce_active_slam(const ReproduceParams& params, Report& report) {
   std::filesystem::create_directories(params.out, error);
   std::vector<ExploreResult> all;
   for (const ExploreWorld& world : explore_worlds()) {
-    if (!chosen(params.worlds, world.name) || (params.smallest && &world != &explore_worlds().front())) {
+    if (!params.takes_world(world.name) || (params.smallest && &world != &explore_worlds().front())) {
       continue;
     }
     const Result<WorldExperiment> experiment = run_world(params, world, kAllStrategies);
@@ -198,7 +170,7 @@ Status reproduce_active_slam(const ReproduceParams& params, Report& report) {
       }
     }
     all.insert(all.end(), experiment->runs.runs.begin(), experiment->runs.runs.end());
-    if (Status ok = write_tables(params.out, all); !ok) {
+    if (Status ok = write_explore_tables(params.out, explore_summary_table(all), all); !ok) {
       return ok;
     }
   }

@@ -149,10 +149,8 @@ Result<std::vector<RunSpec>> specs_of(const SearchOptions& o) {
     spec.overrides = o.common.overrides;
     for (const std::string& strategy : o.strategies) {
       spec.strategy = kStrategies.at(strategy);
-      for (const std::uint64_t seed : *seeds) {
-        spec.seed = seed;
-        specs.push_back(spec);
-      }
+      const std::vector<RunSpec> runs = with_seeds(spec, *seeds);
+      specs.insert(specs.end(), runs.begin(), runs.end());
     }
   }
   return specs;

@@ -88,10 +88,8 @@ Result<std::vector<ExploreSpec>> specs_of(const ExploreOptions& o) {
     spec.world_file = world_file(o.common, world);
     for (const std::string& strategy : o.strategies) {
       spec.strategy = strategies().at(strategy);
-      for (const std::uint64_t seed : *seeds) {
-        spec.seed = seed;
-        specs.push_back(spec);
-      }
+      const std::vector<ExploreSpec> runs = with_seeds(spec, *seeds);
+      specs.insert(specs.end(), runs.begin(), runs.end());
     }
   }
   return specs;

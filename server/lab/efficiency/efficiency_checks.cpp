@@ -70,8 +70,8 @@ void check_map(const EfficiencyRuns& world, Report& report) {
         {"E-WALLS",
          walls / count >= kEfficientWallShare,
          {{"world", world.world.name}, {"mean", fixed(walls / count, 4)}, {"limit", fixed(kEfficientWallShare, 2)}},
-         // The limit is set for the worlds with shares to be reached; what is left elsewhere is told.
-         world.world.path_share <= 0.0});
+         // The limit is set for the judged worlds; what is left elsewhere is told.
+         !world.world.judged()});
     report.add({"E-ERROR",
                 error_m / count <= kEfficientError_m,
                 {{"world", world.world.name},

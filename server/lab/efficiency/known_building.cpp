@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "common/core/text.hpp"
 #include "server/nav/distance_transform.hpp"
+#include "server/nav/flood.hpp"
 #include "server/nav/ray.hpp"
 #include "server/sim/placement.hpp"
 #include "server/sim/scene.hpp"
@@ -33,19 +33,14 @@ Grid<std::uint8_t> like(const Grid<std::uint8_t>& grid) { return {grid.frame(), 
 /// Cells that are joined to `start` by cells that are not 0.
 Grid<std::uint8_t> joined_to(const Grid<std::uint8_t>& cells, CellIndex start) {
   Grid<std::uint8_t> joined = like(cells);
-  std::vector<CellIndex> open{start};
   joined[start] = 1;
-  while (!open.empty()) {
-    const CellIndex cell = open.back();
-    open.pop_back();
-    for (const CellIndex next : {CellIndex{cell.i + 1, cell.j}, CellIndex{cell.i - 1, cell.j},
-                                 CellIndex{cell.i, cell.j + 1}, CellIndex{cell.i, cell.j - 1}}) {
-      if (cells.contains(next) && cells[next] != 0 && joined[next] == 0) {
-        joined[next] = 1;
-        open.push_back(next);
-      }
+  nav::flood(start, [&](CellIndex next) {
+    const bool is_new = cells.contains(next) && cells[next] != 0 && joined[next] == 0;
+    if (is_new) {
+      joined[next] = 1;
     }
-  }
+    return is_new;
+  });
   return joined;
 }
 

@@ -4,11 +4,11 @@
 #include <iterator>
 #include <span>
 
-#include "common/files/files.hpp"
-#include "common/image/plot.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/active_slam/explore_experiment.hpp"
+#include "server/lab/active_slam/explore_picture.hpp"
 #include "server/lab/efficiency/tour_command.hpp"
+#include "server/lab/experiments/seeds.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -22,10 +22,6 @@ constexpr ExploreStrategy kSmallest[] = {ExploreStrategy::kTour, ExploreStrategy
 
 /// No building is smaller.
 constexpr double kLeastFloor_m2 = 0.01;
-
-bool chosen(const std::vector<std::string>& names, std::string_view name) {
-  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
 
 std::filesystem::path world_file_of(const ReproduceParams& params, const EfficiencyWorld& world) {
   return params.config / "worlds" / (world.name + ".yaml");
@@ -41,39 +37,22 @@ std::vector<ExploreSpec> specs_of(const ReproduceParams& params, const Efficienc
   const std::span<const ExploreStrategy> strategies(params.smallest ? std::span<const ExploreStrategy>(kSmallest)
                                                                     : std::span<const ExploreStrategy>(kStrategies));
   for (const ExploreStrategy strategy : strategies) {
-    if (!chosen(params.strategies, to_string(strategy))) {
-      continue;
-    }
-    spec.strategy = strategy;
-    for (const std::uint64_t seed : params.seeds) {
-      spec.seed = seed;
-      specs.push_back(spec);
+    if (params.takes_strategy(to_string(strategy))) {
+      spec.strategy = strategy;
+      const std::vector<ExploreSpec> runs = with_seeds(spec, params.seeds);
+      specs.insert(specs.end(), runs.begin(), runs.end());
     }
   }
   return specs;
 }
 
 Status draw_curves(const ReproduceParams& params, const EfficiencyWorld& world, const std::vector<ExploreSpec>& specs) {
-  image::Chart chart;
-  chart.title = world.name + ", seed " + std::to_string(params.seeds.front()) + ": floor known over path";
-  chart.x_label = "path, m";
-  chart.y_label = "floor, m\xC2\xB2";
-  for (const ExploreSpec& spec : specs) {
-    if (spec.seed != params.seeds.front()) {
-      continue;
-    }
-    const Result<std::vector<ExploreSample>> samples = load_curves(params.out, spec);
-    if (!samples) {
-      return tl::unexpected<Error>(samples.error());
-    }
-    image::Series series{.name = std::string(to_string(spec.strategy)), .x = {}, .y = {}};
-    for (const ExploreSample& sample : *samples) {
-      series.x.push_back(sample.path_m);
-      series.y.push_back(sample.floor_m2);
-    }
-    chart.series.push_back(std::move(series));
+  const Result<std::vector<NamedCurve>> curves = curves_of_seed(specs, params.seeds.front(), params.out);
+  if (!curves) {
+    return tl::unexpected<Error>(curves.error());
   }
-  return image::write_png(params.out / ("floor-" + world.name + ".png"), image::draw_chart(chart));
+  const std::string title = world.name + ", seed " + std::to_string(params.seeds.front()) + ": floor known over path";
+  return image::write_png(params.out / ("floor-" + world.name + ".png"), floor_figure(title, *curves));
 }
 
 /// Measures the yardstick and draws it.
@@ -121,7 +100,29 @@ std::vector<std::string> row_of(const EfficiencyRuns& world, const std::vector<c
       std::to_string(complete) + "/" + std::to_string(runs.size())};
 }
 
-Table table_of(const std::vector<EfficiencyRuns>& worlds) {
+Status write_tables(const std::filesystem::path& out, const std::vector<EfficiencyRuns>& worlds) {
+  std::vector<ExploreResult> all;
+  for (const EfficiencyRuns& world : worlds) {
+    all.insert(all.end(), world.runs.begin(), world.runs.end());
+  }
+  return write_explore_tables(out, efficiency_table(worlds), all);
+}
+
+}  // namespace
+
+const std::vector<EfficiencyWorld>& efficiency_worlds() {
+  static const std::vector<EfficiencyWorld> worlds = {
+      {.name = "demo", .robot = "explore-office"},
+      {.name = "corridor", .robot = "explore-paper"},
+      {.name = "office", .robot = "explore-office", .path_share = 0.85, .time_share = 0.75},
+      {.name = "arena-20", .robot = "explore-office"},
+      {.name = "floor-40", .robot = "explore-large", .time_limit_s = 14400.0},
+      {.name = "open-plan", .robot = "explore-large", .time_limit_s = 14400.0},
+      {.name = "hospital", .robot = "explore-large", .time_limit_s = 14400.0, .path_share = 0.75, .time_share = 0.70}};
+  return worlds;
+}
+
+Table efficiency_table(const std::vector<EfficiencyRuns>& worlds) {
   Table table({"world", "strategy", "seeds", "path, m", "time, s", "ratio", "walls, %", "floor, %", "error, m",
                "contacts", "complete"});
   for (const EfficiencyRuns& world : worlds) {
@@ -140,41 +141,12 @@ Table table_of(const std::vector<EfficiencyRuns>& worlds) {
   return table;
 }
 
-Status write_tables(const std::filesystem::path& out, const std::vector<EfficiencyRuns>& worlds) {
-  const Table table = table_of(worlds);
-  if (Status ok = files::write_file(out / "table.csv", table.csv()); !ok) {
-    return ok;
-  }
-  if (Status ok = files::write_file(out / "table.md", table.markdown()); !ok) {
-    return ok;
-  }
-  std::vector<ExploreResult> all;
-  for (const EfficiencyRuns& world : worlds) {
-    all.insert(all.end(), world.runs.begin(), world.runs.end());
-  }
-  return files::write_file(out / "runs.csv", explore_runs_table(all).csv());
-}
-
-}  // namespace
-
-const std::vector<EfficiencyWorld>& efficiency_worlds() {
-  static const std::vector<EfficiencyWorld> worlds = {
-      {.name = "demo", .robot = "explore-office"},
-      {.name = "corridor", .robot = "explore-paper"},
-      {.name = "office", .robot = "explore-office", .path_share = 0.85, .time_share = 0.75},
-      {.name = "arena-20", .robot = "explore-office"},
-      {.name = "floor-40", .robot = "explore-large", .time_limit_s = 14400.0},
-      {.name = "open-plan", .robot = "explore-large", .time_limit_s = 14400.0},
-      {.name = "hospital", .robot = "explore-large", .time_limit_s = 14400.0, .path_share = 0.75, .time_share = 0.70}};
-  return worlds;
-}
-
 Status reproduce_efficiency(const ReproduceParams& params, Report& report) {
   std::error_code error;
   std::filesystem::create_directories(params.out, error);
   std::vector<EfficiencyRuns> worlds;
   for (const EfficiencyWorld& world : efficiency_worlds()) {
-    if (!chosen(params.worlds, world.name) || (params.smallest && &world != &efficiency_worlds().front())) {
+    if (!params.takes_world(world.name) || (params.smallest && &world != &efficiency_worlds().front())) {
       continue;
     }
     EfficiencyRuns& runs = worlds.emplace_back();

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "common/config/yaml.hpp"
-#include "common/files/files.hpp"
 #include "common/image/png.hpp"
 #include "server/lab/efficiency/known_building.hpp"
 #include "server/lab/experiments/described_json.hpp"

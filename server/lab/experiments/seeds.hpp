@@ -17,6 +17,16 @@ namespace seeker::lab {
 /// The shortest text that parse_seeds() reads as these seeds; they may be in any order.
 [[nodiscard]] std::string print_seeds(std::vector<std::uint64_t> seeds);
 
+/// A run for each seed, alike but for their member `seed`.
+template <class Spec>
+[[nodiscard]] std::vector<Spec> with_seeds(const Spec& spec, const std::vector<std::uint64_t>& seeds) {
+  std::vector<Spec> specs(seeds.size(), spec);
+  for (std::size_t k = 0; k < seeds.size(); ++k) {
+    specs[k].seed = seeds[k];
+  }
+  return specs;
+}
+
 /// The seeds of runs, each of which has a member `seed`, as that text.
 template <class Run>
 [[nodiscard]] std::string seeds_text(const std::vector<Run>& runs) {

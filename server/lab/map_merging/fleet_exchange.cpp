@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/core/angle.hpp"
+#include "common/core/occupancy_tile.hpp"
 #include "server/fleet/topology_map.hpp"
 #include "server/nav/shared_floor.hpp"
 
@@ -12,16 +13,6 @@ namespace {
 
 constexpr Duration kFloorPeriod = std::chrono::seconds(5);
 constexpr Duration kSharePeriod = std::chrono::seconds(1);
-
-/// Floor that is neither unknown nor occupied.
-double seen_m2(const std::optional<Grid<std::uint8_t>>& map) {
-  if (!map) {
-    return 0.0;
-  }
-  const auto free = std::count_if(map->cells().begin(), map->cells().end(),
-                                  [](std::uint8_t cell) { return cell != kUnknownCell && cell < kOccupiedCell / 2; });
-  return static_cast<double>(free) * map->frame().resolution_m * map->frame().resolution_m;
-}
 
 FleetDrawing drawing_of(const FleetMember& member, const Pose2& main_T_map) {
   return {member.id, main_T_map, member.loop->robot_map().segments(), member.loop->trajectory().poses(),
@@ -84,7 +75,7 @@ void FleetExchange::fill(FleetResult& result) const {
   for (std::size_t k = 0; k < traffic_.size(); ++k) {
     const auto robots = static_cast<double>(traffic_.size());
     result.sent_bytes += static_cast<double>(traffic_[k].bytes()) / robots;
-    result.seen_m2 += seen_m2(members_[k]->loop->robot_map().occupancy().snapshot()) / robots;
+    result.seen_m2 += free_area_m2(members_[k]->loop->robot_map().occupancy().snapshot()) / robots;
   }
   result.drawings.push_back(drawing_of(*members_.front(), Pose2{}));
   for (const Relation& relation : relations_) {

@@ -28,10 +28,6 @@ constexpr double kTimeLimit_s = 3600.0;
 constexpr double kLoadPeriod_s = 1.0;
 constexpr double kSmallestTime_s = 90.0;  ///< of runs of the smallest form that need not come to their end
 
-bool chosen(const ReproduceParams& params, std::string_view world) {
-  return params.worlds.empty() || std::find(params.worlds.begin(), params.worlds.end(), world) != params.worlds.end();
-}
-
 ExploreSpec spec_of(const ReproduceParams& params, std::uint64_t seed, const std::string& world = kWorld) {
   ExploreSpec spec;
   spec.robot_file = params.config / "robots" / (std::string(kRobot) + ".yaml");
@@ -318,7 +314,7 @@ Status reproduce_map_merging(const ReproduceParams& params, Report& report) {
                                                            {kTurnedWorld, &run_turned},
                                                            {kTrapWorld, &run_trap}}};
   for (const auto& [world, run] : parts) {
-    if (!chosen(params, world) || (params.smallest && run != &run_arena && run != &run_others)) {
+    if (!params.takes_world(world) || (params.smallest && run != &run_arena && run != &run_others)) {
       continue;
     }
     if (Status ok = run(params, report); !ok) {

@@ -1,5 +1,6 @@
 #include "server/lab/plots/world_sheet.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/image/map_layers.hpp"
@@ -15,10 +16,10 @@ constexpr double kFirstLine_px = 24.0;
 constexpr double kLineStep_px = 20.0;
 constexpr double kSample_px = 26.0;
 
-image::MapView view_of(const sim::World& world, const WorldSheet::Layout& layout) {
+image::MapView view_of(const Point2& min_corner, const Point2& max_corner, const WorldSheet::Layout& layout) {
   image::MapView view;
-  view.low = world.min_corner - Point2::Constant(layout.margin_m);
-  view.high = world.max_corner + Point2::Constant(layout.margin_m);
+  view.low = min_corner - Point2::Constant(layout.margin_m);
+  view.high = max_corner + Point2::Constant(layout.margin_m);
   const Point2 side = view.high - view.low;
   view.px_per_m = layout.largest_side_px / side.maxCoeff();
   view.width_px = static_cast<int>(std::ceil(side.x() * view.px_per_m));
@@ -29,9 +30,24 @@ image::MapView view_of(const sim::World& world, const WorldSheet::Layout& layout
 }  // namespace
 
 WorldSheet::WorldSheet(const sim::World& world, const Layout& layout)
+    : WorldSheet(world.min_corner, world.max_corner, layout) {}
+
+WorldSheet::WorldSheet(const Point2& min_corner, const Point2& max_corner, const Layout& layout)
     : header_px_(layout.header_px),
-      view_(view_of(world, layout)),
+      view_(view_of(min_corner, max_corner, layout)),
       canvas_(view_.width_px, view_.height_px + header_px_ + kFooter_px, image::kWhite) {}
+
+void WorldSheet::paint(const std::function<std::optional<image::Colour>(const Point2& p_world)>& colour_at) {
+  canvas_.picture(0, header_px_, view_.width_px, view_.height_px, [&](int u, int v) {
+    return colour_at(view_.to_map({u + 0.5, v + 0.5}));
+  });
+}
+
+void WorldSheet::polyline(const std::vector<Point2>& path_world, const image::Stroke& stroke) {
+  std::vector<Point2> line(path_world.size());
+  std::transform(path_world.begin(), path_world.end(), line.begin(), [&](const Point2& p) { return px(p); });
+  canvas_.polyline(line, stroke);
+}
 
 void WorldSheet::head(const std::string& title, const std::vector<std::string>& facts) {
   Point2 at(kLeft_px, kFirstLine_px);

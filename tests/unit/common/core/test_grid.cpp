@@ -61,5 +61,14 @@ TEST(OccupancyTile, TilesArePastedWhereTheyBelongAndTheRestIsUnknown) {
   EXPECT_EQ((*grid)[(CellIndex{kTileSide_cells, 0})], kUnknownCell);
 }
 
+TEST(OccupancyTile, AreaIsThatOfCellsRatherFreeThanNot) {
+  EXPECT_EQ(free_area_m2(std::nullopt), 0.0);
+  Grid<std::uint8_t> map({Point2::Zero(), 0.5}, 4, 1, kUnknownCell);
+  map[{0, 0}] = 0;
+  map[{1, 0}] = kOccupiedCell / 2;
+  map[{2, 0}] = kOccupiedCell / 2 - 1;
+  EXPECT_DOUBLE_EQ(free_area_m2(map), 0.5);
+}
+
 }  // namespace
 }  // namespace seeker

@@ -265,6 +265,14 @@ TEST(Exploration, RefusesBadRequests) {
   params = {};
   params.one_step.v_m_s.clear();
   EXPECT_FALSE(Exploration::create(request, params).has_value());
+  params = {};
+  params.tour.max_places = kMostTourPlaces + 1;
+  EXPECT_FALSE(Exploration::create(request, params).has_value());
+  params = {};
+  params.tour.free_rotation_rad = -0.1;
+  const auto turns = Exploration::create(request, params);
+  ASSERT_FALSE(turns.has_value());
+  EXPECT_NE(turns.error().message.find("tour.free_rotation_deg"), std::string::npos) << turns.error().message;
   EXPECT_TRUE(Exploration::create(request, {}).has_value());
 }
 

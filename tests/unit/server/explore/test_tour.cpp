@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "server/explore/place_strategy.hpp"
+#include "server/explore/trail.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/unit/server/explore/explorations.hpp"
 #include "tests/unit/server/nav/ascii_map.hpp"
@@ -155,6 +156,8 @@ class TourDecision : public ::testing::Test {
     std::stable_sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
     StrategyInput input{{{}, robot_, nullptr, nullptr, floors_}, {}, covariance_, none_, 1, {}, nullptr};
     input.end_map = end_map;
+    trail_.note(robot_.translation(), position_sigma_m(covariance_));
+    input.trail = &trail_;
     return chooser.choose({input, floor, *costs, open, goal});
   }
 
@@ -183,6 +186,7 @@ class TourDecision : public ::testing::Test {
   Matrix3 covariance_ = Matrix3::Identity() * 1e-6;
   std::vector<MapSegment> none_;
   nav::FloorSource floors_;
+  Trail trail_;
 };
 
 TEST_F(TourDecision, TakesTheSideThatMakesTheTourShort) {

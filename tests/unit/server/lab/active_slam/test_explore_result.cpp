@@ -6,6 +6,7 @@
 #include "server/lab/active_slam/explore_experiment.hpp"
 #include "server/lab/active_slam/explore_picture.hpp"
 #include "server/lab/active_slam/reproduce_active_slam.hpp"
+#include "tests/unit/server/lab/experiments/files.hpp"
 
 namespace seeker::lab {
 namespace {
@@ -118,6 +119,35 @@ TEST(ExploreCurves, WhatIsNoneIsRefusedWithItsLine) {
   EXPECT_NE(broken.error().message.find("line 3"), std::string::npos) << broken.error().message;
 }
 
+class ExploreFiles : public LabFiles {};
+
+TEST_F(ExploreFiles, CurvesOfASeedAreNamedByTheirStrategies) {
+  ExploreSpec tour;
+  tour.world_file = "office.yaml";
+  tour.strategy = api::ExploreStrategy::kTour;
+  tour.seed = 3;
+  ExploreSpec other = tour;
+  other.seed = 4;
+  const std::vector<ExploreSample> samples = {{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}};
+  std::filesystem::create_directories(explore_file(folder(), tour, ".csv").parent_path());
+  std::ofstream(explore_file(folder(), tour, ".csv")) << curves_csv(samples);
+  const auto curves = curves_of_seed({tour, other}, 3, folder());
+  ASSERT_TRUE(curves) << curves.error().message;
+  ASSERT_EQ(curves->size(), 1U);
+  EXPECT_EQ(curves->front().name, "tour");
+  EXPECT_EQ(curves->front().samples, samples);
+  EXPECT_FALSE(curves_of_seed({tour, other}, 4, folder())) << "that run has not been made";
+}
+
+TEST_F(ExploreFiles, TablesAreWrittenBesideEachOther) {
+  const std::vector<ExploreResult> runs = {result("tour", 3)};
+  const Table summary = explore_summary_table(runs);
+  ASSERT_TRUE(write_explore_tables(folder(), summary, runs));
+  EXPECT_EQ(read(folder() / "table.csv"), summary.csv());
+  EXPECT_EQ(read(folder() / "table.md"), summary.markdown());
+  EXPECT_EQ(read(folder() / "runs.csv"), explore_runs_table(runs).csv());
+}
+
 TEST(ExploreCurves, MeansAreOverTimeAndFinalsAreTheLast) {
   ExploreResult r;
   add_curves({{0.0, 0.1, 1.0, 0.2, 2.0, 0.0, 0.0, 4.0}, {1.0, 0.3, 3.0, 0.4, 8.0, 5.0, 0.5, 9.0}}, r);
@@ -189,6 +219,7 @@ TEST(S1Checks, HorizonMustNotDriveFartherThanTheBestBaseline) {
 
 TEST(ExploreFigures, AreDrawnForRunsOfAnyLength) {
   EXPECT_GT(error_figure("none", {}).width_px(), 0);
+  EXPECT_GT(floor_figure("none", {}).width_px(), 0);
   const Image traces = trace_figure("two", {{"active", {{0, 0, 1, 2, 3, 4}, {1, 0, 1, 2, 3, 4}}}, {"roam", {}}});
   EXPECT_GT(traces.height_px(), 900);
 }

@@ -39,6 +39,21 @@ TEST(WorldSheet, BarIsOfTheScaleOfTheWorld) {
   }
 }
 
+TEST(WorldSheet, PaintsOnlyTheWorldAndThereInItsPlace) {
+  WorldSheet sheet({2.0, 1.0}, {6.0, 3.0}, {.margin_m = 0.0});
+  sheet.paint([](const Point2& p) { return p.x() < 4.0 ? std::optional(image::kBlack) : std::nullopt; });
+  const Image image = sheet.canvas().image();
+  const auto dark_at = [&](const Point2& p) {
+    const Point2 px = sheet.px(p);
+    return is_dark(image, static_cast<int>(px.x()), static_cast<int>(px.y()));
+  };
+  EXPECT_TRUE(dark_at({2.1, 1.1}));
+  EXPECT_TRUE(dark_at({3.9, 2.9}));
+  EXPECT_FALSE(dark_at({4.1, 2.0}));
+  EXPECT_FALSE(is_dark(image, 0, 0)) << "the header";
+  EXPECT_FALSE(is_dark(image, 0, image.height_px() - 1)) << "the footer";
+}
+
 TEST(WorldSheet, WorldLiesBetweenHeaderAndFooter) {
   sim::World world;
   world.max_corner = {20.0, 10.0};

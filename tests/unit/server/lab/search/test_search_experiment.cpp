@@ -24,6 +24,16 @@ TEST(Seeds, WhatIsNoListOfSeedsIsRefused) {
   }
 }
 
+TEST(Seeds, EachMakesARunOfItsOwn) {
+  RunSpec spec;
+  spec.time_limit_s = 12.0;
+  const std::vector<RunSpec> specs = with_seeds(spec, {7, 3});
+  ASSERT_EQ(specs.size(), 2U);
+  EXPECT_EQ(specs[0].seed, 7U);
+  EXPECT_EQ(specs[1].seed, 3U);
+  EXPECT_EQ(specs[1].time_limit_s, 12.0);
+}
+
 RC_GTEST_PROP(Seeds, PrintedSeedsReadBackAsTheSame, ()) {
   auto seeds = *rc::gen::container<std::vector<std::uint64_t>>(rc::gen::inRange<std::uint64_t>(0, 60));
   RC_PRE(!seeds.empty());
