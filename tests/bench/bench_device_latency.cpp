@@ -5,7 +5,6 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -30,6 +29,7 @@
 #include "server/protocols/lms200/scan_telegram.hpp"
 #include "server/protocols/lms200/telegram.hpp"
 #include "server/protocols/p2os/sip.hpp"
+#include "tests/support/quantile.hpp"
 
 namespace {
 
@@ -191,16 +191,10 @@ bool await_packet(const Talk& talk, std::uint64_t before, Wall::time_point limit
 
 double milliseconds(Wall::duration time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 void report(benchmark::State& state, const std::string& name, const std::vector<double>& delays_ms) {
   if (!delays_ms.empty()) {
-    state.counters[name + "p50_ms"] = quantile(delays_ms, 0.50);
-    state.counters[name + "p99_ms"] = quantile(delays_ms, 0.99);
+    state.counters[name + "p50_ms"] = testing::quantile(delays_ms, 0.50);
+    state.counters[name + "p99_ms"] = testing::quantile(delays_ms, 0.99);
   }
 }
 

@@ -7,12 +7,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include "server/drivers/replay/carmen_reader.hpp"
 #include "server/drivers/replay/replay.hpp"
 #include "server/lines/fast_extractor.hpp"
 #include "server/lines/observation.hpp"
 #include "server/lines/paper_extractor.hpp"
 #include "server/lines/split_extractors.hpp"
+#include "tests/support/carmen_scans.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/lines/scoring.hpp"
 
@@ -120,18 +120,9 @@ BENCHMARK_CAPTURE(fast_rooms, 720_360_2cm, ScannerModel::full_circle(720, 0.02))
 
 std::vector<LaserScan> recorded_scans(const char* path) {
   std::vector<LaserScan> scans;
-  const auto file = testing::recorded_data(path);
-  if (!file) {
-    return scans;
-  }
-  auto reader = drivers::CarmenReader::open(*file);
-  while (reader) {
-    const auto record = reader->next();
-    if (!record) {
-      break;
-    }
-    if (const auto* scan = std::get_if<drivers::CarmenScan>(&*record)) {
-      scans.push_back(drivers::to_laser_scan(*scan, {}, robot_time_s(scan->stamp_s)));
+  if (const auto file = testing::recorded_data(path)) {
+    for (const drivers::CarmenScan& scan : testing::carmen_scans(*file).value_or(std::vector<drivers::CarmenScan>())) {
+      scans.push_back(drivers::to_laser_scan(scan, {}, robot_time_s(scan.stamp_s)));
     }
   }
   return scans;

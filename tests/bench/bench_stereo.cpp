@@ -20,6 +20,7 @@
 #include "server/vision/nearest_kernel.hpp"
 #include "server/vision/sift_features.hpp"
 #include "server/vision/stereo_features.hpp"
+#include "tests/support/quantile.hpp"
 #include "tests/unit/server/vision/stereo_scenes.hpp"
 
 namespace seeker::vision {
@@ -67,8 +68,7 @@ double s_processor_s() {
       sift_of_500();
       times.push_back(processor_s() - before);
     }
-    std::nth_element(times.begin(), times.begin() + kTimes / 2, times.end());
-    return times[kTimes / 2];
+    return seeker::testing::quantile(times, 0.5);
   }();
   return kMedian;
 }

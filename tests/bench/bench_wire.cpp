@@ -1,5 +1,4 @@
 // Throughput of the frame codec, and what it costs to send pose and tiles to 1, 10 and 100 clients over loopback.
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -16,6 +15,7 @@
 #include "common/wire/frame.hpp"
 #include "server/net/server.hpp"
 #include "tests/support/fake_robot.hpp"
+#include "tests/support/quantile.hpp"
 
 namespace {
 
@@ -99,12 +99,8 @@ void fan_out(benchmark::State& state) {
     std::unique_lock lock(arrivals.mutex);
     arrivals.changed.wait(lock, [&] { return arrivals.count >= 2 * clients; });
   }
-  std::sort(arrivals.delays_ms.begin(), arrivals.delays_ms.end());
-  const auto quantile = [&](double q) {
-    return arrivals.delays_ms[static_cast<std::size_t>(q * static_cast<double>(arrivals.delays_ms.size() - 1))];
-  };
-  state.counters["p50_ms"] = quantile(0.50);
-  state.counters["p99_ms"] = quantile(0.99);
+  state.counters["p50_ms"] = testing::quantile(arrivals.delays_ms, 0.50);
+  state.counters["p99_ms"] = testing::quantile(arrivals.delays_ms, 0.99);
   state.counters["bytes_per_client_round"] = static_cast<double>(server.stats().bytes_sent - bytes_before) /
                                              static_cast<double>(state.iterations()) / static_cast<double>(clients);
   subscriptions.clear();

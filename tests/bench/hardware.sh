@@ -26,23 +26,16 @@ while (($# > 0)); do
 done
 ((${#bauds[@]} > 0)) || bauds=(38400 500000)
 
-source tests/soak/server.sh
+source tests/support/processes.sh
 readonly goal_percent=10
 readonly world=config/worlds/office.yaml
 readonly robot=config/robots/pioneer3dx_lms200.yaml
-readonly start_tries=600 # of 0.1 s
+readonly start_tenths=600
 readonly settle_s=5
 out=build/bench/hardware
 mkdir -p "$out"
 emulator_pid=
 client_pid=
-
-# stop_process PID
-stop_process() {
-  [[ -n $1 ]] || return 0
-  kill -TERM "$1" 2>/dev/null || true
-  wait "$1" 2>/dev/null || true
-}
 
 stop_all() {
   stop_process "$client_pid"
@@ -51,27 +44,15 @@ stop_all() {
   stop_process "$emulator_pid"
   emulator_pid=
 }
-trap 'stop_all; rm -rf "$server_folder"' EXIT
-
-fail() {
-  echo "hardware: $1; the end of $2:" >&2
-  tail -n 20 "$2" >&2
-  exit 1
-}
 
 start_emulator() {
-  local tries
   rm -f "$server_folder/devices"
   build/release/bin/seeker-emulator --world "$world" --config config/robots/live.yaml --robots 1 \
     --set sim.people=false --port 0 --devices-file "$server_folder/devices" --device "p2os@$server_folder/base" \
     --device "lms200@$server_folder/lidar" >"$out/emulator.log" 2>&1 &
   emulator_pid=$!
-  for ((tries = 0; tries < start_tries; ++tries)); do
-    [[ -s $server_folder/devices ]] && return
-    kill -0 "$emulator_pid" 2>/dev/null || break
-    sleep 0.1
-  done
-  fail "seeker-emulator did not start" "$out/emulator.log"
+  wait_for_file "$start_tenths" "$server_folder/devices" "$emulator_pid" ||
+    fail "seeker-emulator did not start" "$out/emulator.log"
 }
 
 seeker() {
@@ -83,14 +64,10 @@ packets() {
   seeker components | awk -v name="$1" '/^[a-z]/ { component = $1 } component == name && $1 == "line" { print $2 }'
 }
 
-wait_for_devices() {
-  local tries lidar
-  for ((tries = 0; tries < start_tries; ++tries)); do
-    lidar=$(packets lidar)
-    ((${lidar:-0} > 50)) && return
-    sleep 0.1
-  done
-  fail "the devices do not deliver" "$out/seekerd.log"
+scanner_delivers() {
+  local lidar
+  lidar=$(packets lidar)
+  ((${lidar:-0} > 50))
 }
 
 # Processor time of seekerd in ticks of the kernel: fields 14 and 15, counted behind the program's name.
@@ -103,8 +80,8 @@ measure() {
   local ticks_before ns_before scans_before sips_before
   ticks_before=$(processor_ticks) ns_before=$(date +%s%N) scans_before=$(packets lidar) sips_before=$(packets base)
   sleep "$seconds"
-  kill -0 "$emulator_pid" 2>/dev/null || fail "seeker-emulator has ended" "$out/emulator.log"
-  [[ -z $client_pid ]] || kill -0 "$client_pid" 2>/dev/null || fail "the mission ended too early" "$out/explore.log"
+  ! has_ended "$emulator_pid" || fail "seeker-emulator has ended" "$out/emulator.log"
+  [[ -z $client_pid ]] || ! has_ended "$client_pid" || fail "the mission ended too early" "$out/explore.log"
   awk -v baud="$1" -v load="$2" -v ticks=$(($(processor_ticks) - ticks_before)) -v hz="$(getconf CLK_TCK)" \
     -v ns=$(($(date +%s%N) - ns_before)) -v scans=$(($(packets lidar) - scans_before)) \
     -v sips=$(($(packets base) - sips_before)) -v goal="$goal_percent" 'BEGIN {
@@ -121,7 +98,7 @@ for baud in "${bauds[@]}"; do
   start_emulator
   start_server "$out/seekerd.log" --config "$robot" --set "hardware.base.port=$server_folder/base" \
     --set "hardware.lidar.port=$server_folder/lidar" --set "hardware.lidar.lms200.baud=$baud"
-  wait_for_devices
+  wait_until "$start_tenths" scanner_delivers || fail "the devices do not deliver" "$out/seekerd.log"
   sleep "$settle_s"
   measure "$baud" idle || code=1
   seeker explore >"$out/explore.log" 2>&1 &

@@ -39,27 +39,23 @@ while (($# > 0)); do
   shift
 done
 
-source tests/soak/server.sh
+source tests/support/processes.sh
 readonly few_clients=10
 readonly crowd=200
 readonly crowd_s=5
-readonly start_tries=1200 # of 0.1 s
+readonly start_tenths=1200
 readonly idle_s=60
 readonly explore_s=300 # robot time
 readonly explore_speed=4
 bin=build/bench/bin
 out=build/bench/link
 figures=$out/figures
+site=$server_folder/site
+robot=$site/bundles/sim-1
+operator=$site/bundles/anna
 host_pid=
 host_port=
 load_pid=
-
-# stop_process PID
-stop_process() {
-  [[ -n $1 ]] || return 0
-  kill -TERM "$1" 2>/dev/null || true
-  wait "$1" 2>/dev/null || true
-}
 
 stop_all() {
   stop_process "$load_pid"
@@ -68,37 +64,16 @@ stop_all() {
   host_pid=
   stop_server
 }
-trap 'stop_all; rm -rf "$server_folder"' EXIT
 
-fail() {
-  echo "link: $1; the end of $2:" >&2
-  tail -n 20 "$2" >&2
-  exit 1
-}
-
-# wait_for FILE PID LOG: until the file is there.
+# wait_for FILE PID LOG: until a program that was started has written the file.
 wait_for() {
-  local tries
-  for ((tries = 0; tries < start_tries; ++tries)); do
-    [[ -s $1 ]] && return
-    kill -0 "$2" 2>/dev/null || break
-    sleep 0.1
-  done
-  fail "a program did not start" "$3"
-}
-
-make_certificates() {
-  build/release/bin/seeker pki init "$server_folder/site" &&
-    build/release/bin/seeker pki issue robot --role robot --host 127.0.0.1 --site "$server_folder/site" \
-      --out "$server_folder/robot" &&
-    build/release/bin/seeker pki issue operator --role operator --site "$server_folder/site" \
-      --out "$server_folder/operator"
+  wait_for_file "$start_tenths" "$1" "$2" || fail "a program did not start" "$3"
 }
 
 # start_host STACK NAME
 start_host() {
   rm -f "$server_folder/host-port"
-  "${first[@]}" "$bin/link_host_$1" --bundle "$server_folder/robot" --port-file "$server_folder/host-port" --acts "$out/$2.acts" \
+  "${first[@]}" "$bin/link_host_$1" --bundle "$robot" --port-file "$server_folder/host-port" --acts "$out/$2.acts" \
     >"$out/$2.host.log" 2>&1 &
   host_pid=$!
   wait_for "$server_folder/host-port" "$host_pid" "$out/$2.host.log"
@@ -109,7 +84,7 @@ start_host() {
 start_crowd() {
   (($3 > 0)) || return 0
   rm -f "$server_folder/ready"
-  nice -n 10 "$bin/link_load_$1" --bundle "$server_folder/operator" --port "$host_port" --clients "$3" \
+  nice -n 10 "$bin/link_load_$1" --bundle "$operator" --port "$host_port" --clients "$3" \
     --ready-file "$server_folder/ready" >"$out/$2.crowd.log" 2>&1 &
   load_pid=$!
   wait_for "$server_folder/ready" "$load_pid" "$out/$2.crowd.log"
@@ -133,7 +108,7 @@ latencies() {
   local name=$1.$2.$3
   start_host "$2" "$name"
   start_crowd "$2" "$name" "$4"
-  "${first[@]}" "$bin/link_load_$2" --bundle "$server_folder/operator" --port "$host_port" --seconds "$5" --host-pid "$host_pid" \
+  "${first[@]}" "$bin/link_load_$2" --bundle "$operator" --port "$host_port" --seconds "$5" --host-pid "$host_pid" \
     --states "$out/$name.states" --drives "$out/$name.drives" >"$out/$name.load.log" 2>&1 ||
     fail "the measuring client failed" "$out/$name.load.log"
   stop_all
@@ -149,7 +124,7 @@ latencies() {
 reconnects() {
   local name=$1.$2.cut
   start_host "$2" "$name"
-  "${first[@]}" "$bin/link_load_$2" --bundle "$server_folder/operator" --port "$host_port" --cuts "$cuts" \
+  "${first[@]}" "$bin/link_load_$2" --bundle "$operator" --port "$host_port" --cuts "$cuts" \
     --states "$out/$name.states" >"$out/$name.load.log" 2>&1 || fail "the cut client failed" "$out/$name.load.log"
   stop_all
   quantiles fresh <"$out/$name.states" | keep "$1" "$2" cut
@@ -166,10 +141,11 @@ pooled() {
 map_bytes() {
   local scenario=$1 speed=$2 counted_s=$3
   shift 3
+  local settings
+  mapfile -t settings < <(tls_settings "$robot")
   start_server "$out/$scenario.seekerd.log" --config config/robots/sim.yaml --set sim.world=config/worlds/office.yaml \
-    --set "sim.speed=$speed" --set "server.tls.certificate=$server_folder/robot/cert.pem" \
-    --set "server.tls.key=$server_folder/robot/key.pem" --set "server.tls.ca=$server_folder/robot/ca.pem"
-  "$bin/link_map_bytes" --bundle "$server_folder/operator" --port "$server_port" --seconds "$counted_s" "$@" \
+    --set "sim.speed=$speed" "${settings[@]}"
+  "$bin/link_map_bytes" --bundle "$operator" --port "$server_port" --seconds "$counted_s" "$@" \
     >"$out/$scenario.log" 2>&1 || fail "the map was not counted" "$out/$scenario.log"
   stop_server
   keep all seeker "$scenario" <"$out/$scenario.log"
@@ -177,7 +153,7 @@ map_bytes() {
 
 rm -rf "$out"
 mkdir -p "$out" build/bench/results
-make_certificates >"$out/pki.log" 2>&1 || fail "no certificates could be made" "$out/pki.log"
+make_site "$site" 127.0.0.1 >"$out/pki.log" 2>&1 || fail "no certificates could be made" "$out/pki.log"
 # The clients with images stand for other computers: they must not take the processor from the robot when they wake.
 first=()
 if chrt --rr 1 true 2>/dev/null; then

@@ -2,7 +2,7 @@
 # Called by ./run demo once the programs are built.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-source tests/soak/server.sh
+source tests/support/processes.sh
 
 mkdir -p out
 rm -f out/demo.*

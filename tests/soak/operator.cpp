@@ -12,10 +12,12 @@
 
 #include "common/rpc/robot_client.hpp"
 #include "common/rpc/wait.hpp"
+#include "tests/support/quantile.hpp"
 
 namespace {
 
 using namespace seeker;
+using seeker::testing::quantile;
 using Clock = std::chrono::steady_clock;
 
 constexpr Duration kPatience = std::chrono::seconds(60);
@@ -24,11 +26,6 @@ constexpr int kMissions = 20;
 constexpr int kMostTries = 20;
 
 double ms(Duration duration) { return 1e3 * to_seconds(duration); }
-
-Duration quantile(std::vector<Duration> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5));
-}
 
 /// What the stream of missions has told.
 class Followed {

@@ -2,7 +2,7 @@
 # Third parties judge the links: openssl and testssl.sh the TLS side, tc netem a bad network. Called by ./run soak peers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-source tests/soak/server.sh
+source tests/support/processes.sh
 
 failures=0
 site=$server_folder/site
@@ -21,23 +21,11 @@ verdict() {
   fi
 }
 
-pki() { "$SEEKER_BIN/seeker" --quiet pki "$@" >/dev/null; }
-
-# make_site HOST...: a robot at these addresses, an operator and an observer.
-make_site() {
-  local hosts=() host
-  for host in "$@"; do
-    hosts+=(--host "$host")
-  done
-  pki init "$site"
-  pki issue sim-1 --role robot "${hosts[@]}" --site "$site"
-  pki issue anna --role operator --site "$site"
-}
-
-tls_settings() {
+# A robot at this address that shows its certificate and shuts nobody out; `settings` are its options.
+make_robot() {
   local robot=$site/bundles/sim-1
-  printf -- '--set\nserver.tls.%s\n' "certificate=$robot/cert.pem" "key=$robot/key.pem" "ca=$robot/ca.pem" \
-    "revocations=$robot/crl.pem" lockout.loopback=false
+  make_site "$site" "$1"
+  mapfile -t settings < <(tls_settings "$robot" "revocations=$robot/crl.pem" lockout.loopback=false)
 }
 
 # s_client OPTIONS...: OpenSSL's client with the operator's certificate; what is typed comes from stdin.
@@ -154,8 +142,8 @@ testssl_worse() {
 }
 
 judge_tls() {
-  make_site 127.0.0.1
-  mapfile -t settings < <(tls_settings)
+  local settings
+  make_robot 127.0.0.1
   start_server "$out/server.log" --config config/robots/sim.yaml "${settings[@]}"
   judge_versions
   judge_session
@@ -170,11 +158,15 @@ namespaces=("seeker-robot-$$" "seeker-operator-$$")
 wire_pid=
 remove_network() {
   local one
-  [[ -z $wire_pid ]] || kill "$wire_pid" 2>/dev/null || true
+  stop_process "$wire_pid"
   wire_pid=
   for one in "${namespaces[@]}"; do
     ip netns del "$one" 2>/dev/null || true
   done
+}
+stop_all() {
+  remove_network
+  stop_server
 }
 
 # Two namespaces; says why not and fails where they cannot be made.
@@ -197,18 +189,16 @@ lay_cable() {
   done
 }
 
+has_device() { ip -n "$1" link show "$2" >/dev/null 2>&1; }
+
 # The same by a program of ours, packet by packet.
 lay_own_cable() {
-  local side tries
+  local side
   ip -n "${namespaces[0]}" link del cable0
   "$WIRE" "${namespaces[@]}" "$delay_ms" "$loss_percent" "$rate_kbit" 1 &
   wire_pid=$!
   for side in 0 1; do
-    for ((tries = 0; tries < 50; ++tries)); do
-      ip -n "${namespaces[$side]}" link show "cable$side" >/dev/null 2>&1 && break
-      sleep 0.1
-    done
-    ip -n "${namespaces[$side]}" link show "cable$side" >/dev/null || return 1
+    wait_until 50 has_device "${namespaces[$side]}" "cable$side" || return 1
   done
 }
 
@@ -224,7 +214,6 @@ use_cable() {
 judge_bad_network() {
   local network=10.213.74 delay_ms=100 loss_percent=5 rate_kbit=256 code=0 why settings
   echo "two hosts, ${delay_ms} ms each way, $loss_percent % loss, $rate_kbit kbit/s"
-  trap 'remove_network; stop_server; rm -rf "$server_folder"' EXIT
   why=$(make_namespaces) || { echo "  skip  $why"; remove_network; return 0; }
   if lay_cable; then
     echo "  info  by tc netem"
@@ -234,8 +223,7 @@ judge_bad_network() {
   fi
   use_cable
   rm -rf "$site"
-  make_site "$network.1"
-  mapfile -t settings < <(tls_settings)
+  make_robot "$network.1"
   SEEKERD="ip netns exec ${namespaces[0]} $SEEKERD" start_server "$out/network-server.log" \
     --config config/robots/live.yaml --set "server.address=$network.1" --set sim.people=false "${settings[@]}"
   ip netns exec "${namespaces[1]}" "$OPERATOR" "$network.1:$server_port" "$site/bundles/anna" || code=$?

@@ -36,7 +36,7 @@ while (($# > 0)); do
   esac
   shift
 done
-source tests/soak/server.sh
+source tests/support/processes.sh
 
 resident_kb() { awk '/^VmRSS:/ { print $2 }' "/proc/$server_pid/status"; }
 seconds_per_round=$(awk -v h="$hours" -v r="$rounds" 'BEGIN { print int(h * 3600 / r) }')
@@ -81,12 +81,13 @@ visitors() {
 }
 
 stop_visitors() {
-  [[ -n $visitor_pid ]] || return 0
-  kill "$visitor_pid" 2>/dev/null || true
-  wait "$visitor_pid" 2>/dev/null || true
+  stop_process "$visitor_pid"
   visitor_pid=
 }
-trap 'stop_visitors; stop_server; rm -rf "$server_folder"' EXIT
+stop_all() {
+  stop_visitors
+  stop_server
+}
 
 # One search, its exit code checked, its memory noted.
 search_once() {
@@ -94,7 +95,7 @@ search_once() {
   local client=("$SEEKER_BIN/seeker" --robot "127.0.0.1:$server_port")
   "${client[@]}" search --target cross --on-found continue >"$log" 2>&1 || code=$?
   "${client[@]}" goto --home >>"$log" 2>&1 || home=$?
-  kill -0 "$server_pid" 2>/dev/null || { echo "round $round: the server died; see build/soak/server-$round.log"; return 1; }
+  ! has_ended "$server_pid" || { echo "round $round: the server died; see build/soak/server-$round.log"; return 1; }
   echo "$round,$seed,$number,$code,$((SECONDS - begin)),$(resident_kb)" >>"$samples"
   if ((code != 0 && code != 6 || home != 0)); then
     echo "round $round, seed $seed, search $number: the client ended with $code, on the way home with $home:"

@@ -62,7 +62,12 @@ ChildProcess::~ChildProcess() {
   }
 }
 
-void ChildProcess::send(int signal) const { kill(pid_, signal); }
+void ChildProcess::send(int signal) const { ::kill(pid_, signal); }
+
+void ChildProcess::kill() {
+  send(SIGKILL);
+  EXPECT_EQ(wait(std::chrono::seconds(10)), 128 + SIGKILL) << output();
+}
 
 std::optional<int> ChildProcess::wait(std::chrono::seconds limit) {
   if (code_) {

@@ -23,6 +23,8 @@ class ChildProcess {
   ~ChildProcess();
 
   void send(int signal) const;
+  /// Kills it and waits until it is gone; expects that nothing else has ended it.
+  void kill();
   [[nodiscard]] pid_t pid() const { return pid_; }
   /// Exit code (128 + signal where one ended it); nothing when it still runs after `limit` (ten times that in a build
   /// with sanitizers).

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "common/core/rng.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/system/live_devices.hpp"
 #include "tests/system/simulated_robot.hpp"
 
@@ -15,10 +15,7 @@ namespace {
 constexpr Duration kZeroWithin = std::chrono::milliseconds(450);
 constexpr Duration kTick = std::chrono::milliseconds(100);
 
-int cuts() {
-  const char* text = std::getenv("SEEKER_CUTS");
-  return text != nullptr ? std::atoi(text) : 50;
-}
+int cuts() { return number_from_environment("SEEKER_CUTS", 50); }
 
 /// A command that is on its way.
 struct Packet {

@@ -1,22 +1,13 @@
 #include "tests/bench/link/host.hpp"
 
-#include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <string>
 
+#include "common/files/files.hpp"
 #include "tests/bench/link/traffic.hpp"
 
 namespace seeker::link_bench {
 namespace {
-
-/// Whole or not at all for who waits for it.
-Status write_port(const std::filesystem::path& file, std::uint16_t port) {
-  const std::filesystem::path fresh = file.string() + ".new";
-  std::ofstream(fresh) << port << '\n';
-  std::error_code failed;
-  std::filesystem::rename(fresh, file, failed);
-  return failed ? Status(fail(Errc::kIo, file.string() + " cannot be written")) : Status();
-}
 
 Status serve(const HostOptions& options, const MakeHost& make) {
   Latencies acts;
@@ -28,7 +19,7 @@ Status serve(const HostOptions& options, const MakeHost& make) {
     const Traffic traffic([&](api::Topic topic, RobotTime stamp, const api::Payload& payload) {
       (*host)->publish(topic, stamp, payload);
     });
-    if (Status written = write_port(options.port_file, (*host)->port()); !written) {
+    if (Status written = files::write_file(options.port_file, std::to_string((*host)->port()) + "\n"); !written) {
       return written;
     }
     wait_for_end();

@@ -14,6 +14,7 @@
 #include "common/wire/envelope.hpp"
 #include "link_bench.grpc.pb.h"
 #include "tests/bench/link/host.hpp"
+#include "tests/bench/link/pem_bundle.hpp"
 
 namespace seeker::link_bench {
 namespace {
@@ -152,17 +153,13 @@ class Service final : public Base {
 };
 
 Result<std::shared_ptr<grpc::ServerCredentials>> credentials(const pki::BundleFiles& files) {
-  const Result<std::string> key = pki::read_pem(files.key);
-  const Result<std::string> certificate = pki::read_pem(files.certificate);
-  const Result<std::string> ca = pki::read_pem(files.ca);
-  for (const Result<std::string>* file : {&key, &certificate, &ca}) {
-    if (!*file) {
-      return tl::unexpected<Error>(file->error());
-    }
+  const Result<PemBundle> own = read_bundle(files);
+  if (!own) {
+    return tl::unexpected<Error>(own.error());
   }
   grpc::SslServerCredentialsOptions options(GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
-  options.pem_root_certs = *ca;
-  options.pem_key_cert_pairs.push_back({*key, *certificate});
+  options.pem_root_certs = own->ca;
+  options.pem_key_cert_pairs.push_back({own->key, own->certificate});
   return grpc::SslServerCredentials(options);
 }
 

@@ -10,6 +10,7 @@
 #include "common/wire/convert.hpp"
 #include "link_bench.grpc.pb.h"
 #include "tests/bench/link/load.hpp"
+#include "tests/bench/link/pem_bundle.hpp"
 
 namespace seeker::link_bench {
 namespace {
@@ -118,15 +119,11 @@ class GrpcClient final : public Client {
 };
 
 Result<std::shared_ptr<grpc::ChannelCredentials>> credentials(const pki::BundleFiles& files) {
-  const Result<std::string> key = pki::read_pem(files.key);
-  const Result<std::string> certificate = pki::read_pem(files.certificate);
-  const Result<std::string> ca = pki::read_pem(files.ca);
-  for (const Result<std::string>* file : {&key, &certificate, &ca}) {
-    if (!*file) {
-      return tl::unexpected<Error>(file->error());
-    }
+  const Result<PemBundle> own = read_bundle(files);
+  if (!own) {
+    return tl::unexpected<Error>(own.error());
   }
-  return grpc::SslCredentials({*ca, *key, *certificate});
+  return grpc::SslCredentials({own->ca, own->key, own->certificate});
 }
 
 Result<std::unique_ptr<Client>> connect(const ClientWish& wish) {

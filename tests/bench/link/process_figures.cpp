@@ -9,7 +9,10 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+
+#include "tests/support/process_memory.hpp"
 
 namespace seeker::link_bench {
 namespace {
@@ -54,19 +57,6 @@ double waited_s(const fs::path& process) {
   return ns / kNsPerS;
 }
 
-double resident_kib(const fs::path& process) {
-  std::ifstream in(process / "status");
-  std::string word;
-  while (in >> word) {
-    if (word == "VmRSS:") {
-      double kib = 0.0;
-      in >> kib;
-      return kib;
-    }
-  }
-  return 0.0;
-}
-
 bool leads_to(int socket, std::uint16_t port) {
   sockaddr_in peer{};
   socklen_t size = sizeof peer;
@@ -77,7 +67,8 @@ bool leads_to(int socket, std::uint16_t port) {
 
 ProcessFigures figures_of(pid_t process) {
   const fs::path folder = fs::path("/proc") / std::to_string(process);
-  return {processor_s(folder), waited_s(folder), resident_kib(folder)};
+  const long resident_kib = testing::memory_kb(process, "VmRSS").value_or(0);
+  return {processor_s(folder), waited_s(folder), static_cast<double>(resident_kib)};
 }
 
 std::uint64_t bytes_received_from(std::uint16_t port) {

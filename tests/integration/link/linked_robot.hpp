@@ -1,5 +1,5 @@
 /// \file
-/// A whole simulated robot behind its server, in this process, over real sockets.
+/// A simulated robot behind its server, with a map that the test writes, and missions that keep it busy.
 #pragma once
 
 #include <chrono>
@@ -15,14 +15,10 @@
 #include "common/log/log.hpp"
 #include "common/rpc/robot_client.hpp"
 #include "common/rpc/wait.hpp"
-#include "server/app/composition/robot_assembly.hpp"
-#include "server/app/estimators/tracker_estimator.hpp"
-#include "server/app/robot/robot.hpp"
-#include "server/net/server.hpp"
-#include "tests/support/data.hpp"
-#include "tests/support/maps/fake_map_tracker.hpp"
+#include "tests/support/maps/assembly_with_map.hpp"
 #include "tests/support/maps/random_map.hpp"
 #include "tests/support/net/await.hpp"
+#include "tests/support/served_robot.hpp"
 
 namespace seeker::testing {
 
@@ -31,27 +27,10 @@ using std::chrono::milliseconds;
 class LinkedRobot {
  public:
   /// `speed`: robot seconds per second. Maps are kept in the folder.
-  LinkedRobot(double speed, const std::filesystem::path& maps, const server_net::ServerParams& params) {
-    app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml"),
-                                                        {"sim.people=false", "sim.speed=" + std::to_string(speed)})
-                                    .value();
-    options.loop.mission.report_period = milliseconds(100);
-    app::Assembly assembly = app::assemble(options).value();
-    assembly.parts.estimator = std::make_unique<app::TrackerEstimator>(std::make_unique<FakeMapTracker>(map_));
-    robot_ = std::make_unique<app::Robot>(app::RobotIdentity{"r1", "1.0", 0.26}, options.loop,
-                                          std::move(assembly.parts), nullptr, maps);
-    server_ = std::make_unique<server_net::Server>(*robot_, params);
-    robot_->start();
-    port_ = server_->start().value();
-  }
-  LinkedRobot(const LinkedRobot&) = delete;
-  LinkedRobot& operator=(const LinkedRobot&) = delete;
-  ~LinkedRobot() {
-    robot_->stop();
-    server_->stop();
-  }
+  LinkedRobot(double speed, const std::filesystem::path& maps, const server_net::ServerParams& params)
+      : LinkedRobot(options_at(speed), maps, params) {}
 
-  [[nodiscard]] std::uint16_t port() const { return port_; }
+  [[nodiscard]] std::uint16_t port() const { return robot_.port(); }
   /// Another room as the robot's map: its segments are streamed.
   void set_room(double width_m) {
     const std::lock_guard lock(map_->mutex);
@@ -60,10 +39,17 @@ class LinkedRobot {
   }
 
  private:
+  LinkedRobot(const app::RobotOptions& options, const std::filesystem::path& maps,
+              const server_net::ServerParams& params)
+      : robot_(options, assemble_with_map(options, map_), params, maps) {}
+  static app::RobotOptions options_at(double speed) {
+    app::RobotOptions options = sim_robot_options({"sim.people=false", "sim.speed=" + std::to_string(speed)});
+    options.loop.mission.report_period = milliseconds(100);
+    return options;
+  }
+
   std::shared_ptr<FakeMapState> map_ = std::make_shared<FakeMapState>();
-  std::unique_ptr<app::Robot> robot_;
-  std::unique_ptr<server_net::Server> server_;
-  std::uint16_t port_ = 0;
+  ServedRobot robot_;
 };
 
 /// Away from the start and back, so many times: over floor that is free in the demo's world.

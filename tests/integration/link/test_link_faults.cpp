@@ -1,7 +1,6 @@
 // Missions over a link that breaks again and again, in every way there is. SEEKER_FAULTS says how often (default 30).
 
 #include <atomic>
-#include <cstdlib>
 #include <future>
 #include <iostream>
 
@@ -9,6 +8,7 @@
 #include "server/store/map_file.hpp"
 #include "tests/integration/link/follower.hpp"
 #include "tests/integration/link/linked_robot.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/net/chaos_proxy.hpp"
 #include "tests/support/process.hpp"
 #include "tests/system/simulated_robot.hpp"
@@ -21,15 +21,11 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kSeed = 20;
 constexpr double kSpeed = 20.0;
 
-int faults() {
-  const char* text = std::getenv("SEEKER_FAULTS");
-  return text != nullptr ? std::atoi(text) : 30;
-}
+int faults() { return number_from_environment("SEEKER_FAULTS", 30); }
 
 /// A silent side is given up soon, so that many faults fit into a test.
 server_net::ServerParams impatient() {
-  server_net::ServerParams params;
-  params.port = 0;
+  server_net::ServerParams params = on_port(0);
   params.heartbeat = milliseconds(100);
   params.lost_after = milliseconds(600);
   params.session.hello_timeout = milliseconds(600);

@@ -12,6 +12,7 @@
 #include "tests/integration/link/linked_robot.hpp"
 #include "tests/support/net/chaos_proxy.hpp"
 #include "tests/support/process.hpp"
+#include "tests/support/quantile.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -59,12 +60,8 @@ struct Reached {
   std::string outcome;
   std::vector<std::string> problems;
 
-  [[nodiscard]] double percentile_ms(double share) const {
-    if (answers.empty()) {
-      return -1.0;
-    }
-    const auto last = static_cast<double>(answers.size() - 1);
-    return 1e3 * to_seconds(answers.at(static_cast<std::size_t>(share * last + 0.5)));
+  [[nodiscard]] double quantile_ms(double share) const {
+    return answers.empty() ? -1.0 : 1e3 * to_seconds(quantile(answers, share));
   }
 };
 
@@ -77,11 +74,6 @@ class LinkSweep : public ::testing::Test {
       links_.add(name + " " + std::string(rpc::to_string(event.state)) + ": " + event.why);
     };
     p.reconnect.first_delay = milliseconds(20);
-    return p;
-  }
-  [[nodiscard]] static server_net::ServerParams server_params() {
-    server_net::ServerParams p;
-    p.port = 0;
     return p;
   }
   [[nodiscard]] std::unique_ptr<Follower> connect(Reached& reached, Ledger& ledger) {
@@ -171,16 +163,16 @@ constexpr const char* kHeader =
 
 std::string row_of(const Level& level, const Reached& reached) {
   return fmt::format("{},{},{},{:.0f},{},{},{:.1f},{:.1f},{:.0f},{},{}\n", level.kind, level.level, reached.refused,
-                     1e3 * to_seconds(reached.start), reached.asked, reached.answers.size(),
-                     reached.percentile_ms(0.50), reached.percentile_ms(0.99), 1e3 * to_seconds(reached.stop),
-                     reached.outcome, reached.problems.size());
+                     1e3 * to_seconds(reached.start), reached.asked, reached.answers.size(), reached.quantile_ms(0.50),
+                     reached.quantile_ms(0.99), 1e3 * to_seconds(reached.stop), reached.outcome,
+                     reached.problems.size());
 }
 
 TEST_F(LinkSweep, OverEveryKindOfLinkAMissionIsStartedFollowedAndStopped) {
   const char* file = std::getenv("SEEKER_SWEEP");
   const bool whole = file != nullptr;
   constexpr double kFasterThanLife = 20.0;
-  robot_ = std::make_unique<LinkedRobot>(whole ? 1.0 : kFasterThanLife, fresh_folder("sweep"), server_params());
+  robot_ = std::make_unique<LinkedRobot>(whole ? 1.0 : kFasterThanLife, fresh_folder("sweep"), on_port(0));
   proxy_ = std::make_unique<ChaosProxy>(robot_->port());
   std::vector<Level> all = levels();
   if (!whole) {

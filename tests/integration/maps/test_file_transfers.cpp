@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <future>
 
 #include <gtest/gtest.h>
 
@@ -14,13 +15,10 @@
 #include "common/rpc/file_transfer.hpp"
 #include "common/rpc/robot_client.hpp"
 #include "common/rpc/wait.hpp"
-#include "server/app/composition/robot_assembly.hpp"
-#include "server/app/robot/robot.hpp"
-#include "server/net/server.hpp"
 #include "server/store/landmark_file.hpp"
 #include "server/store/map_file.hpp"
-#include "tests/support/data.hpp"
 #include "tests/support/maps/random_map.hpp"
+#include "tests/support/served_robot.hpp"
 #include "tests/unit/server/store/landmark_samples.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
@@ -30,39 +28,10 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::chrono::seconds kAnswerLimit{60};
 
-/// One run of a robot's program, on a port that the next one takes again.
-class TransferRobot {
- public:
-  TransferRobot(const fs::path& state, std::uint16_t port) {
-    const app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml")).value();
-    app::Assembly assembly = app::assemble(options, {state / "landmarks", "r1", "1.0"}).value();
-    robot_ =
-        std::make_unique<app::Robot>(app::RobotIdentity{"r1", "1.0", 0.26}, options.loop, std::move(assembly.parts),
-                                     nullptr, state / "maps", std::move(assembly.landmarks), state / "incoming");
-    server_net::ServerParams params;
-    params.port = port;
-    server_ = std::make_unique<server_net::Server>(*robot_, params);
-    robot_->start();
-    port_ = server_->start().value();
-  }
-  TransferRobot(const TransferRobot&) = delete;
-  TransferRobot& operator=(const TransferRobot&) = delete;
-  ~TransferRobot() {
-    robot_->stop();
-    server_->stop();
-  }
-  [[nodiscard]] std::uint16_t port() const { return port_; }
-
- private:
-  std::unique_ptr<app::Robot> robot_;
-  std::unique_ptr<server_net::Server> server_;
-  std::uint16_t port_ = 0;
-};
-
 class FileTransfers : public ::testing::Test {
  protected:
   FileTransfers() {
-    run_.emplace(state(), std::uint16_t{0});
+    run_on(0);
     rpc::ClientParams params;
     params.client_name = "tester";
     params.connect_timeout = params.call_timeout = kAnswerLimit;
@@ -72,10 +41,16 @@ class FileTransfers : public ::testing::Test {
   ~FileTransfers() override { client_->close(); }
 
   [[nodiscard]] fs::path state() const { return folder_.path() / "state"; }
+  /// One run of a robot's program, on a port that the next one takes again.
+  void run_on(std::uint16_t port) {
+    const app::RobotOptions options = sim_robot_options();
+    app::Assembly assembly = app::assemble(options, {state() / "landmarks", "r1", "1.0"}).value();
+    run_.emplace(options, std::move(assembly), on_port(port), state() / "maps", state() / "incoming");
+  }
   void restart() {
     const std::uint16_t port = run_->port();
     run_.reset();
-    run_.emplace(state(), port);
+    run_on(port);
   }
   template <class T, class Call>
   [[nodiscard]] Result<T> ask(Call&& call) {
@@ -108,7 +83,7 @@ class FileTransfers : public ::testing::Test {
 
   TemporaryFolder folder_;
   log::ScopedSink quiet_{[](const log::Line&) {}};
-  std::optional<TransferRobot> run_;
+  std::optional<ServedRobot> run_;
   std::shared_ptr<rpc::RobotClient> client_;
 };
 
@@ -190,19 +165,30 @@ TEST_F(FileTransfers, DatabasesOfLandmarksGoUpAndComeDown) {
   EXPECT_EQ(ask<std::vector<api::LandmarkSummary>>([&](auto reply) { client_->list_landmarks(reply); })->size(), 1U);
 }
 
-TEST_F(FileTransfers, MissionNamesAPictureThatWasSentBefore) {
+/// A picture of a mug, written to `file`.
+void write_mug(const fs::path& file) {
   Image picture(64, 64, 1);
   for (std::size_t k = 0; k < picture.data().size(); ++k) {
     picture.data()[k] = static_cast<std::uint8_t>(k * k % 255);
   }
-  const fs::path file = folder_.path() / "mug.png";
   ASSERT_TRUE(image::write_png(file, picture));
+}
+
+/// A search for what that picture shows; the robot has the picture from before.
+api::MissionRequest search_by_hash(const fs::path& picture) {
   api::TargetSpec target;
   target.name = "mug";
-  target.picture_hash = digest::sha256_of_file(file).value();
+  target.picture_hash = digest::sha256_of_file(picture).value();
   api::MissionRequest mission;
   mission.id = "look";
   mission.task = api::SearchMission{.targets = {target}, .bound = std::nullopt, .keep_out = {}};
+  return mission;
+}
+
+TEST_F(FileTransfers, MissionNamesAPictureThatWasSentBefore) {
+  const fs::path file = folder_.path() / "mug.png";
+  write_mug(file);
+  const api::MissionRequest mission = search_by_hash(file);
   const auto start = [&] {
     return ask<api::MissionAccepted>([&](auto reply) { client_->start_mission(mission, reply); });
   };
@@ -218,6 +204,23 @@ TEST_F(FileTransfers, MissionNamesAPictureThatWasSentBefore) {
 
   ASSERT_TRUE(files::write_file(file, "no picture at all"));
   EXPECT_EQ(send(file, {api::FileKind::kPicture, {}, "", false, false}).error().code, Errc::kCorrupt);
+}
+
+TEST_F(FileTransfers, MissionWhosePictureIsStillReadDoesNotBeginAfterAStop) {
+  const fs::path file = folder_.path() / "mug.png";
+  write_mug(file);
+  ASSERT_TRUE(send(file, {api::FileKind::kPicture, {}, "", false, false}));
+  constexpr int kTries = 20;
+  for (int k = 0; k < kTries; ++k) {
+    std::promise<Result<api::MissionAccepted>> accepted;
+    client_->start_mission(search_by_hash(file), [&](auto answer) { accepted.set_value(std::move(answer)); });
+    ASSERT_TRUE(ask<void>([&](auto reply) { client_->stop(reply); }));
+    const auto answer = accepted.get_future().get();
+    const auto status = ask<api::RobotStatus>([&](auto reply) { client_->get_status(reply); });
+    ASSERT_TRUE(status) << status.error().message;
+    EXPECT_FALSE(status->mission && !status->mission->end) << "it runs, and both were answered";
+    EXPECT_TRUE(answer || answer.error().code == Errc::kCancelled) << answer.error().message;
+  }
 }
 
 }  // namespace

@@ -13,13 +13,9 @@
 #include "common/log/log.hpp"
 #include "common/rpc/robot_client.hpp"
 #include "common/rpc/wait.hpp"
-#include "server/app/composition/robot_assembly.hpp"
-#include "server/app/estimators/tracker_estimator.hpp"
-#include "server/app/robot/robot.hpp"
-#include "server/net/server.hpp"
-#include "tests/support/data.hpp"
-#include "tests/support/maps/fake_map_tracker.hpp"
+#include "tests/support/maps/assembly_with_map.hpp"
 #include "tests/support/maps/random_map.hpp"
+#include "tests/support/served_robot.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -29,28 +25,16 @@ constexpr std::chrono::seconds kLimit{30};
 /// One run of a robot's program.
 class ProgramRun {
  public:
-  explicit ProgramRun(const std::filesystem::path& maps) {
-    const app::RobotOptions options = app::load_robot_options(source_file("config/robots/sim.yaml")).value();
-    app::Assembly assembly = app::assemble(options).value();
-    assembly.parts.estimator = std::make_unique<app::TrackerEstimator>(std::make_unique<FakeMapTracker>(state));
-    robot_ = std::make_unique<app::Robot>(app::RobotIdentity{"r1", "1.0", 0.26}, options.loop,
-                                          std::move(assembly.parts), nullptr, maps);
-    server_net::ServerParams params;
-    params.port = 0;
-    server_ = std::make_unique<server_net::Server>(*robot_, params);
-    robot_->start();
+  explicit ProgramRun(const std::filesystem::path& maps, const app::RobotOptions& options = sim_robot_options())
+      : robot_(options, assemble_with_map(options, state), on_port(0), maps) {
     rpc::ClientParams client;
     client.client_name = "tester";
     client.connect_timeout = client.call_timeout = kLimit;
-    client_ = rpc::RobotClient::connect({"127.0.0.1", server_->start().value()}, client).value();
+    client_ = rpc::RobotClient::connect({"127.0.0.1", robot_.port()}, client).value();
   }
   ProgramRun(const ProgramRun&) = delete;
   ProgramRun& operator=(const ProgramRun&) = delete;
-  ~ProgramRun() {
-    client_->close();
-    robot_->stop();
-    server_->stop();
-  }
+  ~ProgramRun() { client_->close(); }
 
   [[nodiscard]] api::RobotApi& robot() { return *client_; }
   template <class T, class Call>
@@ -79,8 +63,7 @@ class ProgramRun {
   std::shared_ptr<FakeMapState> state = std::make_shared<FakeMapState>();
 
  private:
-  std::unique_ptr<app::Robot> robot_;
-  std::unique_ptr<server_net::Server> server_;
+  ServedRobot robot_;
   std::shared_ptr<rpc::RobotClient> client_;
 };
 

@@ -1,8 +1,7 @@
-#include <algorithm>
 #include <fstream>
 
-#include "common/core/rng.hpp"
 #include "tests/integration/net/tls_fixture.hpp"
+#include "tests/support/random_bytes.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -30,9 +29,7 @@ TEST_F(TlsTest, LargeFramesPassInBothDirections) {
   ASSERT_TRUE(client);
   api::MapUpload upload;
   upload.name = "office";
-  upload.bytes.resize(5UL << 20U);
-  Rng rng(1);
-  std::generate(upload.bytes.begin(), upload.bytes.end(), [&] { return static_cast<std::uint8_t>(rng.below(256)); });
+  upload.bytes = random_bytes(1, 5UL << 20U);
   EXPECT_TRUE(ask<api::MapSummary>([&](auto r) { client->upload_map(upload, r); }));
   EXPECT_TRUE(robot_.values().uploads.at(0).bytes == upload.bytes);
   robot_.edit([&](FakeRobotValues& v) { v.map_files["office"] = upload.bytes; });

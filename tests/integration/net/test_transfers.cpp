@@ -6,20 +6,12 @@
 #include "common/digest/sha256.hpp"
 #include "common/rpc/file_transfer.hpp"
 #include "tests/integration/net/fixture.hpp"
+#include "tests/support/random_bytes.hpp"
 
 namespace seeker::testing {
 namespace {
 
 constexpr std::size_t kPiece_bytes = 32UL * 1024;
-
-std::vector<std::uint8_t> random_bytes(std::uint64_t seed, std::size_t count) {
-  Rng rng(seed);
-  std::vector<std::uint8_t> bytes(count);
-  for (std::uint8_t& byte : bytes) {
-    byte = static_cast<std::uint8_t>(rng.below(256));
-  }
-  return bytes;
-}
 
 rpc::FileTransfer::Source source_of(const std::vector<std::uint8_t>& bytes) {
   return [&bytes](std::uint64_t offset, std::size_t most) {

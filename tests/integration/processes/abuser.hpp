@@ -15,6 +15,7 @@
 #include "common/core/rng.hpp"
 #include "tests/integration/net/recorded_bytes.hpp"
 #include "tests/integration/net/tls_fixture.hpp"
+#include "tests/support/random_bytes.hpp"
 
 namespace seeker::testing {
 
@@ -26,14 +27,6 @@ inline std::string frame_around(const std::string& body) {
     out += static_cast<char>((length >> static_cast<unsigned>(shift)) & 0xFFU);
   }
   return out + body;
-}
-
-inline std::string random_bytes(Rng& rng, std::size_t count) {
-  std::string out;
-  while (out.size() < count) {
-    out += static_cast<char>(rng.below(256));
-  }
-  return out;
 }
 
 /// Bytes of which each kind must end a session at once.
@@ -54,8 +47,8 @@ class BadBytes {
     constexpr std::size_t kDepth = 100'000;
     constexpr char kStartOfGroup = '\x0b';
     switch (number_++ % kKinds) {
-      case 0: return frame_around(random_bytes(rng_, 200));
-      case 1: return std::string("\x01\x00\x00\x01", 4) + random_bytes(rng_, 200);  // 16 MiB and one
+      case 0: return frame_around(garbage());
+      case 1: return std::string("\x01\x00\x00\x01", 4) + garbage();  // 16 MiB and one
       case 2: return frame_around(std::string(kDepth, kStartOfGroup));
       case 3: return frame_around(hello_.substr(0, hello_.size() - 3));
       case 4: return frame_around("");
@@ -64,6 +57,11 @@ class BadBytes {
   }
 
  private:
+  [[nodiscard]] std::string garbage() {
+    const std::vector<std::uint8_t> bytes = random_bytes(rng_, 200);
+    return {bytes.begin(), bytes.end()};
+  }
+
   Rng rng_;
   std::size_t number_ = 0;
   std::string hello_;

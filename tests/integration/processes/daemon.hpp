@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/pki/bundle.hpp"
 #include "common/rpc/robot_client.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/process.hpp"
@@ -41,6 +42,8 @@ class Daemon {
 
   [[nodiscard]] std::string address() const { return "127.0.0.1:" + port; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// As a crash would end it: it can tidy nothing.
+  void kill() { process->kill(); }
 
   std::optional<ChildProcess> process;
   std::string port;
@@ -57,6 +60,14 @@ class Daemon {
 
   std::filesystem::path folder_;
 };
+
+/// What seekerd is started with so that it shows this certificate and asks its clients for theirs.
+inline std::vector<std::string> tls_settings(const pki::BundleFiles& robot) {
+  return {"--set", "server.tls.certificate=" + robot.certificate.string(),
+          "--set", "server.tls.key=" + robot.key.string(),
+          "--set", "server.tls.ca=" + robot.ca.string(),
+          "--set", "server.tls.revocations=" + robot.revocations.string()};
+}
 
 /// One call of the command line; its exit code.
 inline int seeker(const Daemon& daemon, std::vector<std::string> arguments, std::string* output = nullptr,

@@ -2,12 +2,10 @@
 /// The program that hosts one world for several robots.
 #pragma once
 
-#include <algorithm>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "tests/integration/processes/daemon.hpp"
+#include "tests/integration/processes/truth.hpp"
 
 namespace seeker::testing {
 
@@ -42,18 +40,8 @@ class Emulator {
   /// Where each robot has been, x and y in the frame of the world.
   [[nodiscard]] std::map<int, std::vector<Point2>> paths() const {
     std::map<int, std::vector<Point2>> paths;
-    std::ifstream in(truth);
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream words(line);
-      double time_s = 0.0;
-      int robot = 0;
-      Point2 p = Point2::Zero();
-      if (words >> time_s >> robot >> p.x() >> p.y()) {
-        paths[robot].push_back(p);
-      }
+    for (const TruthRow& row : read_truth(truth)) {
+      paths[row.robot].push_back(row.p_world);
     }
     return paths;
   }

@@ -124,10 +124,7 @@ class Team {
       fleet_port_ = text ? static_cast<std::uint16_t>(std::stoi(*text)) : std::uint16_t{0};
     }
   }
-  void kill(std::size_t k) {
-    robots_[k]->process->send(SIGKILL);
-    EXPECT_EQ(robots_[k]->process->wait(seconds(10)), 128 + SIGKILL);
-  }
+  void kill(std::size_t k) { robots_[k]->kill(); }
   /// The world stands still between these: what a robot has kept does not grow old while it is looked at.
   void stop_world() const { emulator_.process->send(SIGSTOP); }
   void let_world_go_on() const { emulator_.process->send(SIGCONT); }

@@ -2,20 +2,12 @@
 /// A robot of real devices, which the emulator plays.
 #pragma once
 
-#include <algorithm>
 #include <fstream>
-#include <sstream>
 
 #include "tests/integration/processes/daemon.hpp"
+#include "tests/integration/processes/truth.hpp"
 
 namespace seeker::testing {
-
-/// One line of the emulator's truth.
-struct TruthRow {
-  double time_s = 0.0;
-  Point2 p_world = Point2::Zero();
-  int contacts = 0;
-};
 
 /// The emulator with one robot, whose base, laser scanner and camera are on lines of their own, in real time.
 class EmulatedHardware {
@@ -53,23 +45,7 @@ class EmulatedHardware {
   }
 
   /// What really happened so far.
-  [[nodiscard]] std::vector<TruthRow> rows() const {
-    std::vector<TruthRow> rows;
-    std::ifstream in(truth);
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream words(line);
-      TruthRow row;
-      int robot = 0;
-      double theta_rad = 0.0;
-      if (words >> row.time_s >> robot >> row.p_world.x() >> row.p_world.y() >> theta_rad >> row.contacts) {
-        rows.push_back(row);
-      }
-    }
-    return rows;
-  }
+  [[nodiscard]] std::vector<TruthRow> rows() const { return read_truth(truth); }
   /// The robot's contacts with obstacles so far.
   [[nodiscard]] int contacts() const {
     const std::vector<TruthRow> all = rows();

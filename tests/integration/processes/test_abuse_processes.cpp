@@ -1,8 +1,6 @@
 // A robot as a process whose port is tormented, with TLS and without. SEEKER_ABUSE says how many connections attack
 // (default 300); from 10000 on it runs long enough for the periods of the control loop to be compared with quiet ones.
 
-#include <cstdlib>
-#include <fstream>
 #include <future>
 #include <iostream>
 #include <sstream>
@@ -12,6 +10,8 @@
 
 #include "tests/integration/processes/abuser.hpp"
 #include "tests/integration/processes/metrics_page.hpp"
+#include "tests/support/environment.hpp"
+#include "tests/support/process_memory.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -21,25 +21,8 @@ using ::testing::HasSubstr;
 constexpr std::uint64_t kSeed = 11;
 constexpr int kWhole = 10'000;
 
-int attackers() {
-  const char* text = std::getenv("SEEKER_ABUSE");
-  return text != nullptr ? std::atoi(text) : 300;
-}
+int attackers() { return number_from_environment("SEEKER_ABUSE", 300); }
 bool whole() { return attackers() >= kWhole; }
-
-/// In kB, as the kernel tells it: VmRSS (now) or VmHWM (the most so far).
-long memory_kb(pid_t pid, const std::string& which) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/status");
-  for (std::string word; file >> word;) {
-    if (word == which + ":") {
-      long kb = 0;
-      file >> kb;
-      return kb;
-    }
-  }
-  ADD_FAILURE() << "no " << which;
-  return 0;
-}
 
 class AbuseProcesses : public ::testing::Test {
  protected:
@@ -76,7 +59,8 @@ class AbuseProcesses : public ::testing::Test {
     const auto inside = connect(tls);
     ASSERT_TRUE(inside) << inside.error().message;
     const LoopPeriods quiet = periods_during([&] { stay_quiet(); });
-    const long before_kb = memory_kb(daemon_->process->pid(), "VmRSS");
+    const std::optional<long> before_kb = memory_kb(daemon_->process->pid(), "VmRSS");
+    ASSERT_TRUE(before_kb);
     const auto begin = std::chrono::steady_clock::now();
     const LoopPeriods under_attack = periods_during([&] {
       torment(std::forward<Offence>(offence), [&] {
@@ -85,7 +69,7 @@ class AbuseProcesses : public ::testing::Test {
       });
     });
     expect_unharmed(**inside);
-    expect_memory_bounded(before_kb);
+    expect_memory_bounded(*before_kb);
     expect_few_lines(std::chrono::steady_clock::now() - begin);
     if (whole()) {
       compare(quiet, under_attack);
@@ -134,9 +118,10 @@ class AbuseProcesses : public ::testing::Test {
   }
   void expect_memory_bounded(long before_kb) {
     constexpr long kMost_kb = 64L * 1024;
-    const long most_kb = memory_kb(daemon_->process->pid(), "VmHWM");
-    std::cout << "memory " << before_kb << " kB before, " << most_kb << " kB at most\n";
-    EXPECT_LT(most_kb - before_kb, kMost_kb);
+    const std::optional<long> most_kb = memory_kb(daemon_->process->pid(), "VmHWM");
+    ASSERT_TRUE(most_kb);
+    std::cout << "memory " << before_kb << " kB before, " << *most_kb << " kB at most\n";
+    EXPECT_LT(*most_kb - before_kb, kMost_kb);
   }
   void expect_few_lines(Duration took) {
     std::istringstream log(daemon_->process->output());
@@ -179,11 +164,9 @@ class TlsAbuseProcesses : public AbuseProcesses {
     site_.revoke("gone");
     site_.copy_revocations(robot_);
     // The attackers share this machine's address with the honest: nobody is shut out.
-    start({"--set", "server.tls.certificate=" + robot_.certificate.string(),  //
-           "--set", "server.tls.key=" + robot_.key.string(),                  //
-           "--set", "server.tls.ca=" + robot_.ca.string(),                    //
-           "--set", "server.tls.revocations=" + robot_.revocations.string(),  //
-           "--set", "server.tls.lockout.loopback=false"});
+    std::vector<std::string> settings = tls_settings(robot_);
+    settings.insert(settings.end(), {"--set", "server.tls.lockout.loopback=false"});
+    start(std::move(settings));
   }
   /// Every twentieth takes the trouble of a handshake: the others are as cheap as their maker can have them.
   void offence(int k) {

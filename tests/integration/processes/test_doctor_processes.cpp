@@ -1,6 +1,5 @@
 // `seeker doctor` and `seeker audit` against robots that are well, that are not there, and whose certificate is over.
 
-#include <csignal>
 #include <regex>
 
 #include <gmock/gmock.h>
@@ -58,9 +57,7 @@ TEST(DoctorProcesses, ARobotWhoseCertificateHasExpiredIsFoundOut) {
   TestSite site;
   const pki::BundleFiles robot = site.issue_expired("sim-1", pki::Role::kRobot, {"127.0.0.1"});
   const pki::BundleFiles anna = site.issue("anna", pki::Role::kOperator);
-  const Daemon daemon({"--set", "server.tls.certificate=" + robot.certificate.string(), "--set",
-                       "server.tls.key=" + robot.key.string(), "--set", "server.tls.ca=" + robot.ca.string(), "--set",
-                       "server.tls.revocations=" + robot.revocations.string()});
+  const Daemon daemon(tls_settings(robot));
   const std::string bundle = anna.certificate.parent_path().string();
   std::string output;
   EXPECT_EQ(seeker(daemon, {"doctor", "--tls", bundle}, &output), kExitFailed) << output;
@@ -84,8 +81,7 @@ TEST(AuditProcesses, WhoCommandedWhatIsKnownAfterAKill) {
     EXPECT_EQ(seeker(daemon, {"goto", "0.5,0", "--as", "ben", "--id", "short-way"}), 0);
     std::string output;
     EXPECT_EQ(seeker(daemon, {"audit", "--last", "100"}, &output), 0) << output;  // everything is on the disk then
-    daemon.process->send(SIGKILL);
-    static_cast<void>(daemon.process->wait(kStart));
+    daemon.kill();
   }
   const Daemon daemon({}, folder);
   std::string output;

@@ -20,8 +20,7 @@ TEST(EmulatorProcesses, TwoRobotsDriveInOneWorldAndOneComesBackAfterItsDeath) {
     EXPECT_EQ(seeker(first, {"goto", "1.5,0"}, &output), 0) << output;
     EXPECT_EQ(seeker(second, {"goto", "0.8,0"}, &output), 0) << output;
     ASSERT_EQ(seeker(second, {"goto", "--detach", "4,0"}, &output), 0) << output;
-    second.process->send(SIGKILL);
-    EXPECT_EQ(second.process->wait(seconds(10)), 128 + SIGKILL);
+    second.kill();
   }
   EXPECT_EQ(seeker(first, {"goto", "0.5,0"}, &output), 0) << output;
   const Daemon again(emulator.robot(1), folder);
@@ -61,8 +60,7 @@ TEST(EmulatorProcesses, AWorldThatDiesIsAFaultOfARobotThatStandsBy) {
   std::string output;
   Emulator emulator;
   const Daemon robot(emulator.robot(0));
-  emulator.process->send(SIGKILL);
-  EXPECT_EQ(emulator.process->wait(seconds(10)), 128 + SIGKILL);
+  emulator.process->kill();
   while (output.find("cannot be reached") == std::string::npos) {
     ASSERT_EQ(seeker(robot, {"status"}, &output), 0) << output;
   }

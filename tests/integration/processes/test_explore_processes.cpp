@@ -76,13 +76,11 @@ TEST(ExploreProcesses, ExplorationGoesOnInItsMapAfterTheServerWasKilled) {
     Daemon daemon(options, folder);
     ASSERT_EQ(seeker(daemon, {"explore", "--strategy", "frontier", "--detach", "--id", "look-round"}), 0);
     ASSERT_TRUE(wait_for_file(kept, seconds(60)));
-    daemon.process->send(SIGKILL);
-    EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
+    daemon.kill();
   }
   {
     Daemon idle({}, folder);
-    idle.process->send(SIGKILL);
-    EXPECT_EQ(idle.process->wait(seconds(10)), 128 + SIGKILL) << "before anybody has resumed it";
+    idle.kill();  // before anybody has resumed it
   }
   const Daemon again({}, folder);
   Watcher watcher(again);

@@ -1,6 +1,5 @@
 // A main robot and one that joins it, over real sockets, and over the death of either.
 
-#include <csignal>
 #include <functional>
 #include <thread>
 
@@ -73,11 +72,9 @@ TEST(FleetProcesses, ARobotJoinsAndNothingIsLostWhenTheMainOneDies) {
       return has(answer, "\"robot_id\":\"r1\"") && has(answer, "\"pieces_missing\":0") &&
              !has(answer, "not been looked");
     }));
-    main.process->send(SIGKILL);
-    EXPECT_EQ(main.process->wait(seconds(10)), 128 + SIGKILL);
+    main.kill();
   }
-  robot->process->send(SIGKILL);
-  EXPECT_EQ(robot->process->wait(seconds(10)), 128 + SIGKILL);
+  robot->kill();
   const Daemon again(main_robot(port), folder);
   const std::string kept = until(port, [](const std::string& answer) { return has(answer, "\"robot_id\":\"r1\""); });
   EXPECT_TRUE(has(kept, "\"linked\":false")) << kept;

@@ -2,11 +2,10 @@
 // disarmed. SEEKER_KILLS is the number of kills: a few in `./run test`, 500 in `./run soak kills`.
 
 #include <algorithm>
-#include <csignal>
-#include <cstdlib>
 
 #include "tests/integration/processes/busy_operator.hpp"
 #include "tests/integration/processes/watcher.hpp"
+#include "tests/support/environment.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -15,11 +14,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kSeed = 20261130;
 constexpr int kKills = 8;
-
-int kills() {
-  const char* number = std::getenv("SEEKER_KILLS");
-  return number != nullptr ? std::atoi(number) : kKills;
-}
 
 /// Checkpoints so often that a kill comes while one is written.
 const std::vector<std::string> kBusy{"--set", "loop.map.checkpoint_period_s=2", "--set", "loop.map.place_period_s=0.5"};
@@ -73,7 +67,7 @@ TEST(KillProcesses, WhatWasAcknowledgedIsThereAfterAKillAtAnyMoment) {
   RecordProperty("seed", std::to_string(kSeed));
   ToldLedger ledger;
   std::optional<std::string> open;
-  const int count = kills();
+  const int count = number_from_environment("SEEKER_KILLS", kKills);
   for (int round = 0; round <= count && !::testing::Test::HasFailure(); ++round) {
     SCOPED_TRACE("round " + std::to_string(round) + ", seed " + std::to_string(kSeed));
     Daemon daemon(kBusy, folder);
@@ -84,8 +78,7 @@ TEST(KillProcesses, WhatWasAcknowledgedIsThereAfterAKillAtAnyMoment) {
     {
       BusyOperator someone(daemon, kSeed + static_cast<std::uint64_t>(round), ledger);
       let_work(ledger, rng);
-      daemon.process->send(SIGKILL);
-      EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
+      daemon.kill();
     }
     // A copy: the next robot opens what the kill has left, not what this look at it has tidied.
     fs::remove_all(copy);

@@ -1,6 +1,5 @@
 // A map that is saved, outlives the death of its robot, and is found again.
 
-#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -26,8 +25,7 @@ TEST(MapProcesses, SavedMapSurvivesAKillAndTheRobotFindsItsPlaceInIt) {
     ASSERT_EQ(seeker(daemon, {"map", "save", "demo"}, &output), 0) << output;
     EXPECT_EQ(seeker(daemon, {"map", "export", folder / "demo", "--format", "svg,geojson,tum"}, &output), 0) << output;
     EXPECT_GT(content(folder / "demo.geojson").size(), 200U);
-    daemon.process->send(SIGKILL);
-    EXPECT_EQ(daemon.process->wait(std::chrono::seconds(10)), 128 + SIGKILL);
+    daemon.kill();
   }
   const std::string saved = content(file);
   ASSERT_FALSE(saved.empty());

@@ -95,8 +95,7 @@ TEST(Processes, ServerKilledInTheMissionOffersItAgainAndStaysDisarmed) {
     while (output.find("RUNNING") == std::string::npos) {
       seeker(daemon, {"status", "--json"}, &output);
     }
-    daemon.process->send(SIGKILL);
-    EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
+    daemon.kill();
   }
   Daemon again({}, folder);
   const auto client = connect(again, "operator");
@@ -154,15 +153,11 @@ TEST(Processes, EmergencyStopOutlivesAKilledServerUntilItIsReleased) {
     EXPECT_TRUE(status);
     return status && status->estop;
   };
-  const auto kill = [](Daemon& daemon) {
-    daemon.process->send(SIGKILL);
-    EXPECT_EQ(daemon.process->wait(seconds(10)), 128 + SIGKILL);
-  };
   {
     Daemon daemon({}, folder);
     EXPECT_FALSE(latched(daemon));
     EXPECT_EQ(seeker(daemon, {"estop"}), 0);
-    kill(daemon);
+    daemon.kill();
   }
   {
     Daemon again({}, folder);
@@ -171,7 +166,7 @@ TEST(Processes, EmergencyStopOutlivesAKilledServerUntilItIsReleased) {
     EXPECT_EQ(seeker(again, {"goto", "1,0"}, &output), 3);
     EXPECT_NE(output.find("estop --release"), std::string::npos) << output;
     EXPECT_EQ(seeker(again, {"estop", "--release"}), 0);
-    kill(again);
+    again.kill();
   }
   Daemon last({}, folder);
   EXPECT_FALSE(latched(last));

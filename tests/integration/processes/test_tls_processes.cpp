@@ -44,19 +44,14 @@ class TlsProcesses : public ::testing::Test {
     EXPECT_EQ(ended.code, 0) << ended.text;
   }
   [[nodiscard]] std::string bundle(const std::string& name) const { return site_ / "bundles" / name; }
-  [[nodiscard]] std::vector<std::string> tls_settings() const {
-    const std::string robot = bundle("sim-1");
-    return {"--set", "server.tls.certificate=" + robot + "/cert.pem",
-            "--set", "server.tls.key=" + robot + "/key.pem",
-            "--set", "server.tls.ca=" + robot + "/ca.pem",
-            "--set", "server.tls.revocations=" + robot + "/crl.pem"};
-  }
+  /// What the robot is started with.
+  [[nodiscard]] std::vector<std::string> settings() const { return tls_settings(pki::bundle_in(bundle("sim-1"))); }
 
   fs::path site_ = fresh_folder("tls") / "site";
 };
 
 TEST_F(TlsProcesses, ARobotIsCommandedByThoseWhomItsSiteAllows) {
-  Daemon daemon(tls_settings());
+  Daemon daemon(settings());
   std::string text;
   EXPECT_EQ(seeker(daemon, {"status", "--tls", bundle("anna")}, &text), 0) << text;
   EXPECT_EQ(seeker(daemon, {"drive", "0.1", "0", "--for", "0.2", "--tls", bundle("olga")}, &text), kExitRefused);
@@ -86,7 +81,7 @@ TEST_F(TlsProcesses, OpenSslShakesHandsByTls13Only) {
   if (!fs::exists(openssl)) {
     GTEST_SKIP() << "no /usr/bin/openssl: install the Debian package openssl";
   }
-  Daemon daemon(tls_settings());
+  Daemon daemon(settings());
   const auto s_client = [&](const std::string& version) {
     return run(openssl, {"s_client", "-connect", daemon.address(), version, "-CAfile", bundle("anna") + "/ca.pem",
                          "-cert", bundle("anna") + "/cert.pem", "-key", bundle("anna") + "/key.pem",

@@ -97,7 +97,7 @@ class ToldLedger {
       const auto unfinished = journal->unfinished_mission();
       EXPECT_TRUE(unfinished) << unfinished.error().message;
       if (unfinished && *unfinished) {
-        open = (*unfinished)->mission.id;
+        open = (*unfinished)->id;
       }
     }
     expect_maps(store::MapFiles(state / "maps"));

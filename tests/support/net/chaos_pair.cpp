@@ -21,7 +21,7 @@ constexpr double kSlice_s = 0.01;
 }  // namespace
 
 ChaosPair::ChaosPair(Socket client, asio::io_context& io, const Impairment& rules, Rng& rng)
-    : io_(io), client_(std::move(client)), server_(io), rules_(rules), rng_(rng), lanes_{Lane(io), Lane(io)} {
+    : client_(std::move(client)), server_(io), rules_(rules), rng_(rng), lanes_{Lane(io), Lane(io)} {
   for (Lane& lane : lanes_) {
     lane.buffer.resize(kBufferBytes);
   }

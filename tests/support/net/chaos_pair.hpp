@@ -74,7 +74,6 @@ class ChaosPair : public std::enable_shared_from_this<ChaosPair> {
   void break_now();
   void become_half_open();
 
-  boost::asio::io_context& io_;
   Socket client_;
   Socket server_;
   const Impairment& rules_;

@@ -5,6 +5,7 @@
 
 #include "server/sim/eye_view.hpp"
 #include "server/sim/pattern.hpp"
+#include "tests/unit/server/sim/pixel_patch.hpp"
 #include "tests/unit/server/sim/worlds.hpp"
 
 namespace seeker::sim {
@@ -12,6 +13,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::make;
+using testing::patch_of;
+using testing::PixelPatch;
 using testing::square_room;
 
 constexpr int kDark = 60;
@@ -38,26 +41,8 @@ World painted_room() {
   return world;
 }
 
-struct Blob {
-  int pixels = 0;
-  double u = 0.0;
-  double v = 0.0;
-};
-
-Blob dark_blob(const Image& image) {
-  Blob blob;
-  for (int v = 0; v < image.height_px(); ++v) {
-    for (int u = 0; u < image.width_px(); ++u) {
-      if (*image.at(u, v) < kDark) {
-        ++blob.pixels;
-        blob.u += u;
-        blob.v += v;
-      }
-    }
-  }
-  blob.u /= blob.pixels;
-  blob.v /= blob.pixels;
-  return blob;
+PixelPatch dark_patch(const Image& image) {
+  return patch_of(image, [](std::uint8_t level) { return level < kDark; });
 }
 
 /// Camera coordinates (left, up, ahead) of a place, by spec S2.3 solved for them; independent of the renderer.
@@ -93,12 +78,12 @@ TEST(StereoCamera, ShowsASmallBoxWhereAPinholeDoes) {
       const StereoModel& m = s.model().stereo;
       const StereoFrame frame = s.stereo_pair();
       for (const auto& [image, right_by_m] : {std::pair{&frame.left, 0.0}, {&frame.right, m.geometry.baseline_m}}) {
-        const Blob blob = dark_blob(*image);
-        ASSERT_GT(blob.pixels, 400);
+        const PixelPatch patch = dark_patch(*image);
+        ASSERT_GT(patch.pixels, 400);
         const InEye p = in_eye(start, m, right_by_m, x, y, 1.25);
         const double f = m.geometry.focal_px;
-        EXPECT_NEAR(blob.u, m.geometry.centre_u_px - f * p.left / p.ahead, 0.6) << heading << " " << bearing;
-        EXPECT_NEAR(blob.v, m.geometry.centre_v_px - f * p.up / p.ahead, 0.6) << heading << " " << bearing;
+        EXPECT_NEAR(patch.u_px, m.geometry.centre_u_px - f * p.left / p.ahead, 0.6) << heading << " " << bearing;
+        EXPECT_NEAR(patch.v_px, m.geometry.centre_v_px - f * p.up / p.ahead, 0.6) << heading << " " << bearing;
       }
     }
   }
@@ -159,10 +144,10 @@ TEST(StereoCamera, NearThingsHideFarOnes) {
   World world = white_room();
   world.boxes.push_back({Pose2{4.0, 0.0, 0.0}, 0.1, 0.5, 0.0, 1.5, {0.0, 0.0, 0.1, 0}, {}});
   Simulation open = make(world, without_errors(RobotModel{}));
-  EXPECT_GT(dark_blob(open.stereo_pair().left).pixels, 10000);
+  EXPECT_GT(dark_patch(open.stereo_pair().left).pixels, 10000);
   world.boxes.push_back({Pose2{2.0, 0.0, 0.0}, 0.1, 1.0, 0.0, 2.0, {0.9, 0.0, 0.1, 0}, {}});
   Simulation hidden = make(world, without_errors(RobotModel{}));
-  EXPECT_EQ(dark_blob(hidden.stereo_pair().left).pixels, 0);
+  EXPECT_EQ(dark_patch(hidden.stereo_pair().left).pixels, 0);
 }
 
 TEST(StereoCamera, SamePicturesFromTheSameSeedAndOthersFromAnother) {
@@ -222,8 +207,8 @@ TEST(StereoCamera, ErrorsOfAnEyeShiftAndDarkenItsPicture) {
   model.stereo.left.vignetting = 0.3;
   const StereoFrame off = make(world, model).stereo_pair();
   EXPECT_EQ(off.right, straight.right);
-  EXPECT_NEAR(dark_blob(off.left).u - dark_blob(straight.left).u, 3.0, 0.1);
-  EXPECT_NEAR(dark_blob(off.left).v - dark_blob(straight.left).v, -2.0, 0.1);
+  EXPECT_NEAR(dark_patch(off.left).u_px - dark_patch(straight.left).u_px, 3.0, 0.1);
+  EXPECT_NEAR(dark_patch(off.left).v_px - dark_patch(straight.left).v_px, -2.0, 0.1);
   EXPECT_NEAR(*off.left.at(5, 5) / static_cast<double>(*straight.left.at(5, 5)), 0.7, 0.02);
 }
 

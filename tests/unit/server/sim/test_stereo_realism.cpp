@@ -8,6 +8,7 @@
 #include "server/options/world_options.hpp"
 #include "server/sim/placement.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/quantile.hpp"
 #include "tests/unit/server/sim/worlds.hpp"
 
 namespace seeker::sim {
@@ -102,9 +103,7 @@ TEST(StereoRealism, MatchesBetweenTwoViewsOfAWallAreAsHardAsMeasured) {
   // The table of vision.md 4.5: 0.70 of the visible key points are matched rightly, 0.20 px apart.
   EXPECT_LT(static_cast<double>(errors_px.size()) / visible, 0.75);
   EXPECT_GT(static_cast<double>(errors_px.size()) / visible, 0.4);
-  std::nth_element(errors_px.begin(), errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2),
-                   errors_px.end());
-  EXPECT_GT(errors_px[errors_px.size() / 2], 0.18);
+  EXPECT_GT(seeker::testing::quantile(errors_px, 0.5), 0.18);
 }
 
 }  // namespace

@@ -1,13 +1,15 @@
-#include <algorithm>
 #include <cmath>
 
 #include "server/sim/tank_renderer.hpp"
+#include "tests/unit/server/sim/pixel_patch.hpp"
 #include "tests/unit/server/sim/worlds.hpp"
 
 namespace seeker::sim {
 namespace {
 
 using testing::make;
+using testing::patch_of;
+using testing::PixelPatch;
 using testing::square_room;
 
 /// A tank of 6 x 6 m with clear water, the robot in its middle and these solids.
@@ -26,27 +28,10 @@ RobotModel with_tank_camera() {
   return model;
 }
 
-/// Where the pixels are that are brighter than floor and walls.
-struct Blob {
-  int count = 0;
-  double u_px = 0.0;
-  double v_px = 0.0;
-};
-Blob bright(const Image& image) {
+/// The pixels that are brighter than floor and walls.
+PixelPatch bright(const Image& image) {
   constexpr int kBright = 110;
-  Blob blob;
-  for (int v = 0; v < image.height_px(); ++v) {
-    for (int u = 0; u < image.width_px(); ++u) {
-      if (*image.at(u, v) > kBright) {
-        ++blob.count;
-        blob.u_px += u;
-        blob.v_px += v;
-      }
-    }
-  }
-  blob.u_px /= std::max(1, blob.count);
-  blob.v_px /= std::max(1, blob.count);
-  return blob;
+  return patch_of(image, [](std::uint8_t level) { return level > kBright; });
 }
 
 constexpr TankSolid sphere_at(double x_m, double y_m) { return {SolidKind::kSphere, {x_m, y_m, 0.0}, 0.1, 1.0, 0.9}; }
@@ -56,20 +41,20 @@ TEST(TankCamera, ShowsASolidWhereItsGeometrySays) {
   const Image image = simulation.camera_image();
   ASSERT_EQ(image.width_px(), kTankWidth_px);
   ASSERT_EQ(image.height_px(), kTankHeight_px);
-  const Blob blob = bright(image);
-  ASSERT_GT(blob.count, 2000);
+  const PixelPatch patch = bright(image);
+  ASSERT_GT(patch.pixels, 2000);
   // By hand: the middle of the sphere is 1.0 m ahead, 0.2 m to the left and 0.7 m below a camera tilted by 40 degrees.
   const double along = std::cos(deg_to_rad(40.0)) + 0.7 * std::sin(deg_to_rad(40.0));
   const double below = 0.7 * std::cos(deg_to_rad(40.0)) - std::sin(deg_to_rad(40.0));
   // The lamp lights its upper side more than its lower one, so that the bright part is not centred on it.
   const double radius_px = kTankFocal_px * 0.1 / along;
-  EXPECT_NEAR(blob.u_px, 320.0 - kTankFocal_px * 0.2 / along, 0.25 * radius_px);
-  EXPECT_NEAR(blob.v_px, 240.0 + kTankFocal_px * below / along, 0.25 * radius_px);
+  EXPECT_NEAR(patch.u_px, 320.0 - kTankFocal_px * 0.2 / along, 0.25 * radius_px);
+  EXPECT_NEAR(patch.v_px, 240.0 + kTankFocal_px * below / along, 0.25 * radius_px);
 }
 
 TEST(TankCamera, ShowsTheEmptyFloorWhereNoSolidIsInView) {
   Simulation behind = make(tank({sphere_at(-1.0, 0.0)}), with_tank_camera());
-  EXPECT_EQ(bright(behind.camera_image()).count, 0);
+  EXPECT_EQ(bright(behind.camera_image()).pixels, 0);
 }
 
 TEST(TankCamera, AWallHidesWhatStandsBehindIt) {

@@ -1,10 +1,8 @@
 #include <chrono>
 #include <iostream>
 #include <map>
-#include <sstream>
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include "common/core/rng.hpp"
 #include "server/drivers/replay/replay.hpp"
@@ -12,6 +10,7 @@
 #include "server/slam/local_cloud.hpp"
 #include "server/slam/scan_map_tracker.hpp"
 #include "tests/support/data.hpp"
+#include "tests/unit/server/slam/recorded_pioneer.hpp"
 
 namespace seeker::slam {
 namespace {
@@ -141,37 +140,13 @@ TEST(RecordedLogs, Freiburg079IsFollowedWithAScanEveryMetre) {
   EXPECT_LT(report(samples, 20).translation_m, 0.32);
 }
 
-/// `t,x,y,theta` lines of a gzip file: the localiser's map -> odom.
-std::map<double, Pose2> read_corrections(const std::filesystem::path& path) {
-  std::map<double, Pose2> corrections;
-  gzFile file = gzopen(path.c_str(), "rb");
-  char line[256];
-  while (file != nullptr && gzgets(file, line, sizeof(line)) != nullptr) {
-    std::istringstream words(line);
-    double t = 0.0;
-    Pose2 pose;
-    char comma = ',';
-    if (words >> t >> comma >> pose.x_m >> comma >> pose.y_m >> comma >> pose.theta_rad) {
-      corrections[t] = pose;
-    }
-  }
-  gzclose(file);
-  return corrections;
-}
-
 std::vector<Sample> play_pioneer(const std::filesystem::path& path, const std::filesystem::path& scores,
                                  PoseTracker& tracker) {
-  const auto corrections = read_corrections(scores);
-  drivers::ReplayParams params;
-  params.angle_min_rad = -2.356194;
-  params.angle_step_rad = 0.00613592;
-  params.range_max_m = 5.6;
-  params.base_T_laser = {0.135, 0.0, 0.0};
-  const auto reference = [&](const drivers::CarmenScan& scan) -> std::optional<Pose2> {
-    const auto at = corrections.lower_bound(scan.stamp_s - 0.05);
-    return at == corrections.end() ? std::nullopt : std::optional<Pose2>(at->second * *scan.odom_T_base);
+  const PioneerCorrections corrections(scores);
+  const auto reference = [&](const drivers::CarmenScan& scan) {
+    return corrections.map_T_base(scan.stamp_s, *scan.odom_T_base);
   };
-  return play(path, params, reference, tracker);
+  return play(path, pioneer_params(), reference, tracker);
 }
 
 TEST(RecordedLogs, ARealPioneerIsFollowedThroughItsBuilding) {

@@ -1,10 +1,10 @@
 #include <iostream>
-#include <map>
 
 #include <gtest/gtest.h>
 
 #include "recorded_places.hpp"
 #include "tests/support/data.hpp"
+#include "tests/unit/server/slam/recorded_pioneer.hpp"
 
 namespace seeker::slam {
 namespace {
@@ -66,31 +66,12 @@ TEST(RecordedPlaces, LoopsOfFreiburg079TakeItsDriftOut) {
   EXPECT_LT(closed.translation_m, 0.08);
 }
 
-/// `t,x,y,theta` lines of a gzip file: map_T_odom of a localiser.
-std::map<double, Pose2> read_poses(const std::filesystem::path& path) {
-  std::map<double, Pose2> poses;
-  gzFile file = gzopen(path.c_str(), "rb");
-  char line[256];
-  while (file != nullptr && gzgets(file, line, sizeof(line)) != nullptr) {
-    std::istringstream words(line);
-    double t = 0.0;
-    Pose2 pose;
-    char comma = ',';
-    if (words >> t >> comma >> pose.x_m >> comma >> pose.y_m >> comma >> pose.theta_rad) {
-      poses[t] = pose;
-    }
-  }
-  gzclose(file);
-  return poses;
-}
-
 /// Poses of the scans in the building's map, by the localiser; nothing where it has none.
 std::vector<std::optional<Pose2>> references(const RecordedWalk& walk, const std::filesystem::path& path) {
-  const auto corrections = read_poses(path);
+  const PioneerCorrections corrections(path);
   std::vector<std::optional<Pose2>> poses;
   for (std::size_t k = 0; k < walk.poses.size(); ++k) {
-    const auto at = corrections.lower_bound(walk.stamps_s[k] - 0.05);
-    poses.push_back(at == corrections.end() ? std::nullopt : std::optional<Pose2>(at->second * walk.odometry[k]));
+    poses.push_back(corrections.map_T_base(walk.stamps_s[k], walk.odometry[k]));
   }
   return poses;
 }
@@ -100,13 +81,8 @@ TEST(RecordedPlaces, ThePioneersSecondRunFindsItselfInTheMapOfTheFirst) {
   SEEKER_REQUIRE_DATA(first_poses, "lidar/p3dx/trace0_map_to_odom.csv.gz");
   SEEKER_REQUIRE_DATA(second, "lidar/p3dx/trace1.clf.gz");
   SEEKER_REQUIRE_DATA(second_poses, "lidar/p3dx/trace1_map_to_odom.csv.gz");
-  drivers::ReplayParams params;
-  params.angle_min_rad = -2.356194;
-  params.angle_step_rad = 0.00613592;
-  params.range_max_m = 5.6;
-  params.base_T_laser = {0.135, 0.0, 0.0};
-  const auto walk = walk_through(first, params);
-  const auto again = walk_through(second, params);
+  const auto walk = walk_through(first, pioneer_params());
+  const auto again = walk_through(second, pioneer_params());
   ASSERT_TRUE(walk && again);
   const auto truth_first = references(*walk, first_poses);
   const auto truth_second = references(*again, second_poses);

@@ -8,22 +8,15 @@
 #include "common/core/rng.hpp"
 #include "common/files/files.hpp"
 #include "tests/support/file_size_limit.hpp"
+#include "tests/support/random_bytes.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
 namespace seeker::store {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::random_bytes;
 using testing::TemporaryFolder;
-
-std::vector<std::uint8_t> random_bytes(std::uint64_t seed, std::size_t count) {
-  Rng rng(seed);
-  std::vector<std::uint8_t> bytes(count);
-  for (std::uint8_t& byte : bytes) {
-    byte = static_cast<std::uint8_t>(rng.below(256));
-  }
-  return bytes;
-}
 
 std::span<const std::uint8_t> part(const std::vector<std::uint8_t>& bytes, std::size_t from, std::size_t count) {
   return std::span(bytes).subspan(from, count);

@@ -1,11 +1,11 @@
 // What the store has acknowledged is there after a power cut, at whatever write it comes.
 
-#include <algorithm>
 #include <memory>
 
 #include <gtest/gtest.h>
 
 #include "server/store/store.hpp"
+#include "tests/support/random_bytes.hpp"
 #include "tests/unit/server/store/power_cut_disk.hpp"
 #include "tests/unit/server/store/temporary_folder.hpp"
 
@@ -23,13 +23,10 @@ constexpr std::uint64_t kStepsOfOneProgram = 45;
 /// Of one step; does not compress.
 Blob content_of(std::uint64_t step) {
   constexpr std::size_t kBytes = 100'000;
-  Rng rng(step);
-  Blob blob(kBytes);
-  std::generate(blob.begin(), blob.end(), [&] { return static_cast<std::uint8_t>(rng.below(256)); });
-  return blob;
+  return testing::random_bytes(step, kBytes);
 }
 
-/// Writes event and checkpoint 1, 2, 3... as one program after the other would; `told` counts what was acknowledged.
+/// Writes event and setting 1, 2, 3... as one program after the other would; `told` counts what was acknowledged.
 void write_steps(const std::filesystem::path& folder, const std::function<bool()>& over, std::uint64_t& told) {
   std::optional<Result<Store>> store;
   for (std::uint64_t step = 1; step <= kSteps && !over(); ++step) {

@@ -13,6 +13,7 @@
 
 #include "tests/support/net/await.hpp"
 #include "tests/support/net/chaos_proxy.hpp"
+#include "tests/support/random_bytes.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -49,12 +50,8 @@ class ChaosProxyTest : public ::testing::Test {
     return std::chrono::steady_clock::now() - begin;
   }
   [[nodiscard]] static std::string text_of(std::size_t bytes) {
-    std::string text;
-    Rng rng(3);
-    while (text.size() < bytes) {
-      text += static_cast<char>(rng.below(256));
-    }
-    return text;
+    const std::vector<std::uint8_t> all = random_bytes(3, bytes);
+    return {all.begin(), all.end()};
   }
 
   asio::io_context io_;

@@ -15,6 +15,7 @@
 #include "server/app/composition/robot_assembly.hpp"
 #include "server/app/robot/robot.hpp"
 #include "server/drivers/replay/replay.hpp"
+#include "tests/support/carmen_scans.hpp"
 #include "tests/support/data.hpp"
 
 namespace seeker::app {
@@ -49,19 +50,9 @@ class DriveRecorderTest : public ::testing::Test {
     return scan;
   }
   [[nodiscard]] std::vector<drivers::CarmenScan> scans_of(const std::string& name) const {
-    auto reader = drivers::CarmenReader::open(folder_ / name);
-    EXPECT_TRUE(reader);
-    std::vector<drivers::CarmenScan> scans;
-    while (reader) {
-      const auto record = reader->next();
-      if (!record) {
-        break;
-      }
-      if (const auto* scan = std::get_if<drivers::CarmenScan>(&*record)) {
-        scans.push_back(*scan);
-      }
-    }
-    return scans;
+    auto scans = testing::carmen_scans(folder_ / name);
+    EXPECT_TRUE(scans);
+    return scans ? std::move(*scans) : std::vector<drivers::CarmenScan>();
   }
 
   std::filesystem::path folder_ = [] {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <variant>
@@ -17,6 +16,7 @@
 #include "server/drivers/lms200/lms_session.hpp"
 #include "server/emulator/devices/lms_device.hpp"
 #include "server/protocols/lms200/telegram.hpp"
+#include "tests/unit/server/emulator/devices/lms_world.hpp"
 
 namespace seeker::drivers {
 
@@ -26,15 +26,7 @@ inline constexpr double kClockSpan_s = 5.0;
 
 /// Beam i of the others has 2 m + 10 mm i.
 inline LaserScan world_scan(RobotTime now) {
-  LaserScan scan;
-  scan.stamp = now;
-  scan.angle_min_rad = -std::numbers::pi / 2.0;
-  scan.angle_step_rad = std::numbers::pi / 360.0;
-  scan.range_max_m = 8.0;
-  scan.ranges_m.resize(361);
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    scan.ranges_m[i] = 2.0F + 0.01F * static_cast<float>(i);
-  }
+  LaserScan scan = emulator::half_degree_scan(now, 2.0F, 0.01F);
   scan.ranges_m[kClockBeam] = 1.0F + static_cast<float>(std::fmod(to_seconds(now), kClockSpan_s));
   return scan;
 }
@@ -70,14 +62,9 @@ struct LineFaults {
 
 class LmsLine {
  public:
-  explicit LmsLine(const LmsParams& params = {}, const emulator::LmsDeviceParams& device_params = in_millimetres())
+  explicit LmsLine(const LmsParams& params = {},
+                   const emulator::LmsDeviceParams& device_params = emulator::millimetre_device())
       : session(params), device(device_params, world_scan) {}
-
-  [[nodiscard]] static emulator::LmsDeviceParams in_millimetres() {
-    emulator::LmsDeviceParams params;
-    params.flash.unit = static_cast<std::uint8_t>(lms200::Unit::kMillimetre);
-    return params;
-  }
 
   void open() {
     session.open(now);

@@ -12,6 +12,7 @@
 #include "server/drivers/replay/invented_clock.hpp"
 #include "server/drivers/replay/log_survey.hpp"
 #include "server/drivers/replay/stamp_order.hpp"
+#include "tests/support/carmen_scans.hpp"
 #include "tests/unit/server/drivers/replay/temporary_log.hpp"
 
 namespace seeker::drivers {
@@ -122,15 +123,7 @@ TEST(StampOrder, RecordsOfAClockThatCountsSecondsAreSetApart) {
 /// The scans that the reader gives of a log.
 std::vector<CarmenScan> scans_of(const std::string& text) {
   const TemporaryLog log("mending", text);
-  std::vector<CarmenScan> scans;
-  auto reader = CarmenReader::open(log.path());
-  EXPECT_TRUE(reader) << reader.error().message;
-  while (auto record = reader->next()) {
-    if (auto* scan = std::get_if<CarmenScan>(&*record)) {
-      scans.push_back(std::move(*scan));
-    }
-  }
-  return scans;
+  return testing::carmen_scans(log.path()).value();
 }
 
 /// A front laser at x with these readings.

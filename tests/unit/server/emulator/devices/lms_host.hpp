@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,30 +16,14 @@
 #include "server/protocols/lms200/scan_telegram.hpp"
 #include "server/protocols/lms200/telegram.hpp"
 #include "server/protocols/lms200/telegram_reader.hpp"
+#include "tests/unit/server/emulator/devices/lms_world.hpp"
 
 namespace seeker::emulator {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// 361 beams of half a degree whose ranges say which beam they are: beam i has 1 m + i mm.
-inline LaserScan numbered_scan(RobotTime now) {
-  LaserScan scan;
-  scan.stamp = now;
-  scan.angle_min_rad = -std::numbers::pi / 2.0;
-  scan.angle_step_rad = std::numbers::pi / 360.0;
-  scan.range_max_m = 8.0;
-  scan.ranges_m.resize(361);
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    scan.ranges_m[i] = 1.0F + 0.001F * static_cast<float>(i);
-  }
-  return scan;
-}
-
-inline LmsDeviceParams millimetre_device() {
-  LmsDeviceParams params;
-  params.flash.unit = static_cast<std::uint8_t>(lms200::Unit::kMillimetre);
-  return params;
-}
+/// Beam i has 1 m + i mm.
+inline LaserScan numbered_scan(RobotTime now) { return half_degree_scan(now, 1.0F, 0.001F); }
 
 /// The other end of the line. Its bytes need the time of its rate; at another rate than the device's they are garbage.
 class LmsHost {

@@ -1,13 +1,17 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "common/core/rng.hpp"
 #include "server/protocols/lms200/crc.hpp"
+#include "tests/support/random_bytes.hpp"
 #include "tests/unit/server/protocols/lms200/telegram_bytes.hpp"
 
 namespace seeker::lms200 {
 namespace {
 
+using testing::random_bytes;
 using Kind = Received::Kind;
 
 Bytes device_telegram(const Bytes& payload) { return encode_telegram(Sender::kDevice, payload); }
@@ -22,11 +26,8 @@ rc::Gen<Bytes> any_payload() {
 
 /// Random bytes without a start byte, so that no telegram can be taken for its continuation.
 Bytes quiet_garbage(Rng& rng, std::size_t size) {
-  Bytes bytes(size);
-  for (std::uint8_t& byte : bytes) {
-    byte = static_cast<std::uint8_t>(rng.below(256));
-    byte = byte == kStx ? std::uint8_t{0} : byte;
-  }
+  Bytes bytes = random_bytes(rng, size);
+  std::replace(bytes.begin(), bytes.end(), kStx, std::uint8_t{0});
   return bytes;
 }
 
@@ -48,10 +49,7 @@ TEST(Lms200Reader, GarbageBetweenTelegramsIsSkippedAndTheNextTelegramDelivered) 
   Rng rng(7);
   for (int run = 0; run < 500; ++run) {
     const Bytes payload = quiet_garbage(rng, 1 + rng.below(40));
-    Bytes stream(rng.below(60));
-    for (std::uint8_t& byte : stream) {
-      byte = static_cast<std::uint8_t>(rng.below(256));
-    }
+    Bytes stream = random_bytes(rng, rng.below(60));
     append(stream, device_telegram(payload));
     append(stream, Bytes(kMaxTelegramBytes, 0));  // whatever the garbage announced is over
     TelegramReader reader(Sender::kDevice);
@@ -64,10 +62,7 @@ TEST(Lms200Reader, OfAStreamWithOnePercentDamagedTelegramsAllOthersAreDelivered)
   Bytes stream;
   std::vector<Bytes> good;
   for (int i = 0; i < 3000; ++i) {
-    Bytes payload(1 + rng.below(rng.below(4) == 0 ? kMaxPayloadBytes : 20));
-    for (std::uint8_t& byte : payload) {
-      byte = static_cast<std::uint8_t>(rng.below(256));
-    }
+    Bytes payload = random_bytes(rng, 1 + rng.below(rng.below(4) == 0 ? kMaxPayloadBytes : 20));
     Bytes telegram = device_telegram(payload);
     if (rng.below(100) == 0) {
       // Anywhere, the start, the address and the length included.

@@ -6,6 +6,7 @@
 
 #include "common/core/rng.hpp"
 #include "server/protocols/rplidar/request_reader.hpp"
+#include "tests/support/random_bytes.hpp"
 
 namespace seeker::rplidar {
 namespace {
@@ -68,10 +69,7 @@ Request random_request(Rng& rng) {
   const auto command = static_cast<std::uint8_t>(rng.below(256));
   Request request{static_cast<Command>(command == kRequestStart ? 0x25 : command), {}};
   if ((command & kPayloadBit) != 0 && command != kRequestStart) {
-    request.payload.resize(rng.below(kMaxRequestPayload + 1));
-    for (std::uint8_t& byte : request.payload) {
-      byte = static_cast<std::uint8_t>(rng.below(256));
-    }
+    request.payload = seeker::testing::random_bytes(rng, rng.below(kMaxRequestPayload + 1));
   }
   return request;
 }
