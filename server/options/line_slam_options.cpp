@@ -67,6 +67,13 @@ void describe(config::Fields& f, LoopPolicy& params) {
   f.angle_deg("moved_deg", params.moved_rad);
 }
 
+void describe(config::Fields& f, KnownGroundParams& params) {
+  f.field("max_keyframes", params.max_keyframes);
+  f.field("within_m", params.within_m);
+  f.angle_deg("within_deg", params.within_rad);
+  f.field("disagreement", params.disagreement);
+}
+
 void describe(config::Fields& f, RelocaliseParams& params) {
   f.section("judge", params.place.judge);
   f.field("every_m", params.every_m);
@@ -129,6 +136,7 @@ void describe(config::Fields& f, LineSlamParams& params) {
   f.section("points", params.points);
   f.section("local", params.local);
   f.section("loops", params.loops);
+  f.section("known_ground", params.known_ground);
   f.section("relocalise", params.relocalise);
   f.section("fusion", params.fusion);
   f.field("observation_period_s", params.observation_period_s);

@@ -70,7 +70,7 @@ LineSlam::LineSlam(const LineSlamParams& params, const Pose2& map_T_base)
       jump_(params.points.jump),
       travelled_(params.odometry),
       cloud_(params.points.cloud),
-      backend_(params.loops),
+      backend_(params.loops, params.known_ground),
       recogniser_(params.relocalise.place),
       claim_(params.relocalise.claim) {
   begin(map_T_base, RobotTime{});
@@ -82,7 +82,7 @@ void LineSlam::reset(const Pose2& map_T_base) {
 }
 
 void LineSlam::begin(const Pose2& map_T_base, RobotTime stamp) {
-  backend_ = MapBackend(params_.loops);
+  backend_ = MapBackend(params_.loops, params_.known_ground);
   backend_.begin_first(map_T_base, stamp);
   start_local_map();
   cloud_.clear();

@@ -106,6 +106,18 @@ struct LoopPolicy {
   double moved_rad = 0.002;   ///< rotation of the robot from which on the map has a new epoch
 };
 
+/// How a map stops growing where the robot drives through a building that it knows.
+struct KnownGroundParams {
+  /// Number of stored scans up to which everything is kept. Beyond it a finished local map that shows nothing new is
+  /// emptied: its pose and relations stay.
+  std::size_t max_keyframes = 4000;
+  /// A scan shows nothing new when an older local map has one from within this distance and rotation.
+  double within_m = 0.5;
+  double within_rad = 0.5;
+  /// Share of beams that the older local map contradicts, from which on the place has changed and the scans are kept.
+  double disagreement = 0.05;
+};
+
 /// Global relocalisation: localisation in a map without a known initial pose.
 struct RelocaliseParams {
   PlaceMapParams map;
@@ -144,6 +156,7 @@ struct LineSlamParams {
   PointNetParams points;
   LocalMapParams local;
   LoopPolicy loops;
+  KnownGroundParams known_ground;
   RelocaliseParams relocalise;
   FusionParams fusion;
   /// Time from one observation to the next, as in the paper's stop-and-go: before it is over, only a scan of a robot

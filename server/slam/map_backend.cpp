@@ -27,7 +27,8 @@ SeenPoints view_of(const MapKeyframe& keyframe, double range_m) {
   return seen;
 }
 
-MapBackend::MapBackend(const LoopPolicy& params) : params_(params), detector_(with_rivals_of(params)) {}
+MapBackend::MapBackend(const LoopPolicy& params, const KnownGroundParams& known_ground)
+    : params_(params), known_ground_(known_ground), detector_(with_rivals_of(params)) {}
 
 std::uint32_t MapBackend::begin_first(const Pose2& map_T_node, RobotTime stamp) {
   SEEKER_ASSERT(maps_.empty());
@@ -51,12 +52,14 @@ std::uint32_t MapBackend::begin_next(const Pose2& last_T_new, const Matrix3& cov
   maps_.push_back({static_cast<std::uint32_t>(node), stamp, {}, {}});
   if (own_from_) {
     drop_own_before(last);
+  } else if (last > unbroken_from_) {
+    forget_known(last - 1);  // the view of the newest reaches into the last, not farther
   }
   return maps_.back().id;
 }
 
 void MapBackend::load(const LineMap& map, MapUse use) {
-  *this = MapBackend(params_);
+  *this = MapBackend(params_, known_ground_);
   std::map<std::uint32_t, std::uint32_t> number;  // ids in a file may have gaps
   for (const MapNode& node : map.nodes) {
     const auto id = static_cast<std::uint32_t>(graph_.add_node(node.map_T_node));

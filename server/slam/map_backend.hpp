@@ -40,12 +40,14 @@ struct LoopCounts {
 
 /// Local maps are numbered from 0. The epoch rises with each optimisation that moves the map.
 ///
+/// A map that grows keeps everything up to KnownGroundParams::max_keyframes; beyond it, only what shows something new.
+///
 /// In a map that is only read (MapUse::kLocalise) the loaded local maps are fixed, and of the robot's own only the
 /// newest two are kept, whose numbers change with that: the information of the older ones about the robot's pose
 /// becomes one relation. Memory and cost do not grow however long the robot drives.
 class MapBackend {
  public:
-  explicit MapBackend(const LoopPolicy& params = {});
+  explicit MapBackend(const LoopPolicy& params = {}, const KnownGroundParams& known_ground = {});
 
   /// Begins the first local map at a pose in the frame `map`.
   std::uint32_t begin_first(const Pose2& map_T_node, RobotTime stamp);
@@ -128,7 +130,17 @@ class MapBackend {
   void drop_own_before(std::uint32_t first);
   bool optimise();
 
+  // map_backend_known.cpp
+  /// Empties a finished local map that shows nothing new, where the map is larger than it should be.
+  void forget_known(std::uint32_t id);
+  [[nodiscard]] std::size_t keyframe_count() const;
+  /// The older local map with the nearest scan that shows what this one of local map `id` shows.
+  [[nodiscard]] std::optional<std::uint32_t> shown_by(std::uint32_t id, const MapKeyframe& keyframe) const;
+  /// Whether nothing has changed there since: scans of local map `id` against an older one.
+  [[nodiscard]] bool agrees(std::uint32_t older, std::uint32_t id, const std::vector<SeenPoints>& seen_node);
+
   LoopPolicy params_;
+  KnownGroundParams known_ground_;
   std::vector<LocalMap> maps_;
   PoseGraph graph_;
   LoopDetector detector_;

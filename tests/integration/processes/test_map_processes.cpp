@@ -47,6 +47,35 @@ TEST(MapProcesses, SavedMapSurvivesAKillAndTheRobotFindsItsPlaceInIt) {
   EXPECT_EQ(content(file), saved) << "localising never writes the map it uses";
 }
 
+TEST(MapProcesses, SearchGoesOnWithTheFloorItHadSearchedAfterAKill) {
+  const fs::path folder = fresh_folder("search_crash");
+  const fs::path kept = folder / "state" / "maps" / "checkpoints" / "sim-1" / "look.search";
+  const std::vector<std::string> slow{"--set", "sim.speed=15", "--set", "loop.map.checkpoint_period_s=1"};
+  constexpr int kMoreCells = 8;  // checkpoints follow meanwhile
+  int searched = 0;
+  {
+    Daemon daemon(slow, folder);
+    Watcher watcher(daemon);
+    ASSERT_EQ(seeker(daemon, {"search", "--target", "cross", "--explore", "--on-found", "continue", "--detach", "--id",
+                              "look"}),
+              0);
+    ASSERT_TRUE(wait_for_file(kept, seconds(60)));
+    searched = watcher.status().mission->cells_searched;
+    static_cast<void>(
+        watcher.until([&](const api::MissionStatus& m) { return m.cells_searched >= searched + kMoreCells; }));
+    daemon.kill();
+  }
+  const Daemon again(slow, folder);
+  Watcher watcher(again);
+  std::string output;
+  ASSERT_EQ(seeker(again, {"resume"}, &output), 0) << output;
+  const api::RobotStatus first =
+      watcher.until([](const api::MissionStatus& m) { return m.id == "look" && m.cells_searched > 0; });
+  EXPECT_GE(first.mission->cells_searched, searched);
+  EXPECT_LT(first.mission->path_length_m, 1.0) << "it has hardly begun to drive";
+  EXPECT_EQ(seeker(again, {"stop"}), 0);
+}
+
 TEST(MapProcesses, EstimatorWithoutMapSaysWhichOneKeepsOne) {
   const Daemon daemon({"--set", "estimator=scan_match"});
   std::string output;

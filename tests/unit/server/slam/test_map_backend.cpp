@@ -2,34 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "rooms.hpp"
 #include "tests/support/matchers.hpp"
+#include "tests/unit/server/slam/visit.hpp"
 
 namespace seeker::slam {
 namespace {
 
 using testing::Pose2Near;
-
-/// A robot that walks about in the furnished room and keeps each scan, as the tracker gives it to the backend.
-class Visit {
- public:
-  explicit Visit(std::uint64_t seed) : rng_(seed) {}
-
-  /// Keeps scans from so many places in the newest local map, whose frame truly lies at `map_T_node`.
-  void look(MapBackend& backend, const Pose2& map_T_node, int scans) {
-    LocalMap& map = backend.newest();
-    for (int k = 0; k < scans; ++k, time_s_ += 0.5) {
-      const Pose2 node_T_base{0.1 * (k % 5), 0.15 * (k % 3), 0.7 * k};
-      const LaserScan scan = scan_at(furnished_room(), map_T_node * node_T_base, time_s_, rng_);
-      map.keyframes.push_back(pack_keyframe(scan, map.id, node_T_base));
-    }
-  }
-  [[nodiscard]] RobotTime now() const { return robot_time_s(time_s_); }
-
- private:
-  Rng rng_;
-  double time_s_ = 0.0;
-};
 
 /// Covariance of the motion from one local map to the next, of a robot whose odometry is worse than this says.
 const Matrix3 kMotion = Eigen::Vector3d(6e-3, 6e-3, 1e-4).asDiagonal();

@@ -1,0 +1,64 @@
+// Ground that the map shows already: what a robot that stays in its building no longer adds to it.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/core/angle.hpp"
+#include "server/slam/map_backend.hpp"
+
+namespace seeker::slam {
+
+std::size_t MapBackend::keyframe_count() const {
+  return std::accumulate(maps_.begin(), maps_.end(), std::size_t{0},
+                         [](std::size_t sum, const LocalMap& map) { return sum + map.keyframes.size(); });
+}
+
+void MapBackend::forget_known(std::uint32_t id) {
+  if (is_apart(id) || keyframe_count() <= known_ground_.max_keyframes) {
+    return;
+  }
+  LocalMap& map = maps_[id];
+  std::map<std::uint32_t, std::vector<SeenPoints>> seen_by_older;
+  for (const MapKeyframe& keyframe : map.keyframes) {
+    const std::optional<std::uint32_t> older = shown_by(id, keyframe);
+    if (!older) {
+      return;
+    }
+    seen_by_older[*older].push_back(transform(keyframe.node_T_base, view_of(keyframe, params_.view_range_m)));
+  }
+  const bool unchanged = std::all_of(seen_by_older.begin(), seen_by_older.end(),
+                                     [&](const auto& entry) { return agrees(entry.first, id, entry.second); });
+  if (unchanged) {
+    map.keyframes = {};
+    map.segments_node = {};
+    std::erase_if(places_, [id](const auto& place) { return place.first == id; });
+    std::erase(planned_, id);
+  }
+}
+
+std::optional<std::uint32_t> MapBackend::shown_by(std::uint32_t id, const MapKeyframe& keyframe) const {
+  const Pose2 map_T_base = pose(id) * keyframe.node_T_base;
+  std::optional<std::uint32_t> nearest;
+  double nearest_m = known_ground_.within_m;
+  for (std::uint32_t older = 0; older < id; ++older) {
+    const Pose2 older_T_base = inverse(pose(older)) * map_T_base;
+    for (const MapKeyframe& other : maps_[older].keyframes) {
+      const double away_m = distance_m(other.node_T_base, older_T_base);
+      const double away_rad = std::abs(wrap_angle(other.node_T_base.theta_rad - older_T_base.theta_rad));
+      if (away_m <= nearest_m && away_rad <= known_ground_.within_rad) {
+        nearest = older;
+        nearest_m = away_m;
+      }
+    }
+  }
+  return nearest;
+}
+
+bool MapBackend::agrees(std::uint32_t older, std::uint32_t id, const std::vector<SeenPoints>& seen_node) {
+  const std::shared_ptr<const PlaceMap> place = place_of(older);
+  return place && agreement_of(place->pyramid(), place->free_space(), seen_node, inverse(pose(older)) * pose(id),
+                               params_.detector.agreement)
+                          .disagreement() < known_ground_.disagreement;
+}
+
+}  // namespace seeker::slam
