@@ -3,10 +3,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/integration/processes/daemon.hpp"
+#include "tests/integration/processes/watcher.hpp"
 
 namespace seeker::testing {
 namespace {
+
+namespace fs = std::filesystem;
 
 const std::vector<std::string> kWithMap{"--set", "estimator=line_slam"};
 
