@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "common/core/angle.hpp"
 #include "server/slam/map_backend.hpp"
@@ -33,7 +34,29 @@ void MapBackend::forget_known(std::uint32_t id) {
     map.segments_node = {};
     std::erase_if(places_, [id](const auto& place) { return place.first == id; });
     std::erase(planned_, id);
+    thin_out_loops(id);
   }
+}
+
+void MapBackend::thin_out_loops(std::uint32_t id) {
+  std::vector<std::size_t> loops;
+  for (std::size_t k = 0; k < graph_.edge_count(); ++k) {
+    const PoseEdge& edge = graph_.edge(k);
+    if (std::max(edge.i, edge.j) == id && edge.kernel != EdgeKernel::kNone && graph_.enabled(k)) {
+      loops.push_back(k);
+    }
+  }
+  std::sort(loops.begin(), loops.end(), [this](std::size_t a, std::size_t b) {
+    const auto certainty = [this](std::size_t k) {
+      return graph_.edge_weight(k) * graph_.edge(k).information.determinant();
+    };
+    return certainty(a) > certainty(b);
+  });
+  for (std::size_t k = std::max<std::size_t>(known_ground_.loops, 1); k < loops.size(); ++k) {
+    graph_.remove_edge(loops[k]);
+  }
+  graph_.drop_nodes(0, 0);  // numbers the edges without the removed ones
+  loop_of_pair_.clear();    // the newest local map, which gets loops, has none yet
 }
 
 std::optional<std::uint32_t> MapBackend::shown_by(std::uint32_t id, const MapKeyframe& keyframe) const {

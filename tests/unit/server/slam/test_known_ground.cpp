@@ -1,5 +1,7 @@
 // A map whose robot stays in a building that it knows.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/unit/server/slam/visit.hpp"
@@ -27,6 +29,7 @@ void visit_again(Visit& visit, MapBackend& backend, const Pose2& map_T_node) {
 MapBackend begun(Visit& visit, std::size_t max_keyframes) {
   KnownGroundParams known;
   known.max_keyframes = max_keyframes;
+  known.loops = 2;
   MapBackend backend({}, known);
   backend.begin_first(kHere, visit.now());
   visit.look(backend, kHere, kScans);
@@ -40,11 +43,18 @@ TEST(KnownGround, MapOfOnePlaceStopsGrowingAtItsLimit) {
   MapBackend backend = begun(visit, 35);
   for (int round = 0; round < kRounds; ++round) {
     visit_again(visit, backend, kHere);
+    backend.plan_loops({});
+    for (int scan = 0; scan < 4; ++scan) {
+      backend.step_loops();
+    }
     EXPECT_LE(scans_of(backend), 35U + 2 * kScans) << "the two that the robot needs now, and what it is allowed";
   }
   const LineMap map = backend.assemble(backend.map_end());
   EXPECT_EQ(map.nodes.size(), std::size_t{kRounds} + 1) << "where the robot was is known still";
-  EXPECT_EQ(map.edges.size(), std::size_t{kRounds});
+  EXPECT_GT(backend.loops().closed, kRounds);
+  const auto loops = std::count_if(map.edges.begin(), map.edges.end(), [](const MapEdge& edge) { return edge.loop; });
+  EXPECT_EQ(map.edges.size() - static_cast<std::size_t>(loops), std::size_t{kRounds}) << "its path";
+  EXPECT_LE(loops, 2 * kRounds + 6) << "two of each that was emptied";
   EXPECT_LT(map.segments.size(), 6U);
   ASSERT_TRUE(validate(map));
   MapBackend again;
