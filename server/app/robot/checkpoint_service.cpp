@@ -86,11 +86,16 @@ void CheckpointService::drop() {
   }));
 }
 
-void CheckpointService::resume_mission(const std::string& client, const api::Reply<void>& reply) {
-  const bool posted = mailbox_.post([this, client, reply] {
+void CheckpointService::resume_mission(const std::string& client, const StillWanted& still_wanted,
+                                       const api::Reply<void>& reply) {
+  const bool posted = mailbox_.post([this, client, still_wanted, reply] {
+    if (const Status wanted = still_wanted(); !wanted) {
+      reply(wanted);
+      return;
+    }
     const std::optional<api::MissionId> mission = loop_.mission_control().checkpoint_to_resume();
     if (mission && store_.has_folder()) {
-      resume_from(*mission, client, reply);
+      resume_from(*mission, client, still_wanted, reply);
     } else {
       reply(loop_.commands().command_mission(api::MissionCommand::kResume, client));
     }
@@ -101,8 +106,8 @@ void CheckpointService::resume_mission(const std::string& client, const api::Rep
 }
 
 void CheckpointService::resume_from(const api::MissionId& mission, const std::string& client,
-                                    const api::Reply<void>& reply) {
-  const Status ok = store_.post([this, mission, client, reply](const store::MapFiles& /*files*/) {
+                                    const StillWanted& still_wanted, const api::Reply<void>& reply) {
+  const Status ok = store_.post([this, mission, client, still_wanted, reply](const store::MapFiles& /*files*/) {
     Result<store::MapFile> file = files_.read(mission);
     const MapIdentity identity{"", file ? file->origin.created_unix_s : 0, api::MapUse::kContinue};
     std::string trouble;
@@ -113,8 +118,9 @@ void CheckpointService::resume_from(const api::MissionId& mission, const std::st
     }
     const auto map = std::make_shared<const Result<LineMap>>(
         file ? Result<LineMap>(std::move(file->map)) : Result<LineMap>(tl::unexpected<Error>(file.error())));
-    const bool posted = mailbox_.post([this, map, identity, client, kept, reply] {
-      reply(loop_.mission_control().resume_in_map(*map, identity, client, kept));
+    const bool posted = mailbox_.post([this, map, identity, client, kept, still_wanted, reply] {
+      const Status wanted = still_wanted();
+      reply(wanted ? loop_.mission_control().resume_in_map(*map, identity, client, kept) : wanted);
     });
     if (!posted) {
       reply(fail(Errc::kBusy, "the robot is overloaded or shutting down; try again"));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "common/api/robot_api.hpp"
@@ -13,6 +14,9 @@
 #include "server/store/map_files.hpp"
 
 namespace seeker::app {
+
+/// Asked in the loop's thread before something begins that was asked for earlier; fails once a stop came after that.
+using StillWanted = std::function<Status()>;
 
 /// The other end of the loop's hooks about checkpoints: files are read and written on the store's worker, the loop gets
 /// the answers through its mailbox. Outlives neither store, loop nor mailbox; its end finishes what was accepted.
@@ -31,13 +35,14 @@ class CheckpointService {
   void set_aside(const api::MissionId& mission);
   void drop();
 
-  /// Goes on with a paused mission, or with one that a crash cut off: in the map it had built, where that was kept. Any
-  /// thread.
-  void resume_mission(const std::string& client, const api::Reply<void>& reply);
+  /// Goes on with a paused mission, or with one that a crash cut off: in the map it had built, where that was kept, and
+  /// unless a stop comes while that is read. Any thread.
+  void resume_mission(const std::string& client, const StillWanted& still_wanted, const api::Reply<void>& reply);
 
  private:
   void report(const std::string& kind, const std::string& text, api::Severity severity);
-  void resume_from(const api::MissionId& mission, const std::string& client, const api::Reply<void>& reply);
+  void resume_from(const api::MissionId& mission, const std::string& client, const StillWanted& still_wanted,
+                   const api::Reply<void>& reply);
 
   MapStore& store_;
   RobotLoop& loop_;

@@ -76,6 +76,8 @@ class Robot final : public api::RobotHost {
  private:
   class Session;
 
+  /// Call it when something is asked for: what was asked for before a stop must not begin after it. Any thread.
+  [[nodiscard]] StillWanted unless_stopped() const;
   void give_own_map(const api::Reply<OwnMap>& reply);
   void give_own_topology(const api::Reply<OwnTopology>& reply);
   void give_own_seen(const api::Reply<OwnSeen>& reply);
@@ -103,8 +105,7 @@ class Robot final : public api::RobotHost {
   TransferService transfers_;
   std::vector<std::string> link_faults_;  ///< ids of those that are raised; the loop's thread
   std::thread thread_;
-  /// Stops that were asked for, and changes of the emergency stop: what was asked for before one must not begin after
-  /// it.
+  /// Stops that were asked for, counted before they are carried out.
   std::atomic<std::uint64_t> stops_{0};
   std::atomic<bool> client_seen_{false};
   std::atomic<bool> ended_{false};

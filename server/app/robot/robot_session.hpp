@@ -47,24 +47,23 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   }
   void start_mission(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) override {
     if (!by_hash(request)) {
-      start(request, std::move(reply));
+      start(request, robot_.unless_stopped(), std::move(reply));
       return;
     }
-    robot_.transfers_.add_pictures(request, [self = shared_from_this(), stops = robot_.stops_.load(),
+    robot_.transfers_.add_pictures(request, [self = shared_from_this(), wanted = robot_.unless_stopped(),
                                              reply = std::move(reply)](Result<api::MissionRequest> whole) {
-      if (!whole) {
-        reply(tl::unexpected<Error>(whole.error()));
-      } else if (self->robot_.stops_.load() != stops) {
-        reply(fail(Errc::kCancelled, "the robot was stopped while the pictures were read; start the mission again"));
+      if (whole) {
+        self->start(*whole, wanted, reply);
       } else {
-        self->start(*whole, reply);
+        reply(tl::unexpected<Error>(whole.error()));
       }
     });
   }
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     if (command == api::MissionCommand::kResume) {
       robot_.checkpoints_.resume_mission(
-          client_, [self = shared_from_this(), reply](const Status& done) { self->robot_.answer_kept(done, reply); });
+          client_, robot_.unless_stopped(),
+          [self = shared_from_this(), reply](const Status& done) { self->robot_.answer_kept(done, reply); });
       return;
     }
     ask_kept(std::move(reply), [this, command] { return loop().commands().command_mission(command, client_); });
@@ -85,7 +84,7 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
     });
   }
   void set_estop(bool engaged, api::Reply<void> reply) override {
-    ++robot_.stops_;
+    robot_.stops_ += engaged ? 1 : 0;
     on_loop(std::move(reply), [this, engaged](const api::Reply<void>& answer) {
       loop().commands().set_estop(engaged, client_);
       robot_.keep_estop(engaged, answer);
@@ -208,16 +207,21 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
         },
         request.task);
   }
-  void start(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) {
-    on_loop(std::move(reply), [this, request](const api::Reply<api::MissionAccepted>& answer) {
-      const bool again = loop().mission_control().runs(request.id);
-      const Result<api::MissionId> id = loop().commands().start_mission(request, client_);
-      if (!id) {
-        answer(tl::unexpected<Error>(id.error()));
-        return;
-      }
-      robot_.accept({*id, loop().missions().last()->link_steps}, again, answer);
-    });
+  void start(const api::MissionRequest& request, StillWanted still_wanted, api::Reply<api::MissionAccepted> reply) {
+    on_loop(std::move(reply),
+            [this, request, still_wanted = std::move(still_wanted)](const api::Reply<api::MissionAccepted>& answer) {
+              if (const Status wanted = still_wanted(); !wanted) {
+                answer(tl::unexpected<Error>(wanted.error()));
+                return;
+              }
+              const bool again = loop().mission_control().runs(request.id);
+              const Result<api::MissionId> id = loop().commands().start_mission(request, client_);
+              if (!id) {
+                answer(tl::unexpected<Error>(id.error()));
+                return;
+              }
+              robot_.accept({*id, loop().missions().last()->link_steps}, again, answer);
+            });
   }
 
   template <class T, class Work>

@@ -175,12 +175,12 @@ void write_mug(const fs::path& file) {
 }
 
 /// A search for what that picture shows; the robot has the picture from before.
-api::MissionRequest search_by_hash(const fs::path& picture) {
+api::MissionRequest search_by_hash(const fs::path& picture, const api::MissionId& id = "look") {
   api::TargetSpec target;
   target.name = "mug";
   target.picture_hash = digest::sha256_of_file(picture).value();
   api::MissionRequest mission;
-  mission.id = "look";
+  mission.id = id;
   mission.task = api::SearchMission{.targets = {target}, .bound = std::nullopt, .keep_out = {}};
   return mission;
 }
@@ -213,7 +213,8 @@ TEST_F(FileTransfers, MissionWhosePictureIsStillReadDoesNotBeginAfterAStop) {
   constexpr int kTries = 20;
   for (int k = 0; k < kTries; ++k) {
     std::promise<Result<api::MissionAccepted>> accepted;
-    client_->start_mission(search_by_hash(file), [&](auto answer) { accepted.set_value(std::move(answer)); });
+    client_->start_mission(search_by_hash(file, "look-" + std::to_string(k)),
+                           [&](auto answer) { accepted.set_value(std::move(answer)); });
     ASSERT_TRUE(ask<void>([&](auto reply) { client_->stop(reply); }));
     const auto answer = accepted.get_future().get();
     const auto status = ask<api::RobotStatus>([&](auto reply) { client_->get_status(reply); });

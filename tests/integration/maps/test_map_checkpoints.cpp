@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "server/app/robot/checkpoint_service.hpp"
 #include "tests/integration/maps/loop_with_map.hpp"
 #include "tests/support/maps/random_map.hpp"
+#include "tests/unit/server/store/temporary_folder.hpp"
 
 namespace seeker::testing {
 namespace {
@@ -299,6 +301,51 @@ TEST_F(MapCheckpoints, AnotherMissionVoidsTheMapOfTheCutOffOne) {
   ASSERT_TRUE(loop->commands().start_mission(other, "tester"));
   EXPECT_EQ(dropped, 1);
   EXPECT_FALSE(loop->mission_control().checkpoint_to_resume());
+}
+
+/// The map of the mission that was cut off is on the disk, and the loop takes its tasks when the test lets it.
+class MapOnTheDisk : public MapCheckpoints {
+ protected:
+  MapOnTheDisk() {
+    loop->mission_control().offer_unfinished(exploration());
+    service.write("look-round", {{room_map(), {}}, {}, {Pose2{1.0, 0.0, 0.0}, {}}});
+  }
+  /// Lets the loop do its tasks until this one has been answered.
+  const Status& answer() {
+    while (!answered) {
+      mailbox.wait(std::chrono::seconds(1));
+      mailbox.run_pending();
+    }
+    return *answered;
+  }
+
+  TemporaryFolder folder;
+  app::MapStore store{{folder.path(), "r1", "1.0"}};
+  app::Mailbox mailbox{16};
+  app::CheckpointService service{store, *loop, mailbox};
+  std::optional<Status> answered;
+  bool stopped = false;
+  app::StillWanted unless_stopped = [this] { return stopped ? fail(Errc::kCancelled, "stopped") : Status(); };
+};
+
+TEST_F(MapOnTheDisk, IsReadAndTheMissionGoesOnInIt) {
+  service.resume_mission("tester", unless_stopped, [this](const Status& done) { answered = done; });
+  ASSERT_TRUE(answer()) << answer().error().message;
+  EXPECT_TRUE(loop->mission_control().resumption().searching());
+}
+
+TEST_F(MapOnTheDisk, MissionDoesNotGoOnAfterAStopThatCameWhileItWasRead) {
+  service.resume_mission("tester", unless_stopped, [this](const Status& done) { answered = done; });
+  mailbox.run_pending();
+  ASSERT_FALSE(answered) << "the file is being read, or its map waits for the loop";
+  stopped = true;
+  loop->commands().stop();
+  ASSERT_FALSE(answer());
+  EXPECT_EQ(answer().error().code, Errc::kCancelled);
+  ticks(20);
+  EXPECT_FALSE(loop->mission_control().resumption().searching());
+  EXPECT_FALSE(loop->missions().present());
+  EXPECT_TRUE(loop->mission_control().checkpoint_to_resume()) << "'resume' may be said again";
 }
 
 }  // namespace
