@@ -69,7 +69,6 @@ void describe(config::Fields& f, LoopPolicy& params) {
 
 void describe(config::Fields& f, KnownGroundParams& params) {
   f.field("max_keyframes", params.max_keyframes);
-  f.field("loops", params.loops);
   f.field("within_m", params.within_m);
   f.angle_deg("within_deg", params.within_rad);
   f.field("disagreement", params.disagreement);

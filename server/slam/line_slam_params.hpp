@@ -109,9 +109,8 @@ struct LoopPolicy {
 /// How a map stops growing where the robot drives through a building that it knows.
 struct KnownGroundParams {
   /// Number of stored scans up to which everything is kept. Beyond it a finished local map that shows nothing new is
-  /// emptied: its pose, its place in the path and its best loops stay.
+  /// emptied: its pose and one relation to an older one stay, and the path leads past it.
   std::size_t max_keyframes = 4000;
-  std::size_t loops = 4;  ///< number of loops that an emptied local map keeps, most certain first; at least one
   /// A scan shows nothing new when an older local map has one from within this distance and rotation.
   double within_m = 0.5;
   double within_rad = 0.5;

@@ -134,8 +134,9 @@ class MapBackend {
   /// Empties a finished local map that shows nothing new, where the map is larger than it should be.
   void forget_known(std::uint32_t id);
   [[nodiscard]] std::size_t keyframe_count() const;
-  /// Removes all loops of a local map but the most certain ones.
-  void thin_out_loops(std::uint32_t id);
+  /// Leaves an emptied local map one relation, to an older one: its most certain loop, or the path where it has none.
+  /// The local map after it gets the relation to that older one that the path through the emptied one was.
+  void bypass(std::uint32_t id);
   /// The older local map with the nearest scan that shows what this one of local map `id` shows.
   [[nodiscard]] std::optional<std::uint32_t> shown_by(std::uint32_t id, const MapKeyframe& keyframe) const;
   /// Whether nothing has changed there since: scans of local map `id` against an older one.

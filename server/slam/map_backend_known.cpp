@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/core/angle.hpp"
+#include "server/slam/covariance.hpp"
 #include "server/slam/map_backend.hpp"
 
 namespace seeker::slam {
@@ -34,27 +35,41 @@ void MapBackend::forget_known(std::uint32_t id) {
     map.segments_node = {};
     std::erase_if(places_, [id](const auto& place) { return place.first == id; });
     std::erase(planned_, id);
-    thin_out_loops(id);
+    bypass(id);
   }
 }
 
-void MapBackend::thin_out_loops(std::uint32_t id) {
-  std::vector<std::size_t> loops;
-  for (std::size_t k = 0; k < graph_.edge_count(); ++k) {
+void MapBackend::bypass(std::uint32_t id) {
+  const auto rank = [this](std::size_t k) {
     const PoseEdge& edge = graph_.edge(k);
-    if (std::max(edge.i, edge.j) == id && edge.kernel != EdgeKernel::kNone && graph_.enabled(k)) {
-      loops.push_back(k);
+    const double certainty = graph_.edge_weight(k) * edge.information.determinant();
+    return std::pair(edge.kernel != EdgeKernel::kNone && graph_.edge_weight(k) > 0.5, certainty);
+  };
+  std::optional<std::size_t> back;
+  std::optional<std::size_t> onward;
+  for (std::size_t k = 0; k < graph_.edge_count(); ++k) {
+    if (graph_.enabled(k) && graph_.edge(k).j == id && (!back || rank(k) > rank(*back))) {
+      back = k;
+    } else if (graph_.enabled(k) && graph_.edge(k).i == id && graph_.edge(k).j == id + 1) {
+      onward = k;
     }
   }
-  std::sort(loops.begin(), loops.end(), [this](std::size_t a, std::size_t b) {
-    const auto certainty = [this](std::size_t k) {
-      return graph_.edge_weight(k) * graph_.edge(k).information.determinant();
-    };
-    return certainty(a) > certainty(b);
-  });
-  for (std::size_t k = std::max<std::size_t>(known_ground_.loops, 1); k < loops.size(); ++k) {
-    graph_.remove_edge(loops[k]);
+  SEEKER_ASSERT(back && onward);
+  const PoseEdge older_id = graph_.edge(*back);
+  const PoseEdge id_next = graph_.edge(*onward);
+  for (std::size_t k = 0; k < graph_.edge_count(); ++k) {
+    if (k != *back && (graph_.edge(k).i == id || graph_.edge(k).j == id)) {
+      graph_.remove_edge(k);
+    }
   }
+  const UncertainPose older_T_next =
+      compose({older_id.i_T_j, older_id.information.inverse()}, {id_next.i_T_j, id_next.information.inverse()});
+  const Result<std::size_t> edge = graph_.add_edge({.i = older_id.i,
+                                                    .j = id + 1,
+                                                    .i_T_j = inverse(graph_.pose(older_id.i)) * pose(id + 1),
+                                                    .information = information_of(older_T_next.covariance)});
+  SEEKER_ASSERT(edge.has_value());
+  std::erase_if(pending_, [id](const Surprise& surprise) { return surprise.loop.b == id; });
   graph_.drop_nodes(0, 0);  // numbers the edges without the removed ones
   loop_of_pair_.clear();    // the newest local map, which gets loops, has none yet
 }
