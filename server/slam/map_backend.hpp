@@ -137,6 +137,8 @@ class MapBackend {
   /// Leaves an emptied local map one relation, to an older one: its most certain loop, or the path where it has none.
   /// The local map after it gets the relation to that older one that the path through the emptied one was.
   void bypass(std::uint32_t id);
+  /// Whether a local map has no more than one relation to others.
+  [[nodiscard]] bool hangs_on_one(std::size_t node) const;
   /// The older local map with the nearest scan that shows what this one of local map `id` shows.
   [[nodiscard]] std::optional<std::uint32_t> shown_by(std::uint32_t id, const MapKeyframe& keyframe) const;
   /// Whether nothing has changed there since: scans of local map `id` against an older one.

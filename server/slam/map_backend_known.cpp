@@ -54,11 +54,15 @@ void MapBackend::bypass(std::uint32_t id) {
       onward = k;
     }
   }
-  SEEKER_ASSERT(back && onward);
+  if (!back || !onward) {
+    return;  // the first local map of a part that was joined by its second: it hangs on that one, and will
+  }
   const PoseEdge older_id = graph_.edge(*back);
   const PoseEdge id_next = graph_.edge(*onward);
   for (std::size_t k = 0; k < graph_.edge_count(); ++k) {
-    if (k != *back && (graph_.edge(k).i == id || graph_.edge(k).j == id)) {
+    const PoseEdge& edge = graph_.edge(k);
+    const bool at_id = edge.i == id || edge.j == id;
+    if (at_id && k != *back && (k == *onward || !hangs_on_one(edge.i == id ? edge.j : edge.i))) {
       graph_.remove_edge(k);
     }
   }
@@ -72,6 +76,14 @@ void MapBackend::bypass(std::uint32_t id) {
   std::erase_if(pending_, [id](const Surprise& surprise) { return surprise.loop.b == id; });
   graph_.drop_nodes(0, 0);  // numbers the edges without the removed ones
   loop_of_pair_.clear();    // the newest local map, which gets loops, has none yet
+}
+
+bool MapBackend::hangs_on_one(std::size_t node) const {
+  std::size_t enabled = 0;
+  for (std::size_t k = 0; k < graph_.edge_count(); ++k) {
+    enabled += graph_.enabled(k) && (graph_.edge(k).i == node || graph_.edge(k).j == node) ? 1 : 0;
+  }
+  return enabled <= 1;
 }
 
 std::optional<std::uint32_t> MapBackend::shown_by(std::uint32_t id, const MapKeyframe& keyframe) const {

@@ -81,6 +81,29 @@ TEST(KnownGround, WhatIsNewIsKeptHoweverLargeTheMapIs) {
   EXPECT_EQ(scans_of(backend), std::size_t{kScans} * (kSteps + 1));
 }
 
+TEST(KnownGround, PartThatIsJoinedByItsSecondLocalMapStaysJoined) {
+  Visit visit(25);
+  MapBackend backend = begun(visit, 0);
+  visit_again(visit, backend, kHere);
+  const std::uint32_t first = backend.begin_apart(visit.now());
+  visit.look(backend, kHere, kScans);
+  backend.begin_next({}, kStep, visit.now());
+  visit.look(backend, kHere, kScans);
+  backend.anchor(kHere, kStep);
+  visit_again(visit, backend, kHere);
+  visit_again(visit, backend, kHere);
+  EXPECT_TRUE(backend.maps()[first].keyframes.empty());
+  const LineMap map = backend.assemble(backend.map_end());
+  const Status valid = validate(map);
+  ASSERT_TRUE(valid) << valid.error().message;
+  for (const MapNode& node : map.nodes) {
+    const bool joined = std::any_of(map.edges.begin(), map.edges.end(),
+                                    [&](const MapEdge& edge) { return edge.from == node.id || edge.to == node.id; });
+    EXPECT_TRUE(joined) << "local map " << node.id;
+    EXPECT_LT(distance_m(node.map_T_node, kHere), 0.05) << "local map " << node.id;
+  }
+}
+
 TEST(KnownGround, PlaceThatHasChangedIsKeptAsItIsNow) {
   Visit visit(24);
   MapBackend backend = begun(visit, 0);
