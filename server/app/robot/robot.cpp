@@ -126,15 +126,6 @@ void Robot::set_link_faults(std::vector<api::Fault> faults) {
   }));
 }
 
-StillWanted Robot::unless_stopped() const {
-  return [this, before = stops_.load()] {
-    return stops_.load() == before
-               ? Status()
-               : fail(Errc::kCancelled,
-                      "the robot was stopped before the mission could begin; start or resume it again");
-  };
-}
-
 void Robot::give_own_map(const api::Reply<OwnMap>& reply) {
   const bool posted = mailbox_.post([this, reply] {
     Result<LineMap> map = loop_.mission_control().map_waits_for_resume()

@@ -76,8 +76,6 @@ class Robot final : public api::RobotHost {
  private:
   class Session;
 
-  /// Call it when something is asked for: what was asked for before a stop must not begin after it. Any thread.
-  [[nodiscard]] StillWanted unless_stopped() const;
   void give_own_map(const api::Reply<OwnMap>& reply);
   void give_own_topology(const api::Reply<OwnTopology>& reply);
   void give_own_seen(const api::Reply<OwnSeen>& reply);

@@ -47,10 +47,10 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   }
   void start_mission(const api::MissionRequest& request, api::Reply<api::MissionAccepted> reply) override {
     if (!by_hash(request)) {
-      start(request, robot_.unless_stopped(), std::move(reply));
+      start(request, unless_stopped(), std::move(reply));
       return;
     }
-    robot_.transfers_.add_pictures(request, [self = shared_from_this(), wanted = robot_.unless_stopped(),
+    robot_.transfers_.add_pictures(request, [self = shared_from_this(), wanted = unless_stopped(),
                                              reply = std::move(reply)](Result<api::MissionRequest> whole) {
       if (whole) {
         self->start(*whole, wanted, reply);
@@ -62,7 +62,7 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
   void command_mission(api::MissionCommand command, api::Reply<void> reply) override {
     if (command == api::MissionCommand::kResume) {
       robot_.checkpoints_.resume_mission(
-          client_, robot_.unless_stopped(),
+          client_, unless_stopped(),
           [self = shared_from_this(), reply](const Status& done) { self->robot_.answer_kept(done, reply); });
       return;
     }
@@ -194,6 +194,15 @@ class Robot::Session final : public api::RobotApi, public std::enable_shared_fro
 
  private:
   [[nodiscard]] RobotLoop& loop() { return robot_.loop_; }
+  /// Call it when something is asked for: what was asked for before a stop must not begin after it. Any thread.
+  [[nodiscard]] StillWanted unless_stopped() const {
+    return [&robot = robot_, before = robot_.stops_.load()] {
+      return robot.stops_.load() == before
+                 ? Status()
+                 : fail(Errc::kCancelled,
+                        "the robot was stopped before the mission could begin; start or resume it again");
+    };
+  }
   /// Whether a target's picture is named by its hash.
   [[nodiscard]] static bool by_hash(const api::MissionRequest& request) {
     const auto named = [](const api::TargetSpec& target) { return target.picture_hash.has_value(); };
