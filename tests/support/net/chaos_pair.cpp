@@ -27,7 +27,8 @@ ChaosPair::ChaosPair(Socket client, asio::io_context& io, const Impairment& rule
   }
 }
 
-void ChaosPair::start(std::uint16_t server_port, std::function<void()> on_end) {
+void ChaosPair::start(std::uint16_t server_port, std::function<void()> on_heard, std::function<void()> on_end) {
+  on_heard_ = std::move(on_heard);
   on_end_ = std::move(on_end);
   server_.async_connect({asio::ip::address_v4::loopback(), server_port}, [self = shared_from_this()](error_code error) {
     if (error) {
@@ -166,6 +167,9 @@ void ChaosPair::on_written(std::size_t way, std::size_t bytes) {
   }
   lane.queued -= size;
   lane.on_the_way.pop_front();
+  if (const auto on_heard = way == kToServer ? std::exchange(on_heard_, nullptr) : nullptr) {
+    on_heard();
+  }
   finish_if_drained(way);
   write(way);
   read(way);

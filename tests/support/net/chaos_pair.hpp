@@ -28,8 +28,9 @@ class ChaosPair : public std::enable_shared_from_this<ChaosPair> {
   /// `rules` and `rng` are the proxy's and outlive the pair.
   ChaosPair(Socket client, boost::asio::io_context& io, const Impairment& rules, Rng& rng);
 
-  /// Connects to the server's port of 127.0.0.1. `on_end` is called once, when both sides are closed.
-  void start(std::uint16_t server_port, std::function<void()> on_end);
+  /// Connects to the server's port of 127.0.0.1. `on_heard` is called once, when the server has been given the first
+  /// bytes; `on_end` once, when both sides are closed.
+  void start(std::uint16_t server_port, std::function<void()> on_heard, std::function<void()> on_end);
   /// Breaks the connection now; what is on its way is lost.
   void close();
   /// The rules have changed.
@@ -78,6 +79,7 @@ class ChaosPair : public std::enable_shared_from_this<ChaosPair> {
   Socket server_;
   const Impairment& rules_;
   Rng& rng_;
+  std::function<void()> on_heard_;
   std::function<void()> on_end_;
   std::array<Lane, 2> lanes_;
   std::size_t passed_ = 0;  ///< bytes since the rules began

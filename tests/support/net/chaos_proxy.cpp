@@ -94,7 +94,6 @@ class ChaosProxy::Impl {
       return;
     }
     serve(std::move(socket));
-    serve_held();
   }
   void hold(tcp::socket socket) {
     held_.emplace(std::move(socket));
@@ -116,10 +115,13 @@ class ChaosProxy::Impl {
     const auto pair = std::make_shared<ChaosPair>(std::move(socket), io_, rules_, rng_);
     pairs_.insert(pair);
     ++open_;
-    pair->start(server_port_, [this, key = pair.get()] {
-      std::erase_if(pairs_, [key](const auto& one) { return one.get() == key; });
-      --open_;
-    });
+    // The server must have heard the newer one before the held one, whose bytes wait already, reaches it.
+    pair->start(
+        server_port_, [this] { serve_held(); },
+        [this, key = pair.get()] {
+          std::erase_if(pairs_, [key](const auto& one) { return one.get() == key; });
+          --open_;
+        });
   }
 };
 
