@@ -20,6 +20,8 @@ constexpr double kWindowAhead_m = 1.5;  ///< and this far ahead
 constexpr double kLookaheadStep_m = 0.05;
 /// A path that is longer than what was left of the previous one by this much leads around another side.
 constexpr double kAnotherPath_m = 0.5;
+/// So far along the path the robot follows it closely after an obstacle left no room to drive.
+constexpr double kTight_m = 0.5;
 constexpr double kStanding_m_s = 0.03;
 constexpr double kStanding_rad_s = 0.08;
 
@@ -45,6 +47,7 @@ void PathFollower::set_path(Path path, RobotTime now, std::optional<double> fina
   }
   final_heading_rad_ = final_heading_rad;
   reached_m_ = 0.0;
+  tight_until_m_ = 0.0;
   rotating_ = false;
   at_goal_ = false;
   blocked_since_.reset();
@@ -60,8 +63,10 @@ void PathFollower::replace_path(Path path, RobotTime now) {
   const double best_remaining_m = best_remaining_m_;
   const double best_error_rad = best_error_rad_;
   const bool turning = rotating_;
+  const double tight_m = std::max(0.0, tight_until_m_ - reached_m_);
   set_path(std::move(path), now, final_heading_rad_);
   rotating_ = turning;
+  tight_until_m_ = tight_m;
   if (same_path) {
     blocked_since_ = blocked_since;
     progress_at_ = progress_at;
@@ -115,7 +120,7 @@ PathFollower::Target PathFollower::find_target(const Point2& p_map) {
   }
   reached_m_ = along_m;
   // The point aimed at is nearer where the straight segment to it would cut a corner.
-  double aim_m = std::min(along_m + params_.lookahead_m, arc_m_.back());
+  double aim_m = std::min(along_m + (tight() ? params_.min_lookahead_m : params_.lookahead_m), arc_m_.back());
   const auto cuts_corner = [&] {
     for (std::size_t k = 0; k < arc_m_.size(); ++k) {
       if (arc_m_[k] > along_m && arc_m_[k] < aim_m &&
@@ -155,7 +160,9 @@ Twist2 PathFollower::rotate_towards(double error_rad) const {
 
 Twist2 PathFollower::desired(const Pose2& map_T_base, const Target& target) {
   const double error_rad = bearing_to(map_T_base, target.p_map);
-  const double limit_rad = rotating_ ? params_.rotate_done_rad : params_.rotate_in_place_rad;
+  const double start_rad = tight() ? params_.rotate_done_rad : params_.rotate_in_place_rad;
+  const double done_rad = tight() ? params_.heading_tolerance_rad : params_.rotate_done_rad;
+  const double limit_rad = rotating_ ? done_rad : start_rad;
   rotating_ = std::abs(error_rad) > limit_rad;
   if (rotating_) {
     return rotate_towards(error_rad);
@@ -167,6 +174,13 @@ Twist2 PathFollower::desired(const Pose2& map_T_base, const Target& target) {
   v = std::min(v, params_.max_omega_rad_s / std::max(std::abs(curvature), 1e-6));
   v = std::max(v, params_.min_v_m_s);
   return {v, std::clamp(v * curvature, -params_.max_omega_rad_s, params_.max_omega_rad_s)};
+}
+
+/// No room: a curve towards a point farther ahead cuts a corner that the path itself leads around.
+void PathFollower::follow_closely(const Pose2& map_T_base) {
+  tight_until_m_ = reached_m_ + kTight_m;
+  const Point2 aim_map = find_target(map_T_base.translation()).p_map;
+  rotating_ = std::abs(bearing_to(map_T_base, aim_map)) > params_.heading_tolerance_rad;
 }
 
 Twist2 PathFollower::smooth(const Twist2& wanted, double dt_s) const {
@@ -264,6 +278,9 @@ FollowStep PathFollower::step(const Pose2& map_T_base, const std::vector<Point2>
   const Twist2 wanted = desired(map_T_base, target);
   const Twist2 before = command_;
   command_ = limit_for_clearance(smooth(wanted, dt_s), points_base, params_.clearance);
+  if (!rotating_ && command_.v_m_s <= 0.0) {
+    follow_closely(map_T_base);
+  }
   if (auto problem = watch(map_T_base, points_base, target, now)) {
     command_ = before;
     command_ = limit_for_clearance(smooth({}, dt_s), points_base, params_.clearance);

@@ -102,6 +102,9 @@ class PathFollower {
                                                 const Target& target, RobotTime now);
   [[nodiscard]] FollowStep finish(const Pose2& map_T_base, const Target& target, double dt_s, RobotTime now);
   [[nodiscard]] Point2 point_at(double along_m) const;
+  /// Whether the robot stays close to the path; see follow_closely().
+  [[nodiscard]] bool tight() const { return reached_m_ < tight_until_m_; }
+  void follow_closely(const Pose2& map_T_base);
   [[nodiscard]] bool stuck(double remaining_m, double error_rad, RobotTime now);
 
   FollowerParams params_;
@@ -111,6 +114,8 @@ class PathFollower {
   Twist2 command_;
   /// Farthest projection on the path so far, so that a path that crosses itself is followed completely.
   double reached_m_ = 0.0;
+  /// Path length up to which the robot stays close to the path, because an obstacle had left no room to drive.
+  double tight_until_m_ = 0.0;
   bool rotating_ = false;
   bool at_goal_ = false;
   std::optional<RobotTime> last_step_;

@@ -154,6 +154,22 @@ TEST(PathFollower, GoesOnAlongItsPathWhenTheMapMoves) {
   FAIL() << "never arrived: " << pose;
 }
 
+TEST(PathFollower, WhereACutCornerLeavesNoRoomItFollowsThePathItself) {
+  const Path path{{{0.0, 0.0}, {0.28, 0.0}, {1.03, 0.66}}, 1.28, 1.28};
+  const Point2 corner_map(0.14, 0.265);  // beside the path, within the arc that leads to its second leg
+  PathFollower follower;
+  follower.set_path(path, robot_time_s(0.0));
+  Pose2 map_T_base;
+  FollowStep step;
+  for (double t_s = 0.0; t_s < 20.0 && step.state != FollowState::kArrived; t_s += kTick_s) {
+    step = follower.step(map_T_base, {inverse(map_T_base) * corner_map}, robot_time_s(t_s));
+    ASSERT_NE(step.state, FollowState::kBlocked) << "after " << t_s << " s at " << map_T_base.x_m;
+    map_T_base = map_T_base * integrate(step.command, kTick_s);
+    ASSERT_GT((map_T_base.translation() - corner_map).norm(), kBody_m);
+  }
+  EXPECT_EQ(step.state, FollowState::kArrived);
+}
+
 TEST(PathFollower, SaysStuckWhenTheBaseDoesNotMove) {
   PathFollower follower;
   follower.set_path(Path{{{0.0, 0.0}, {3.0, 0.0}}, 3.0, 3.0}, robot_time_s(0.0));
