@@ -71,6 +71,8 @@ void describe(config::Fields& f, KnownGroundParams& params) {
   f.field("max_keyframes", params.max_keyframes);
   f.field("within_m", params.within_m);
   f.angle_deg("within_deg", params.within_rad);
+  f.field("known_share", params.known_share);
+  f.field("compared_maps", params.compared_maps);
   f.field("disagreement", params.disagreement);
 }
 

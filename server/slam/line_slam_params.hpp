@@ -114,8 +114,11 @@ struct KnownGroundParams {
   /// A scan shows nothing new when an older local map has one from within this distance and rotation.
   double within_m = 0.5;
   double within_rad = 0.5;
+  /// Nor does it when the nearest few older local maps show this share of its points, and of the floor before them.
+  double known_share = 0.9;
+  std::size_t compared_maps = 4;  ///< number of those
   /// Share of beams that the older local map contradicts, from which on the place has changed and the scans are kept.
-  double disagreement = 0.05;
+  double disagreement = 0.1;
 };
 
 /// Global relocalisation: localisation in a map without a known initial pose.

@@ -139,8 +139,15 @@ class MapBackend {
   void bypass(std::uint32_t id);
   /// Whether a local map has no more than one relation to others.
   [[nodiscard]] bool hangs_on_one(std::size_t node) const;
-  /// The older local map with the nearest scan that shows what this one of local map `id` shows.
-  [[nodiscard]] std::optional<std::uint32_t> shown_by(std::uint32_t id, const MapKeyframe& keyframe) const;
+  /// An older local map with scans, and how near one of them was taken to a place.
+  struct NearMap {
+    std::uint32_t id;
+    double away_m;
+    bool looked_so;  ///< whether one from within the limits looked in that direction too
+  };
+  [[nodiscard]] std::vector<NearMap> nearest_older(std::uint32_t id, const Pose2& map_T_base) const;
+  /// The nearest older local map that shows what this scan of local map `id` shows, alone or with others around it.
+  [[nodiscard]] std::optional<std::uint32_t> shown_by(std::uint32_t id, const MapKeyframe& keyframe);
   /// Whether nothing has changed there since: scans of local map `id` against an older one.
   [[nodiscard]] bool agrees(std::uint32_t older, std::uint32_t id, const std::vector<SeenPoints>& seen_node);
 

@@ -1,15 +1,18 @@
 // Ground that the map shows already: what a robot that stays in its building no longer adds to it.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "common/core/angle.hpp"
 #include "server/slam/covariance.hpp"
+#include "server/slam/known_share.hpp"
 #include "server/slam/map_backend.hpp"
 
 namespace seeker::slam {
-
 std::size_t MapBackend::keyframe_count() const {
   return std::accumulate(maps_.begin(), maps_.end(), std::size_t{0},
                          [](std::size_t sum, const LocalMap& map) { return sum + map.keyframes.size(); });
@@ -86,22 +89,41 @@ bool MapBackend::hangs_on_one(std::size_t node) const {
   return enabled <= 1;
 }
 
-std::optional<std::uint32_t> MapBackend::shown_by(std::uint32_t id, const MapKeyframe& keyframe) const {
+std::optional<std::uint32_t> MapBackend::shown_by(std::uint32_t id, const MapKeyframe& keyframe) {
   const Pose2 map_T_base = pose(id) * keyframe.node_T_base;
-  std::optional<std::uint32_t> nearest;
-  double nearest_m = known_ground_.within_m;
+  const std::vector<NearMap> near = nearest_older(id, map_T_base);
+  const auto from_there = std::find_if(near.begin(), near.end(), [](const NearMap& map) { return map.looked_so; });
+  if (from_there != near.end()) {
+    return from_there->id;
+  }
+  std::vector<PlacedMap> maps;
+  for (std::size_t k = 0; k < std::min(near.size(), known_ground_.compared_maps); ++k) {
+    if (std::shared_ptr<const PlaceMap> place = place_of(near[k].id)) {
+      maps.push_back({inverse(pose(near[k].id)), std::move(place)});
+    }
+  }
+  const ScanView view_map = transform(map_T_base, scan_view(unpack_scan(keyframe), params_.view_range_m));
+  const bool known = known_share(view_map, maps) >= known_ground_.known_share;
+  return known ? std::optional(near.front().id) : std::nullopt;
+}
+
+std::vector<MapBackend::NearMap> MapBackend::nearest_older(std::uint32_t id, const Pose2& map_T_base) const {
+  std::vector<NearMap> near;
   for (std::uint32_t older = 0; older < id; ++older) {
     const Pose2 older_T_base = inverse(pose(older)) * map_T_base;
+    NearMap map{older, std::numeric_limits<double>::infinity(), false};
     for (const MapKeyframe& other : maps_[older].keyframes) {
       const double away_m = distance_m(other.node_T_base, older_T_base);
       const double away_rad = std::abs(wrap_angle(other.node_T_base.theta_rad - older_T_base.theta_rad));
-      if (away_m <= nearest_m && away_rad <= known_ground_.within_rad) {
-        nearest = older;
-        nearest_m = away_m;
-      }
+      map.away_m = std::min(map.away_m, away_m);
+      map.looked_so = map.looked_so || (away_m <= known_ground_.within_m && away_rad <= known_ground_.within_rad);
+    }
+    if (std::isfinite(map.away_m)) {
+      near.push_back(map);
     }
   }
-  return nearest;
+  std::stable_sort(near.begin(), near.end(), [](const NearMap& a, const NearMap& b) { return a.away_m < b.away_m; });
+  return near;
 }
 
 bool MapBackend::agrees(std::uint32_t older, std::uint32_t id, const std::vector<SeenPoints>& seen_node) {

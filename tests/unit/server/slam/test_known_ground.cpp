@@ -72,13 +72,28 @@ TEST(KnownGround, WithinItsLimitAMapKeepsEverything) {
 }
 
 TEST(KnownGround, WhatIsNewIsKeptHoweverLargeTheMapIs) {
-  Visit visit(23);
+  std::vector<Wall> walls = box(0.0, 0.0, 40.0, 6.0);
+  for (const double x_m : {6.0, 12.0, 18.0, 24.0, 30.0}) {
+    const auto shelf = box(x_m, 1.5, x_m + 0.5, 4.5);
+    walls.insert(walls.end(), shelf.begin(), shelf.end());
+  }
+  Visit visit(23, walls);
   MapBackend backend = begun(visit, 0);
-  constexpr int kSteps = 7;
+  constexpr int kSteps = 6;
   for (int step = 1; step <= kSteps; ++step) {
-    visit_again(visit, backend, kHere * Pose2{0.95 * step, 0.0, 0.0});
+    visit_again(visit, backend, kHere * Pose2{6.0 * step, 0.0, 0.0});
   }
   EXPECT_EQ(scans_of(backend), std::size_t{kScans} * (kSteps + 1));
+}
+
+TEST(KnownGround, OtherViewsOfWhatIsKnownAreNotKept) {
+  Visit visit(26, box(0.0, 0.0, 10.0, 6.0));
+  MapBackend backend = begun(visit, 0);
+  visit_again(visit, backend, kHere * Pose2{5.0, 1.0, 2.0});
+  for (int step = 1; step <= 4; ++step) {
+    visit_again(visit, backend, kHere * Pose2{0.9 * step, 0.2 * step, 0.5});
+  }
+  EXPECT_LE(scans_of(backend), std::size_t{4} * kScans);
 }
 
 TEST(KnownGround, PartThatIsJoinedByItsSecondLocalMapStaysJoined) {
