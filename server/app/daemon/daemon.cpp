@@ -11,6 +11,7 @@
 #include "server/app/composition/link_options.hpp"
 #include "server/app/composition/robot_assembly.hpp"
 #include "server/app/composition/robot_options.hpp"
+#include "server/app/daemon/heap.hpp"
 #include "server/app/daemon/service_notifier.hpp"
 #include "server/app/fleet/fleet_part.hpp"
 #include "server/app/metrics/metrics_service.hpp"
@@ -205,6 +206,7 @@ std::filesystem::path default_state_folder() {
 }
 
 int run_daemon(const DaemonArguments& arguments) {
+  keep_heap_compact();
   log::set_level(log::parse_level(arguments.log_level).value_or(log::Level::kInfo));
   if (const std::optional<log::Format> format = log::parse_format(arguments.log_format)) {
     log::set_format(*format);
