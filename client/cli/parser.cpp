@@ -152,14 +152,13 @@ void add_explore(Parse& parse) {
       "Ctrl-C asks the robot to stop the mission before the program ends.");
   sub->add_option(
          "--strategy", o->strategy,
-         "horizon: plans several drives ahead, whole maps in little time; "
-         "active: the published rule, a step at a time: three to seven times as long, errors of the pose half "
-         "as large; frontier: drives to the nearest unknown floor: a quarter less time than horizon, the pose "
-         "less certain, walls that were seen too poorly left out; gain: most unknown floor for the distance: "
-         "about the time of horizon, walls left out as by frontier; tour: a tour over all that it still has to see: "
-         "in offices about a sixth less path than frontier, in small worlds no less; topological: by the goals of a "
-         "map of places, which robots of a fleet share; roam: straight on until something is near: only to compare "
-         "with, it never ends by itself")
+         "tour: a tour over all that it still has to see, room by room: the shortest path and the least time; "
+         "horizon: plans several drives ahead and keeps the pose more certain: twice as long; "
+         "active: the published rule, a step at a time: ten times as long, the smallest errors of the pose; "
+         "frontier: drives to the nearest unknown floor, walls that were seen too poorly left out; gain: most unknown "
+         "floor for the distance, walls left out as by frontier; topological: by the goals of a map of places, which "
+         "robots of a fleet share; roam: straight on until something is near: only to compare with, it never ends by "
+         "itself")
       ->check(CLI::IsMember(names_of(api::kExploreStrategies)))
       ->capture_default_str();
   sub->add_option("--bound", o->bound, "Explore inside only: corners \"x,y x,y ...\" in m, or @FILE with a YAML list");

@@ -19,7 +19,7 @@
 namespace seeker::explore {
 
 struct ExploreRequest {
-  StrategyMaker strategy = maker_of(Strategy::kHorizon);
+  StrategyMaker strategy = maker_of(Strategy::kTour);
   nav::ForbiddenAreas areas;     ///< frame `map`
   bool return_to_start = false;  ///< drive back to the pose of the first step before the time is up
 };

@@ -131,6 +131,7 @@ Status check_tour(const TourParams& p) {
     return costs;
   }
   return all_positive({{"tour.replan_period_s", p.replan_period_s},
+                       {"tour.max_v_m_s", p.max_v_m_s},
                        {"tour.rotate_in_place_deg", p.rotate_in_place_rad},
                        {"tour.rooms.door_half_m", p.rooms.door_half_m}});
 }

@@ -10,6 +10,7 @@ namespace seeker::explore {
 namespace {
 
 std::unique_ptr<ExploreStrategy> tour_strategy(ExploreParams params) {
+  params.driver.follower.max_v_m_s = params.tour.max_v_m_s;
   params.driver.follower.rotate_in_place_rad = params.tour.rotate_in_place_rad;
   return std::make_unique<PlaceStrategy>(params, make_tour_chooser(params));
 }

@@ -194,7 +194,9 @@ const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vec
   for (std::size_t k = 0; k < near.size(); ++k) {
     const double detour_m = from_here[k + 1] + to_next[k + 1] - from_here.front() + turn_cost(input, *near[k], true);
     const double wall_m = near[k]->opening.kind == OpeningKind::kWallFace ? near[k]->opening.size_m : 0.0;
-    const double spare_m = params_.tour.passing_m + params_.tour.passing_wall * wall_m - detour_m;
+    const bool under_way = input.goal != nullptr && input.goal->id == near[k]->opening.id;
+    const double kept_m = under_way ? params_.tour.hysteresis_m : 0.0;  // else it turns to and fro between two goals
+    const double spare_m = params_.tour.passing_m + params_.tour.passing_wall * wall_m + kept_m - detour_m;
     if (spare_m > best_m) {
       best_m = spare_m;
       best = near[k];

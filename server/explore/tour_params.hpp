@@ -21,6 +21,8 @@ struct TourParams {
   double passing_near_m = 4.0;     ///< such openings count only this near to the robot
   double hysteresis_m = 1.0;       ///< another goal while driving, and another order, must save this much
   double replan_period_s = 1.0;    ///< the tour is planned again this often while the robot drives
+  /// Speed in place of the driver's: obstacles, corners and the end of the path slow the robot as they must.
+  double max_v_m_s = 0.75;
   /// The robot turns on the spot beyond this heading error only: smaller turns are driven as arcs.
   double rotate_in_place_rad = 1.0;
   double look_s = 0.3;               ///< how long the robot stands at a place that the drive did not settle

@@ -106,6 +106,7 @@ void describe(config::Fields& f, TourParams& params) {
   f.field("passing_near_m", params.passing_near_m);
   f.field("hysteresis_m", params.hysteresis_m);
   f.field("replan_period_s", params.replan_period_s);
+  f.field("max_v_m_s", params.max_v_m_s);
   f.angle_deg("rotate_in_place_deg", params.rotate_in_place_rad);
   f.field("look_s", params.look_s);
   f.field("max_places", params.max_places);

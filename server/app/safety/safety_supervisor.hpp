@@ -14,7 +14,7 @@
 namespace seeker::app {
 
 struct SafetyParams {
-  double max_v_m_s = 0.5;
+  double max_v_m_s = 0.75;
   double max_omega_rad_s = 1.2;
   nav::ClearanceParams clearance;
   double sonar_stop_range_m = 0.8;  ///< echoes beyond it never limit motion: the cones are too wide

@@ -88,11 +88,11 @@ TEST(Script, ErrorsNameFileLineAndPath) {
             std::string::npos);
 }
 
-TEST(Script, AnExplorationLooksSeveralDrivesAheadUnlessItNamesAStrategy) {
+TEST(Script, AnExplorationDrivesToursUnlessItNamesAStrategy) {
   const auto script =
       parse_script("steps:\n  - explore: {return_to_start: true}\n  - explore: {strategy: active}\n", "m.yaml");
   ASSERT_TRUE(script) << script.error().message;
-  EXPECT_EQ(std::get<ExploreStep>(script->steps[0].action).strategy, api::ExploreStrategy::kHorizon);
+  EXPECT_EQ(std::get<ExploreStep>(script->steps[0].action).strategy, api::ExploreStrategy::kTour);
   EXPECT_EQ(std::get<ExploreStep>(script->steps[1].action).strategy, api::ExploreStrategy::kActive);
 }
 

@@ -152,7 +152,7 @@ TEST_F(Verbs, ExploreSendsWhatTheUserAskedFor) {
   EXPECT_EQ(missions[0].link_policy, api::LinkPolicy::kContinue);
   EXPECT_EQ(*missions[0].time_limit, seconds(60));
   EXPECT_EQ(std::get<api::ExploreMission>(missions[1].task), api::ExploreMission{});
-  EXPECT_EQ(std::get<api::ExploreMission>(missions[1].task).strategy, api::ExploreStrategy::kHorizon);
+  EXPECT_EQ(std::get<api::ExploreMission>(missions[1].task).strategy, api::ExploreStrategy::kTour);
   EXPECT_TRUE(std::get<api::SearchMission>(missions[2].task).explore);
 }
 

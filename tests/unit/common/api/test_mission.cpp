@@ -201,8 +201,8 @@ TEST(Names, EveryTopicAndOutcomeHasItsOwn) {
   EXPECT_EQ(outcomes.size(), static_cast<std::size_t>(Outcome::kFault) + 1);
 }
 
-TEST(ExploreMission, LooksSeveralDrivesAheadUnlessAnotherStrategyIsNamed) {
-  EXPECT_EQ(ExploreMission{}.strategy, ExploreStrategy::kHorizon);
+TEST(ExploreMission, DrivesToursUnlessAnotherStrategyIsNamed) {
+  EXPECT_EQ(ExploreMission{}.strategy, ExploreStrategy::kTour);
 }
 
 TEST(Names, EveryStrategyAndTaskHasItsOwn) {

@@ -100,7 +100,7 @@ TEST(TourEnds, PeopleInADoorDelayIt) {
   ToyExplorer::Hooks hooks;
   hooks.world = [walls = robot.world().walls.size()](double t_s, ToyWorld& world) {
     world.walls.resize(walls);
-    if (t_s > 6.0 && t_s < 60.0) {
+    if (t_s > 2.0 && t_s < 60.0) {
       world.walls = joined(world.walls, box(4.9, 2.0, 5.3, 3.0));
     }
   };
@@ -248,6 +248,20 @@ TEST_F(TourDecision, WhatIsTooLittleIsTakenOnTheWayOnly) {
   const PlaceChoice passed = choose(*near, {end, border_at({19.0, 5.0}, 2)});
   ASSERT_TRUE(passed.opening.has_value());
   EXPECT_EQ(passed.opening->id, 7U) << passed.decision.why;
+}
+
+TEST_F(TourDecision, WhatIsTakenOnTheWayIsNotGivenUpForATurn) {
+  Opening end = border_at({15.0, 5.3}, 7);
+  end.kind = OpeningKind::kWallEnd;
+  end.map_T_view = {15.0, 5.0, 0.0};
+  const std::vector<Opening> open{end, border_at({19.0, 5.0}, 2)};
+  robot_ = {14.9, 4.6, 0.0};
+  const PlaceChoice fresh = choose(*make_tour_chooser({}), open);
+  ASSERT_TRUE(fresh.opening.has_value());
+  EXPECT_EQ(fresh.opening->id, 2U) << "the turn to the other one is too long a detour";
+  const PlaceChoice under_way = choose(*make_tour_chooser({}), open, &end);
+  ASSERT_TRUE(under_way.opening.has_value());
+  EXPECT_EQ(under_way.opening->id, 7U) << under_way.decision.why;
 }
 
 TEST_F(TourDecision, AnUncertainLegPassesACertainPlace) {

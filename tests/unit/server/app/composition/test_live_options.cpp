@@ -39,7 +39,7 @@ TEST_F(LiveOptionsTest, AChangeIsReadAndKeptInTwoSteps) {
   ASSERT_EQ(change->changed.size(), 2U);
   EXPECT_EQ(change->changed.front(),
             (api::ComponentSetting{"max_v_m_s", "0.25", "loop.safety.max_v_m_s", api::SettingEffect::kNow}));
-  EXPECT_EQ(value("safety", "max_v_m_s"), "0.5") << "not kept yet";
+  EXPECT_EQ(value("safety", "max_v_m_s"), "0.75") << "not kept yet";
   change->keep();
   EXPECT_EQ(value("safety", "max_v_m_s"), "0.25");
 }
