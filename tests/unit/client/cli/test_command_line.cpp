@@ -43,7 +43,7 @@ TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
 
 TEST(CommandLine, HelpSaysWhatEachStrategyOfAnExplorationIsGoodFor) {
   const std::string help = parse_command_line({"explore", "--help"}).out;
-  EXPECT_NE(help.find("=horizon"), std::string::npos) << "the default: " << help;
+  EXPECT_NE(help.find("=tour"), std::string::npos) << "the default: " << help;
   for (const api::ExploreStrategy strategy : api::kExploreStrategies) {
     EXPECT_NE(help.find(std::string(to_string(strategy)) + ":"), std::string::npos) << help;
   }
