@@ -21,10 +21,8 @@ bool shows_surface(const PlacedMap& map, const OrientedPoint& seen_map) {
 
 }  // namespace
 
-ScanView scan_view(const LaserScan& scan, double range_m) {
-  ScanView view{seen_points(scan), {}};
-  std::erase_if(view.surfaces.points,
-                [&](const OrientedPoint& point) { return (point.p - view.surfaces.origin).norm() > range_m; });
+std::vector<Point2> passed_floor(const LaserScan& scan, double range_m) {
+  std::vector<Point2> floor_base;
   for (std::size_t k = 0; k < scan.ranges_m.size(); ++k) {
     const double measured_m = scan.ranges_m[k];
     if (std::isnan(measured_m)) {
@@ -33,10 +31,10 @@ ScanView scan_view(const LaserScan& scan, double range_m) {
     const double end_m = std::min(measured_m - kFloorMargin_m, range_m);
     const double angle_rad = scan.angle_rad(k);
     for (double along_m = kFloorStep_m; along_m < end_m; along_m += kFloorStep_m) {
-      view.floor.push_back(scan.base_T_laser * Point2(along_m * std::cos(angle_rad), along_m * std::sin(angle_rad)));
+      floor_base.push_back(scan.base_T_laser * Point2(along_m * std::cos(angle_rad), along_m * std::sin(angle_rad)));
     }
   }
-  return view;
+  return floor_base;
 }
 
 ScanView transform(const Pose2& a_T_b, const ScanView& view_b) {

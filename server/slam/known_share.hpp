@@ -22,8 +22,9 @@ struct ScanView {
   std::vector<Point2> floor;
 };
 
-/// The view of a scan up to a range, in the frame `base`. A beam that met nothing shows floor up to that range.
-[[nodiscard]] ScanView scan_view(const LaserScan& scan, double range_m);
+/// Places of the floor that a scan's beams pass up to a range, in the frame `base`. A beam that met nothing passes
+/// floor up to that range.
+[[nodiscard]] std::vector<Point2> passed_floor(const LaserScan& scan, double range_m);
 [[nodiscard]] ScanView transform(const Pose2& a_T_b, const ScanView& view_b);
 
 /// Share, 0 to 1, of the view's surfaces and places of the floor that at least one of the local maps shows as such; 0

@@ -13,6 +13,7 @@
 #include "server/slam/map_backend.hpp"
 
 namespace seeker::slam {
+
 std::size_t MapBackend::keyframe_count() const {
   return std::accumulate(maps_.begin(), maps_.end(), std::size_t{0},
                          [](std::size_t sum, const LocalMap& map) { return sum + map.keyframes.size(); });
@@ -102,8 +103,9 @@ std::optional<std::uint32_t> MapBackend::shown_by(std::uint32_t id, const MapKey
       maps.push_back({inverse(pose(near[k].id)), std::move(place)});
     }
   }
-  const ScanView view_map = transform(map_T_base, scan_view(unpack_scan(keyframe), params_.view_range_m));
-  const bool known = known_share(view_map, maps) >= known_ground_.known_share;
+  const double range_m = params_.view_range_m;
+  const ScanView view_base{view_of(keyframe, range_m), passed_floor(unpack_scan(keyframe), range_m)};
+  const bool known = known_share(transform(map_T_base, view_base), maps) >= known_ground_.known_share;
   return known ? std::optional(near.front().id) : std::nullopt;
 }
 
