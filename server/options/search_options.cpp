@@ -107,6 +107,7 @@ void describe(config::Fields& f, DetectionParams& params) {
   f.field("gate_bearing", params.gate_bearing);
   f.field("new_place_m", params.new_place_m);
   f.field("confirm_places", params.confirm_places);
+  f.field("confirm_position", params.confirm_position);
   f.field("sure_score", params.sure_score);
   f.field("max_misses", params.max_misses);
   f.field("miss_probability", params.miss_probability);

@@ -27,7 +27,10 @@ struct DetectionParams {
   double gate_position = 9.21;                 ///< chi2, 2 dof, 99 %
   double gate_bearing = 6.63;                  ///< chi2, 1 dof, 99 %
   double new_place_m = 0.3;                    ///< a sighting from farther away than this is from another place
-  int confirm_places = 2;    ///< number of places that must have seen it; 1: the first sighting counts
+  int confirm_places = 2;  ///< number of places that must have seen it; 1: the first sighting counts
+  /// Whether a track must have a position, too: to see something again in the same direction may be to make the same
+  /// mistake again.
+  bool confirm_position = true;
   double sure_score = 0.95;  ///< a score at or above confirms at once
   int max_misses = 3;        ///< misses beyond the number of sightings that refute a track
   /// An observation without the target counts as a miss where the hit rate is at least this.

@@ -173,8 +173,9 @@ void DetectionTracker::join(Track& track, const Observation& observation, const 
     *same = observation;
   }
   estimate(track);
-  d.confirmed = d.confirmed || static_cast<int>(track.places.size()) >= params_.confirm_places ||
-                sighting.score >= params_.sure_score;
+  const bool located = d.position_map.has_value() || !params_.confirm_position;
+  const bool seen_enough = static_cast<int>(track.places.size()) >= params_.confirm_places;
+  d.confirmed = d.confirmed || (seen_enough && located) || sighting.score >= params_.sure_score;
 }
 
 void DetectionTracker::estimate(Track& track) const {

@@ -236,6 +236,9 @@ void SearchMission::Impl::transform(const MapMove& move) {
   for (Point2& p : refused_) {
     p = move * p;
   }
+  for (Pose2& bearing : refused_bearings_) {
+    bearing = move * bearing;
+  }
 }
 
 }  // namespace seeker::search

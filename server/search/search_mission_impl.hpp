@@ -65,6 +65,8 @@ class SearchMission::Impl {
   void finish_found(std::uint64_t id, SearchStep& out);
   [[nodiscard]] std::string not_found() const;
   void finish_covered(const StrategyStep& step, const StrategyInput& input, SearchStep& out);
+  [[nodiscard]] bool refused_before(const Detection& detection) const;
+  void note_refusal(std::uint64_t id);
   [[nodiscard]] std::string name_of(int target) const;
   [[nodiscard]] double smallest_target_m() const;
 
@@ -75,6 +77,8 @@ class SearchMission::Impl {
   std::set<std::uint64_t> sighted_;    ///< detections reported as sighting
   std::set<std::uint64_t> confirmed_;  ///< detections reported as confirmed
   std::vector<Point2> refused_;        ///< places where confirming failed, frame `map`
+  /// Places from where confirming failed, each with the heading towards what was seen in no place that was found.
+  std::vector<Pose2> refused_bearings_;
   std::optional<SearchEnd> end_;
   std::optional<RobotTime> waiting_since_;   ///< since when the mission waits for a picture
   std::optional<RobotTime> standing_since_;  ///< since when the robot stands

@@ -14,6 +14,8 @@ namespace {
 
 /// A track so near to a refused one is the same mistake: no second detour for it.
 constexpr double kRefusedAgain_m = 0.6;
+/// And so is one without a position, in the same direction from a place so near.
+constexpr double kSameView_m = 2.0;
 /// More answers than this were not asked for.
 constexpr std::size_t kMaxPendingLooks = 16;
 /// The last stretch before a target is the target itself in the occupancy.
@@ -93,7 +95,7 @@ void SearchMission::Impl::note_sighting(std::uint64_t id, const StrategyInput& i
   if (!detection) {
     return;
   }
-  if (detection->position_map && nav::near_any(*detection->position_map, refused_, kRefusedAgain_m)) {
+  if (!detection->confirmed && refused_before(*detection)) {
     tracker_.refute(id);
     return;
   }
@@ -150,13 +152,31 @@ void SearchMission::Impl::run_visit(const StrategyInput& input, SearchStep& out)
   if (result == VisitResult::kReached) {
     finish_found(id, out);
   } else if (result == VisitResult::kRefused) {
-    if (const auto detection = tracker_.find(id); detection && detection->position_map) {
-      refused_.push_back(*detection->position_map);
-    }
-    tracker_.refute(id);
+    note_refusal(id);
     out.events.push_back({"refuted", "detection " + std::to_string(id) +
                                          (approaching ? " is not there from near" : " could not be confirmed")});
   }
+}
+
+bool SearchMission::Impl::refused_before(const Detection& detection) const {
+  if (detection.position_map) {
+    return nav::near_any(*detection.position_map, refused_, kRefusedAgain_m);
+  }
+  return std::any_of(refused_bearings_.begin(), refused_bearings_.end(), [&](const Pose2& from) {
+    return distance_m(from, detection.map_T_base) < kSameView_m &&
+           std::abs(wrap_angle(from.theta_rad - detection.bearing_map_rad)) < params_.detection.min_parallax_rad;
+  });
+}
+
+void SearchMission::Impl::note_refusal(std::uint64_t id) {
+  if (const auto detection = tracker_.find(id)) {
+    if (detection->position_map) {
+      refused_.push_back(*detection->position_map);
+    } else {
+      refused_bearings_.push_back({detection->map_T_base.x_m, detection->map_T_base.y_m, detection->bearing_map_rad});
+    }
+  }
+  tracker_.refute(id);
 }
 
 /// As wide as a square of the floor about the place that was not searched, or as the frontier that it is.

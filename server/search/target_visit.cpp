@@ -26,6 +26,24 @@ Point2 ahead(const Pose2& pose, double heading_rad, double distance_m) {
   return pose.translation() + distance_m * Point2(std::cos(heading_rad), std::sin(heading_rad));
 }
 
+/// To the left or the right of a bearing, from where it has the most parallax: the nearer of the two, away from
+/// `others`.
+std::optional<Point2> place_beside(const nav::FloorView& floor, const Pose2& map_T_base, double bearing_map_rad,
+                                   double step_m, const std::vector<Point2>& others, double away_m) {
+  const auto costs = nav::DistanceField::build(floor.cost, map_T_base.translation());
+  std::optional<Point2> best;
+  double best_cost = 0.0;
+  for (const double side_rad : {kPi / 2.0, -kPi / 2.0}) {
+    const Point2 p = ahead(map_T_base, bearing_map_rad + side_rad, step_m);
+    const auto cost = costs ? costs->cost_to(p) : std::nullopt;
+    if (cost && (!best || *cost < best_cost) && !nav::near_any(p, others, away_m)) {
+      best = p;
+      best_cost = *cost;
+    }
+  }
+  return best;
+}
+
 bool sees(const nav::FloorView& floor, const Point2& from, const Point2& target) {
   const Point2 d = target - from;
   const double r = d.norm();
@@ -197,8 +215,12 @@ void TargetVisit::plan_confirm(const StrategyInput& input, const DetectionTracke
     goal = viewpoint_about(**floor, input.map_T_base, *detection.position_map,
                            {nearer, params_.standoff_m, 1.3 * nearer, 2.0}, places, 1.2 * new_place_m_);
   } else if (!detection.position_map && drive_.uses_map() && floor) {
-    goal = viewpoint_about(**floor, input.map_T_base, input.map_T_base.translation(), {params_.confirm_step_m}, places,
-                           new_place_m_);
+    goal = place_beside(**floor, input.map_T_base, detection.bearing_map_rad, params_.confirm_step_m, places,
+                        new_place_m_);
+    if (!goal) {
+      goal = viewpoint_about(**floor, input.map_T_base, input.map_T_base.translation(), {params_.confirm_step_m},
+                             places, new_place_m_);
+    }
   } else if (!drive_.uses_map()) {
     goal = ahead(input.map_T_base, detection.bearing_map_rad, params_.confirm_step_m);
   }

@@ -270,6 +270,28 @@ TEST(DetectionTracker, ConfirmsFromTwoPlacesOnly) {
   EXPECT_EQ(tracker.detections()[0].sightings, 3);
 }
 
+TEST(DetectionTracker, TheSameDirectionAgainConfirmsNothingUntilItHasAPosition) {
+  DetectionTracker tracker({{"thing"}}, {});
+  DetectionParams printed;
+  printed.confirm_position = false;
+  DetectionTracker as_printed({{"thing"}}, printed);
+  Look look;
+  look.sightings = {sighting_at(0.0)};
+  for (const double x_m : {0.0, 0.5, 1.0}) {
+    look.map_T_base.x_m = x_m;
+    (void)tracker.add(look);
+    (void)as_printed.add(look);
+  }
+  ASSERT_EQ(tracker.detections().size(), 1U);
+  EXPECT_FALSE(tracker.detections()[0].confirmed) << "it may be anything that the robot drives towards";
+  EXPECT_TRUE(as_printed.detections()[0].confirmed);
+  look.map_T_base.y_m = 0.7;
+  look.sightings = {sighting_at(std::atan2(-0.7, 3.0))};  // of something at (4, 0)
+  (void)tracker.add(look);
+  ASSERT_EQ(tracker.detections().size(), 1U);
+  EXPECT_TRUE(tracker.detections()[0].confirmed);
+}
+
 TEST(DetectionTracker, KeepsDistantThingsApart) {
   DetectionTracker tracker({{"thing"}, {"other"}}, {});
   const LaserScan laser = scan_with(0.0, 2.0, 2.0);
