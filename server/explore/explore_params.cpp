@@ -126,6 +126,8 @@ Status check_tour(const TourParams& p) {
                                           {"tour.hysteresis_m", p.hysteresis_m},
                                           {"tour.look_s", p.look_s},
                                           {"tour.together_m", p.together_m},
+                                          {"tour.share_wait_s", p.share_wait_s},
+                                          {"tour.idle_wait_s", p.idle_wait_s},
                                           {"tour.rooms.least_room_m2", p.rooms.least_room_m2}});
       !costs) {
     return costs;

@@ -115,14 +115,17 @@ void PlaceStrategy::choose_from(const StrategyInput& input, const Survey& found,
   since_ = input.now;
   considered_ = input.now;
   left_map_.clear();
+  others_busy_ = false;
   if (found.open.empty()) {
     wait_or_finish(input, found, out);
     return;
   }
   go(input, chooser_->choose({input, *found.floor, found.costs, found.open}), out);
-  if (!goal_) {
+  if (!goal_ && !others_busy_) {
     std::transform(found.open.begin(), found.open.end(), std::back_inserter(left_map_),
                    [](const Opening& opening) { return opening.p_map; });
+  }
+  if (!goal_) {
     wait_or_finish(input, found, out);
   }
 }
@@ -130,6 +133,14 @@ void PlaceStrategy::choose_from(const StrategyInput& input, const Survey& found,
 void PlaceStrategy::wait_or_finish(const StrategyInput& input, const Survey& found, StrategyStep& out) {
   goal_.reset();
   out.command = {};  // that of the drive which has just ended
+  if (others_busy_) {
+    if (state_ == State::kWait) {
+      out.decision.reset();  // that of the last second
+    }
+    state_ = State::kWait;
+    why_ = "waiting while other robots see to what is left";
+    return;
+  }
   if (found.resting) {
     state_ = State::kWait;
     why_ = "waiting to try again what could not be reached";
@@ -154,6 +165,7 @@ void PlaceStrategy::finish(std::string why, StrategyStep& out) {
 void PlaceStrategy::go(const StrategyInput& input, PlaceChoice choice, StrategyStep& out) {
   goal_ = std::move(choice.opening);
   via_map_ = choice.via_map;
+  others_busy_ = choice.others_busy;
   out.decision = std::move(choice.decision);
   if (!goal_) {
     return;
@@ -327,6 +339,10 @@ void PlaceStrategy::transform(const MapMove& move) {
     began_map_ = move * *began_map_;
   }
   corrected_ = true;
+}
+
+std::optional<Point2> PlaceStrategy::target_map() const {
+  return goal_ ? std::optional(goal_->map_T_view.translation()) : std::nullopt;
 }
 
 void PlaceStrategy::start_again() {

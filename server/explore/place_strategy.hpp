@@ -30,6 +30,7 @@ struct PlaceChoice {
   /// A place to pass before it, frame `map`; the robot decides again when it is there, and sets out for the opening
   /// itself where no drive leads there.
   std::optional<Point2> via_map = std::nullopt;
+  bool others_busy = false;  ///< without an opening: what is left is the share of other robots
   ExploreDecision decision;
 };
 
@@ -58,6 +59,8 @@ class PlaceChooser {
   [[nodiscard]] virtual bool wants_wall_ends() const = 0;
   /// Whether another goal may become better while the present one is still open.
   [[nodiscard]] virtual bool changes_its_mind() const = 0;
+  /// Whether the rule leaves to other robots what is their share.
+  [[nodiscard]] virtual bool shares() const { return false; }
   /// Nothing: stop at every place, as the parameters of viewpoints say.
   [[nodiscard]] virtual std::optional<DriveManner> manner() const { return std::nullopt; }
 };
@@ -75,6 +78,8 @@ class PlaceStrategy final : public ExploreStrategy {
   void interrupted(RobotTime now) override;
   void try_again(RobotTime now) override;
   void transform(const MapMove& move) override;
+  [[nodiscard]] std::optional<Point2> target_map() const override;
+  [[nodiscard]] bool shares() const override { return chooser_->shares(); }
 
  private:
   enum class State : std::uint8_t { kChoose, kDrive, kLook, kWait, kRotate, kDone };
@@ -119,6 +124,7 @@ class PlaceStrategy final : public ExploreStrategy {
   bool rotated_ = false;
   std::optional<Point2> began_map_;  ///< position of the robot at the first step, frame `map`
   bool looked_round_ = false;        ///< whether it has left that place or rotated there
+  bool others_busy_ = false;         ///< whether the last decision left all to other robots
   bool corrected_ = false;           ///< whether the map was corrected since the present drive was planned
 };
 

@@ -72,8 +72,10 @@ class ExploreStrategy {
   [[nodiscard]] virtual std::optional<TopologyMemory> memory() const { return std::nullopt; }
   /// Continues from a restored state. Call it before the first step.
   virtual void remember(const TopologyMemory& /*memory*/) {}
-  /// The goal of the present drive, one of those in the topology.
+  /// The goal of the present drive; of a strategy that keeps a topology one of those in it.
   [[nodiscard]] virtual std::optional<Point2> target_map() const { return std::nullopt; }
+  /// Whether it leaves to other robots what is their share of the exploration, and expects the same of them.
+  [[nodiscard]] virtual bool shares() const { return topology() != nullptr; }
 };
 
 struct ExploreParams;

@@ -8,6 +8,7 @@
 #include "server/explore/coarse_paths.hpp"
 #include "server/explore/leg_forecast.hpp"
 #include "server/explore/tour_places.hpp"
+#include "server/explore/tour_shares.hpp"
 #include "server/explore/trail.hpp"
 #include "server/tour/route.hpp"
 
@@ -43,6 +44,7 @@ class TourChooser final : public PlaceChooser {
   [[nodiscard]] PlaceChoice choose(const PlaceInput& input) override;
   [[nodiscard]] bool wants_wall_ends() const override { return true; }
   [[nodiscard]] bool changes_its_mind() const override { return true; }
+  [[nodiscard]] bool shares() const override { return true; }
   [[nodiscard]] std::optional<DriveManner> manner() const override {
     return DriveManner{true, params_.tour.replan_period_s, params_.tour.look_s};
   }
@@ -51,6 +53,7 @@ class TourChooser final : public PlaceChooser {
   [[nodiscard]] tour::RouteCosts costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
                                           const tour::Rooms& rooms) const;
   [[nodiscard]] double turn_cost(const PlaceInput& input, const TourPlace& place, bool look_at_path) const;
+  [[nodiscard]] bool keep_own_share(const PlaceInput& input, Plan& plan);
   [[nodiscard]] tour::Route plan_route(const Plan& plan, const Opening* goal) const;
   [[nodiscard]] tour::Route last_route(const Plan& plan) const;
   [[nodiscard]] tour::Route with_first(const Plan& plan, const tour::Route& route, std::size_t first) const;
@@ -61,6 +64,7 @@ class TourChooser final : public PlaceChooser {
 
   ExploreParams params_;
   std::vector<std::vector<std::uint64_t>> last_order_;  ///< ids of the openings of the last tour's places
+  std::optional<RobotTime> without_share_since_;        ///< since when all that is left is the share of others
 };
 
 /// Cost of turning towards the place before the first leg.
@@ -123,6 +127,29 @@ tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vecto
     }
   }
   return costs;
+}
+
+/// Leaves what other robots see to out of the plan. False: that is all of it, and the robot waits.
+bool TourChooser::keep_own_share(const PlaceInput& input, Plan& plan) {
+  const std::vector<std::size_t> own = own_share(input, plan.places, plan.costs.between);
+  if (own.empty()) {
+    without_share_since_ = without_share_since_.value_or(input.robot.now);
+    const std::vector<RobotTopology>& others = input.robot.fleet->others;
+    const bool they_drive = std::any_of(others.begin(), others.end(), [](const RobotTopology& other) {
+      return other.active && other.target_map.has_value();
+    });
+    const double wait_s = they_drive ? params_.tour.share_wait_s : params_.tour.idle_wait_s;
+    return to_seconds(input.robot.now - *without_share_since_) > wait_s;
+  }
+  without_share_since_.reset();
+  if (own.size() < plan.places.size()) {
+    std::vector<TourPlace> places;
+    std::transform(own.begin(), own.end(), std::back_inserter(places),
+                   [&](std::size_t k) { return std::move(plan.places[k]); });
+    plan.places = std::move(places);
+    plan.costs = costs_among(plan.costs, own);
+  }
+  return true;
 }
 
 /// What is left of the last tour's order.
@@ -246,6 +273,13 @@ PlaceChoice TourChooser::choose(const PlaceInput& input) {
   Plan plan;
   plan.places = std::move(found.worth_it);
   plan.costs = costs_of(input, plan.places, rooms);
+  if (!keep_own_share(input, plan)) {
+    last_order_.clear();
+    choice.others_busy = true;
+    choice.decision.rule = "tour";
+    choice.decision.why = "what is left is the share of other robots";
+    return choice;
+  }
   plan.route = plan_route(plan, input.goal);
   last_order_.clear();
   for (const std::size_t k : plan.route) {

@@ -27,6 +27,10 @@ struct TourParams {
   double rotate_in_place_rad = 1.0;
   double look_s = 0.3;               ///< how long the robot stands at a place that the drive did not settle
   int max_places = kMostTourPlaces;  ///< number of places of a tour; farther ones wait
+  /// A robot whose share is empty waits for the others so long before it sees itself to what is left.
+  double share_wait_s = 60.0;
+  /// And so long where none of them drives, since each may think that what is left is the share of another.
+  double idle_wait_s = 3.0;
   double together_m = 1.0;  ///< openings of a room within this distance of each other are one place of the tour
   tour::RoomsParams rooms;
 };

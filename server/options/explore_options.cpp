@@ -110,6 +110,8 @@ void describe(config::Fields& f, TourParams& params) {
   f.angle_deg("rotate_in_place_deg", params.rotate_in_place_rad);
   f.field("look_s", params.look_s);
   f.field("max_places", params.max_places);
+  f.field("share_wait_s", params.share_wait_s);
+  f.field("idle_wait_s", params.idle_wait_s);
   f.field("together_m", params.together_m);
   f.section("rooms", params.rooms);
 }

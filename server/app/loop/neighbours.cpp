@@ -51,8 +51,8 @@ void Neighbours::note_own(const Behaviour* behaviour, const Pose2& map_T_base, c
   const Topology* topology = behaviour != nullptr ? behaviour->topology() : nullptr;
   own_.map_T_base = map_T_base;
   own_.velocity = velocity;
-  own_.active = topology != nullptr;
-  own_.target_map = topology != nullptr ? behaviour->target_map() : std::nullopt;
+  own_.active = behaviour != nullptr && behaviour->shares_exploration();
+  own_.target_map = own_.active ? behaviour->target_map() : std::nullopt;
   if (topology != nullptr) {
     own_.topology = *topology;
     newest_node_ = topology->nodes.empty() ? 0 : topology->nodes.back().id;

@@ -40,10 +40,10 @@ class Neighbours {
   [[nodiscard]] std::vector<nav::Mover> movers_base(const Pose2& map_T_base, const std::optional<Pose2>& odom_T_base,
                                                     RobotTime now) const;
 
-  /// Updates what is reported to the fleet: where the robot is, and its exploration by topology while one runs.
+  /// Updates what is reported to the fleet: where the robot is, and its share of an exploration while one runs.
   /// `behaviour` may be null.
   void note_own(const Behaviour* behaviour, const Pose2& map_T_base, const Twist2& velocity);
-  /// Returns that report; it is inactive while no exploration by topology runs.
+  /// Returns that report; it is inactive while no exploration runs that robots share.
   [[nodiscard]] const RobotTopology& own() const { return own_; }
 
   /// Whether the robot has made a node of its topology of which no picture was begun.

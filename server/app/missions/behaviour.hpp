@@ -103,6 +103,8 @@ class Behaviour {
   /// Of an exploration by topology: places it has been at and still means to go to, and the goal it drives to.
   [[nodiscard]] virtual const Topology* topology() const { return nullptr; }
   [[nodiscard]] virtual std::optional<Point2> target_map() const { return std::nullopt; }
+  /// Whether it explores and shares that with other robots, which leave to it what is its share.
+  [[nodiscard]] virtual bool shares_exploration() const { return false; }
   /// What it goes on from when the program is cut off, and is given back before its first step.
   [[nodiscard]] virtual MissionMemory memory() const { return {}; }
   virtual void remember(const MissionMemory& /*memory*/) {}

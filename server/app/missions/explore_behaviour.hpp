@@ -39,6 +39,7 @@ class ExploreBehaviour final : public Behaviour {
   [[nodiscard]] std::optional<api::MissionEnd> pending_end() const override;
   [[nodiscard]] const Topology* topology() const override { return exploration_.strategy().topology(); }
   [[nodiscard]] std::optional<Point2> target_map() const override { return exploration_.strategy().target_map(); }
+  [[nodiscard]] bool shares_exploration() const override { return exploration_.strategy().shares(); }
   [[nodiscard]] MissionMemory memory() const override {
     return {.topology = exploration_.strategy().memory(), .search = std::nullopt};
   }

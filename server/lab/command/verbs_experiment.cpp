@@ -12,6 +12,7 @@
 #include "server/lab/command/verbs.hpp"
 #include "server/lab/consistency/reproduce_consistency.hpp"
 #include "server/lab/efficiency/reproduce_efficiency.hpp"
+#include "server/lab/efficiency/reproduce_sharing.hpp"
 #include "server/lab/experiments/seeds.hpp"
 #include "server/lab/line_detection/reproduce_line_detection.hpp"
 #include "server/lab/map_merging/reproduce_map_merging.hpp"
@@ -44,6 +45,7 @@ const std::map<std::string, Reproduction> kReproductions = {
     {"active-slam", {&reproduce_active_slam, "1-20", "1", {"--set", "--world", "--strategy"}}},
     {"consistency", {&reproduce_consistency, "1-50", "1-3"}},
     {"efficiency", {&reproduce_efficiency, "1-20", "1", {"--set", "--world", "--strategy"}}},
+    {"efficiency-fleet", {&reproduce_sharing, "1-20", "1", {"--set", "--world"}}},
     {"line-detection", {&reproduce_line_detection, "1-100", "1-3"}},
     {"map-merging", {&reproduce_map_merging, "1-4", "1", {"--set", "--world"}}},
     {"search", {&reproduce_search, "1-20", "1", {"--set", "--programs", "--no-sockets"}}},
@@ -83,6 +85,12 @@ std::vector<std::string> worlds_of(const std::string& name) {
   std::vector<std::string> names;
   if (name == "efficiency") {
     for (const EfficiencyWorld& world : efficiency_worlds()) {
+      names.push_back(world.name);
+    }
+    return names;
+  }
+  if (name == "efficiency-fleet") {
+    for (const SharingWorld& world : sharing_worlds()) {
       names.push_back(world.name);
     }
     return names;
@@ -288,15 +296,16 @@ Verb add_reproduce(CLI::App& app) {
           "from stereo landmarks (s2); map-merging: one map of several robots (s4); line-detection: lines with "
           "automatic thresholds (s5); solids: recognition of solids under water (s6); consistency: the errors "
           "of the line filter against what it states (r2); efficiency: explorations against what somebody would "
-          "drive who knows the building")
+          "drive who knows the building; efficiency-fleet: several robots that share an exploration against one")
       ->check(CLI::IsMember(reproduction_names()))
       ->capture_default_str();
   o->common.seeds.clear();
   add_common(*verb, o->common);
   verb->get_option("--seeds")->default_str("those of the paper's conditions");
   verb->add_option("--world", o->worlds,
-                   "Only this world (repeatable). active-slam: " + joined(worlds_of("active-slam")) + "; efficiency: " +
-                       joined(worlds_of("efficiency")) + "; map-merging: " + joined(worlds_of("map-merging")));
+                   "Only this world (repeatable). active-slam: " + joined(worlds_of("active-slam")) +
+                       "; efficiency: " + joined(worlds_of("efficiency")) + "; efficiency-fleet: " +
+                       joined(worlds_of("efficiency-fleet")) + "; map-merging: " + joined(worlds_of("map-merging")));
   verb->add_option("--strategy", o->strategies, "active-slam, efficiency: only this strategy (repeatable)")
       ->check(CLI::IsMember(explore_strategies()));
   verb->add_option("--programs", o->programs, "Folder of seekerd and seeker (default: beside this program)");

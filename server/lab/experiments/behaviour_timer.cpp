@@ -29,6 +29,7 @@ class Watched final : public app::Behaviour {
   std::vector<api::Detection> detections() const override { return inner_->detections(); }
   const Topology* topology() const override { return inner_->topology(); }
   std::optional<Point2> target_map() const override { return inner_->target_map(); }
+  bool shares_exploration() const override { return inner_->shares_exploration(); }
 
  private:
   std::unique_ptr<app::Behaviour> inner_;

@@ -25,7 +25,7 @@ namespace {
 
 api::MissionRequest request_of(const FleetSpec& spec) {
   api::ExploreMission explore;
-  explore.strategy = api::ExploreStrategy::kTopological;
+  explore.strategy = spec.strategy;
   api::MissionRequest request;
   request.id = "seed-" + std::to_string(spec.seed);
   request.task = explore;
@@ -125,7 +125,7 @@ Result<std::string> settings_of(const FleetSpec& spec) {
     return tl::unexpected<Error>(hash.error());
   }
   hash->add(std::to_string(spec.robots) + " " + std::to_string(spec.merge_period_s) +
-            (spec.inject_false_pair ? " false pair" : ""));
+            (spec.inject_false_pair ? " false pair" : "") + " " + std::string(to_string(spec.strategy)));
   return hash->hex();
 }
 

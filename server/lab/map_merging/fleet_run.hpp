@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/api/mission.hpp"
 #include "common/config/fields.hpp"
 #include "common/core/line_map.hpp"
 #include "common/core/topology.hpp"
@@ -16,6 +17,7 @@
 namespace seeker::lab {
 
 struct FleetSpec : SimSpec {
+  api::ExploreStrategy strategy = api::ExploreStrategy::kTopological;
   int robots = 2;               ///< number of robots, at the first starts of the world
   double merge_period_s = 5.0;  ///< robot time between two attempts to merge, and between announcements of a map
   bool count_traffic = false;   ///< counts FleetResult::sent_bytes, which takes time

@@ -44,8 +44,8 @@ TEST_P(Reproduce, PassesInItsSmallestForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Papers, Reproduce,
-                         ::testing::Values("active-slam", "consistency", "efficiency", "line-detection", "map-merging",
-                                           "search", "solids", "stereo-database"),
+                         ::testing::Values("active-slam", "consistency", "efficiency", "efficiency-fleet",
+                                           "line-detection", "map-merging", "search", "solids", "stereo-database"),
                          [](const auto& reproduction) {
                            std::string name = reproduction.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -158,6 +158,8 @@ class TourDecision : public ::testing::Test {
     input.end_map = end_map;
     trail_.note(robot_.translation(), position_sigma_m(covariance_));
     input.trail = &trail_;
+    input.fleet = fleet_ ? &*fleet_ : nullptr;
+    input.now = now_;
     return chooser.choose({input, floor, *costs, open, goal});
   }
 
@@ -187,7 +189,53 @@ class TourDecision : public ::testing::Test {
   std::vector<MapSegment> none_;
   nav::FloorSource floors_;
   Trail trail_;
+  std::optional<FleetView> fleet_;
+  RobotTime now_;
 };
+
+RobotTopology robot_at(const Point2& p_map, std::optional<Point2> target_map = std::nullopt) {
+  RobotTopology robot;
+  robot.robot_id = "other";
+  robot.map_T_base = {p_map.x(), p_map.y(), 0.0};
+  robot.target_map = target_map;
+  return robot;
+}
+
+TEST_F(TourDecision, WhatIsTheShareOfAnotherRobotIsLeftToIt) {
+  const std::vector<Opening> open{border_at({5.0, 5.0}, 1), border_at({17.0, 5.0}, 2)};
+  robot_.theta_rad = kPi / 2.0;
+  fleet_ = FleetView{"self", {robot_at({3.0, 5.0})}};
+  const PlaceChoice choice = choose(*make_tour_chooser({}), open);
+  ASSERT_TRUE(choice.opening.has_value());
+  EXPECT_EQ(choice.opening->id, 2U) << choice.decision.why;
+  fleet_->others.front().active = false;
+  const PlaceChoice alone = choose(*make_tour_chooser({}), open);
+  ASSERT_TRUE(alone.opening.has_value());
+  EXPECT_EQ(alone.opening->id, 1U) << "a robot that does not explore has no share";
+}
+
+TEST_F(TourDecision, WhatAnotherRobotDrivesToIsLeftToIt) {
+  const std::vector<Opening> open{border_at({5.0, 5.0}, 1), border_at({17.0, 5.0}, 2)};
+  robot_.theta_rad = kPi / 2.0;
+  fleet_ = FleetView{"self", {robot_at({10.0, 8.0}, Point2(5.4, 5.4))}};
+  const PlaceChoice choice = choose(*make_tour_chooser({}), open);
+  ASSERT_TRUE(choice.opening.has_value());
+  EXPECT_EQ(choice.opening->id, 2U) << choice.decision.why;
+}
+
+TEST_F(TourDecision, WithoutAShareTheRobotWaitsAndThenHelps) {
+  const auto chooser = make_tour_chooser({});
+  const std::vector<Opening> open{border_at({5.0, 5.0}, 1)};
+  fleet_ = FleetView{"self", {robot_at({6.0, 5.0}, Point2(5.0, 5.0))}};
+  const PlaceChoice waits = choose(*chooser, open);
+  EXPECT_FALSE(waits.opening.has_value());
+  EXPECT_TRUE(waits.others_busy);
+  EXPECT_FALSE(waits.decision.why.empty());
+  now_ += seconds(TourParams{}.share_wait_s + 1.0);
+  const PlaceChoice helps = choose(*chooser, open);
+  ASSERT_TRUE(helps.opening.has_value()) << "the other one has not come there";
+  EXPECT_FALSE(helps.others_busy);
+}
 
 TEST_F(TourDecision, TakesTheSideThatMakesTheTourShort) {
   // Five metres to the left and seven to the right: left first, then all the way.

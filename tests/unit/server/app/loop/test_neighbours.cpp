@@ -56,6 +56,26 @@ TEST(Neighbours, WithoutAnExplorationTheOwnReportIsInactive) {
   EXPECT_EQ(neighbours.own().velocity, (Twist2{0.1, 0.0}));
 }
 
+/// Explores, and leaves to others what is their share.
+class SharedExploration final : public Behaviour {
+ public:
+  Decision step(const Situation& /*situation*/) override { return {}; }
+  [[nodiscard]] std::optional<Point2> target_map() const override { return Point2(4.0, 1.0); }
+  [[nodiscard]] bool shares_exploration() const override { return true; }
+};
+
+TEST(Neighbours, AnExplorationThatIsSharedIsReportedWithItsGoalThoughItKeepsNoTopology) {
+  Neighbours neighbours(FleetMotionParams{}, "r1");
+  const SharedExploration exploration;
+  neighbours.note_own(&exploration, Pose2{1.0, 2.0, 0.0}, {});
+  EXPECT_TRUE(neighbours.own().active);
+  EXPECT_EQ(neighbours.own().target_map, Point2(4.0, 1.0));
+  EXPECT_FALSE(neighbours.wants_picture()) << "pictures are taken at nodes";
+  neighbours.note_own(nullptr, Pose2{1.0, 2.0, 0.0}, {});
+  EXPECT_FALSE(neighbours.own().active);
+  EXPECT_FALSE(neighbours.own().target_map.has_value());
+}
+
 TEST(Neighbours, AnotherMapVoidsAllPlaces) {
   Neighbours neighbours(FleetMotionParams{}, "r1");
   neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kReportedAt);
