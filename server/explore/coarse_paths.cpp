@@ -83,4 +83,15 @@ std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, const std::ve
   return lengths;
 }
 
+std::vector<double> CoarsePaths::expected_m(const Point2& from_map, const std::vector<Point2>& to_map) const {
+  constexpr double kDetour = 1.5;  ///< of the straight line
+  std::vector<double> lengths = lengths_m(from_map, to_map);
+  for (std::size_t k = 0; k < to_map.size(); ++k) {
+    if (!std::isfinite(lengths[k])) {
+      lengths[k] = kDetour * (to_map[k] - from_map).norm();
+    }
+  }
+  return lengths;
+}
+
 }  // namespace seeker::explore

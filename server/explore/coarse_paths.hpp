@@ -18,6 +18,10 @@ class CoarsePaths {
   /// Path lengths in metres from one place to each of the others; infinity where no path is known.
   [[nodiscard]] std::vector<double> lengths_m(const Point2& from_map, const std::vector<Point2>& to_map) const;
 
+  /// The same, with a guess where no path is known because a passage is narrower than a cell, or only another robot
+  /// knows the floor between: half as long again as the straight line.
+  [[nodiscard]] std::vector<double> expected_m(const Point2& from_map, const std::vector<Point2>& to_map) const;
+
   static constexpr double kNoPath = std::numeric_limits<double>::infinity();
 
  private:

@@ -22,9 +22,6 @@ constexpr double kFirstLeg_m = 0.3;
 constexpr std::size_t kKnownTurns = 8;
 /// More passages than this on one leg are no reason to go elsewhere first.
 constexpr int kMostPassages = 2;
-/// Where the coarse floor joins two places by no path, because a passage is narrower than its cells, the way is so much
-/// longer than the straight line.
-constexpr double kDetour = 1.5;
 /// More than any route.
 constexpr double kNever_m = 1e5;
 
@@ -95,10 +92,10 @@ tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vecto
     beyond_m.push_back(std::min(params_.tour.beyond_m, std::sqrt(place.gain_m2)));
   }
   const CoarsePaths paths(input.floor.reachable);
-  const auto leg = [&](double length_m, double otherwise_m, const std::vector<int>& passages, const TourPlace& to) {
+  const auto leg = [&](double length_m, const std::vector<int>& passages, const TourPlace& to) {
     const int crossed = passages[to.room];
     const double doors = crossed == tour::Rooms::kUnreached ? 0 : std::min(crossed, kMostPassages);
-    return (std::isfinite(length_m) ? length_m : otherwise_m) + doors * params_.tour.passage_m;
+    return length_m + doors * params_.tour.passage_m;
   };
   tour::RouteCosts costs;
   const auto count = static_cast<Eigen::Index>(places.size());
@@ -107,23 +104,22 @@ tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vecto
   const std::vector<double> from_here = paths.lengths_m(here, views);
   const std::vector<int> passages_here = rooms.passages_from(rooms.at(here));
   for (std::size_t a = 0; a < places.size(); ++a) {
-    costs.from_start.push_back(leg(from_here[a], places[a].opening.cost, passages_here, places[a]) + beyond_m[a] +
+    const double first_m = std::isfinite(from_here[a]) ? from_here[a] : places[a].opening.cost;
+    costs.from_start.push_back(leg(first_m, passages_here, places[a]) + beyond_m[a] +
                                turn_cost(input, places[a], a < kKnownTurns));
     const std::vector<Point2> others(views.begin() + static_cast<std::ptrdiff_t>(a), views.end());
-    const std::vector<double> lengths = paths.lengths_m(views[a], others);
+    const std::vector<double> lengths = paths.expected_m(views[a], others);
     const std::vector<int> passages = rooms.passages_from(places[a].room);
     for (std::size_t b = a + 1; b < places.size(); ++b) {
-      const double straight_m = kDetour * (views[b] - views[a]).norm();
-      const double cost = leg(lengths[b - a], straight_m, passages, places[b]) + beyond_m[a] + beyond_m[b];
+      const double cost = leg(lengths[b - a], passages, places[b]) + beyond_m[a] + beyond_m[b];
       costs.between(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = cost;
       costs.between(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)) = cost;
     }
   }
   if (input.robot.end_map) {
-    costs.to_end = paths.lengths_m(*input.robot.end_map, views);
+    costs.to_end = paths.expected_m(*input.robot.end_map, views);
     for (std::size_t k = 0; k < costs.to_end.size(); ++k) {
-      const double straight_m = kDetour * (views[k] - *input.robot.end_map).norm();
-      costs.to_end[k] = (std::isfinite(costs.to_end[k]) ? costs.to_end[k] : straight_m) + beyond_m[k];
+      costs.to_end[k] += beyond_m[k];
     }
   }
   return costs;

@@ -1,7 +1,6 @@
 #include "server/explore/tour_shares.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -14,9 +13,6 @@ namespace {
 /// A robot whose goal lies within this distance of a place is on its way to that place: maps of two robots differ a
 /// bit, and each has its own viewpoint of an opening.
 constexpr double kSameGoal_m = 1.5;
-/// Where no path is known, as through floor that only the other robot knows, the way is so much longer than the
-/// straight line.
-constexpr double kUnknownDetour = 1.5;
 
 /// A robot with its first legs.
 struct Sharer {
@@ -35,13 +31,7 @@ std::vector<double> legs_from(const Point2& robot_map, const CoarsePaths& paths,
   std::vector<Point2> views;
   std::transform(places.begin(), places.end(), std::back_inserter(views),
                  [](const TourPlace& place) { return place.seen_from_map; });
-  std::vector<double> legs_m = paths.lengths_m(robot_map, views);
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    if (!std::isfinite(legs_m[k])) {
-      legs_m[k] = kUnknownDetour * (views[k] - robot_map).norm();
-    }
-  }
-  return legs_m;
+  return paths.expected_m(robot_map, views);
 }
 
 Sharer self_of(const PlaceInput& input, const CoarsePaths& paths, const std::vector<TourPlace>& places) {

@@ -258,12 +258,16 @@ Table explore_summary_table(const std::vector<ExploreResult>& results) {
   return table;
 }
 
-Status write_explore_tables(const std::filesystem::path& out, const Table& summary,
-                            const std::vector<ExploreResult>& results) {
-  if (Status ok = files::write_file(out / "table.csv", summary.csv()); !ok) {
+Status write_table(const std::filesystem::path& out, const Table& table) {
+  if (Status ok = files::write_file(out / "table.csv", table.csv()); !ok) {
     return ok;
   }
-  if (Status ok = files::write_file(out / "table.md", summary.markdown()); !ok) {
+  return files::write_file(out / "table.md", table.markdown());
+}
+
+Status write_explore_tables(const std::filesystem::path& out, const Table& summary,
+                            const std::vector<ExploreResult>& results) {
+  if (Status ok = write_table(out, summary); !ok) {
     return ok;
   }
   return files::write_file(out / "runs.csv", explore_runs_table(results).csv());

@@ -39,6 +39,8 @@ struct MeanSpread {
 /// Table with one row for each world and strategy, in the order in which they first occur: means and spreads, sums of
 /// contacts.
 [[nodiscard]] Table explore_summary_table(const std::vector<ExploreResult>& results);
+/// Writes table.csv and table.md. Error: kIo.
+[[nodiscard]] Status write_table(const std::filesystem::path& out, const Table& table);
 /// Writes table.csv and table.md with the summary, and runs.csv with the results. Error: kIo.
 [[nodiscard]] Status write_explore_tables(const std::filesystem::path& out, const Table& summary,
                                           const std::vector<ExploreResult>& results);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "common/files/files.hpp"
 #include "server/lab/active_slam/explore_experiment.hpp"
 #include "server/lab/experiments/seeds.hpp"
 
@@ -154,11 +153,7 @@ Status reproduce_sharing(const ReproduceParams& params, Report& report) {
       return ok;
     }
     check_sharing(runs, report);
-    const Table table = sharing_table(worlds);
-    if (Status ok = files::write_file(params.out / "table.csv", table.csv()); !ok) {
-      return ok;
-    }
-    if (Status ok = files::write_file(params.out / "table.md", table.markdown()); !ok) {
+    if (Status ok = write_table(params.out, sharing_table(worlds)); !ok) {
       return ok;
     }
   }
