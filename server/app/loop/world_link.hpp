@@ -26,7 +26,7 @@ class WorldLink {
             Diagnostics& diagnostics);
 
   [[nodiscard]] RobotTime now() const { return clock_->now(); }
-  /// As in drivers::Clock: advance() ends a tick, await() waits for the end of the tick in a shared world, hold() makes
+  /// As in drivers::Clock: advance() ends a tick, await() waits for the next one, in a shared world too, hold() makes
   /// the others in it wait for this robot, let_go() lets them go on without it.
   [[nodiscard]] Status advance() { return clock_->advance(period_); }
   [[nodiscard]] Result<bool> await(Duration limit) { return clock_->await(limit); }

@@ -17,10 +17,11 @@ class LiveClock final : public Clock {
     return RobotTime(std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - start_));
   }
   [[nodiscard]] Status advance(Duration period) override {
-    pacer_.wait(period);
+    pacer_.start(period);
     return {};
   }
   void let_go() override { pacer_.rest(); }
+  [[nodiscard]] Result<bool> await(Duration limit) override { return pacer_.await(limit); }
   [[nodiscard]] bool lockstep() const override { return false; }
   [[nodiscard]] double speed() const override { return 1.0; }
   [[nodiscard]] std::optional<TickTiming> timing() const override { return pacer_.timing(); }

@@ -116,12 +116,11 @@ class Clock {
   virtual ~Clock() = default;
 
   [[nodiscard]] virtual RobotTime now() const = 0;
-  /// Lockstep: the world advances by `period` and the call returns at once (or after the delay of the chosen speed).
-  /// Live: sleeps until the next tick. kCancelled: the source has ended (a replay's last record).
+  /// Ends a tick; await() says when the next one, `period` of robot time later, may begin. Lockstep: the world has
+  /// advanced when this returns. kCancelled: the source has ended (a replay's last record).
   [[nodiscard]] virtual Status advance(Duration period) = 0;
-  /// Waits at most `limit` of wall time for the tick that advance() started, so that its caller can do other work
-  /// meanwhile. False: the tick is not reached yet. Clocks whose advance() itself waits always return true. kCancelled
-  /// as above.
+  /// Waits at most `limit` of wall time for the next tick, so that its caller can do other work meanwhile. False: it is
+  /// not reached yet. Clocks as fast as possible always return true. kCancelled as above.
   [[nodiscard]] virtual Result<bool> await(Duration /*limit*/) { return true; }
   /// Whether the world of the devices can be reached. The error gives the reason, and the time stands still meanwhile.
   /// kCancelled: it will never return. Only a world behind a link can be lost.

@@ -9,11 +9,25 @@ namespace seeker::drivers {
 
 Pacer::Pacer(double speed) : speed_(speed) { SEEKER_ASSERT(speed >= 0.0); }
 
-void Pacer::wait(Duration period) {
+void Pacer::start(Duration period) {
   if (speed_ > 0.0) {
-    std::this_thread::sleep_until(due(period, std::chrono::steady_clock::now()));
-    begun(std::chrono::steady_clock::now());
+    static_cast<void>(due(period, std::chrono::steady_clock::now()));
+    awaited_ = true;
   }
+}
+
+bool Pacer::await(Duration limit) {
+  if (!awaited_) {
+    return true;
+  }
+  const WallTime until = std::chrono::steady_clock::now() + limit;
+  std::this_thread::sleep_until(std::min(until, *due_));
+  if (until < *due_) {
+    return false;
+  }
+  awaited_ = false;
+  begun(std::chrono::steady_clock::now());
+  return true;
 }
 
 Pacer::WallTime Pacer::due(Duration period, WallTime now) {

@@ -173,7 +173,7 @@ Status ReplayClock::advance(Duration period) {
   }
   const RobotTime before = source_->now();
   source_->advance_to(before + period);
-  pacer_.wait(source_->now() - before);
+  pacer_.start(source_->now() - before);
   return {};
 }
 

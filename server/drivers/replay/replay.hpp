@@ -73,6 +73,7 @@ class ReplayClock final : public Clock {
   [[nodiscard]] RobotTime now() const override { return source_->now(); }
   /// kCancelled once the last record has been taken before this call.
   [[nodiscard]] Status advance(Duration period) override;
+  [[nodiscard]] Result<bool> await(Duration limit) override { return pacer_.await(limit); }
   [[nodiscard]] bool lockstep() const override { return true; }
   void let_go() override { pacer_.rest(); }
   [[nodiscard]] double speed() const override { return pacer_.speed(); }

@@ -279,7 +279,7 @@ Status LockstepClock::advance(Duration period) {
   }
   base_->before_advance(period);
   seat_.barrier->advance(seat_.robot, period);
-  pacer_.wait(period);
+  pacer_.start(period);
   return {};
 }
 

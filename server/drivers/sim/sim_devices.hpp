@@ -161,6 +161,7 @@ class LockstepClock final : public Clock {
   [[nodiscard]] Status advance(Duration period) override;
   void hold() override;
   void let_go() override;
+  [[nodiscard]] Result<bool> await(Duration limit) override { return pacer_.await(limit); }
   [[nodiscard]] bool lockstep() const override { return true; }
   [[nodiscard]] double speed() const override { return pacer_.speed(); }
   [[nodiscard]] std::optional<TickTiming> timing() const override { return pacer_.timing(); }

@@ -81,9 +81,23 @@ TEST(Pacer, RestIsNotLateness) {
 TEST(Pacer, AsFastAsPossibleItNeitherWaitsNorCounts) {
   Pacer pacer(0.0);
   for (int i = 0; i < 100; ++i) {
-    pacer.wait(std::chrono::hours(1));
+    pacer.start(std::chrono::hours(1));
+    EXPECT_TRUE(pacer.await({}));
   }
   EXPECT_FALSE(pacer.timing());
+}
+
+TEST(Pacer, ItsCallerWaitsInSlicesOfItsOwn) {
+  Pacer pacer(1.0);
+  EXPECT_TRUE(pacer.await({})) << "no tick was started";
+  pacer.start(std::chrono::hours(1));
+  EXPECT_TRUE(pacer.await({})) << "the first tick is due at once";
+  pacer.start(std::chrono::hours(1));
+  EXPECT_FALSE(pacer.await(milliseconds(1)));
+  EXPECT_FALSE(pacer.await({}));
+  EXPECT_EQ(pacer.timing()->ticks, 1U);
+  pacer.rest();
+  EXPECT_TRUE(pacer.await({})) << "who rests waits for nothing";
 }
 
 }  // namespace

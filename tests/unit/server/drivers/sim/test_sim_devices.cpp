@@ -150,6 +150,7 @@ TEST(LockstepClock, PacesByTheWallOnlyWhenAsked) {
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(paced.clock->advance(100ms));
+    ASSERT_EQ(paced.clock->await(1h), Result<bool>(true));
   }
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 45ms);  // 1 s of robot time at 20x
   EXPECT_EQ(paced.clock->now(), robot_time_s(1.0));
