@@ -14,6 +14,16 @@
 namespace seeker::cli {
 namespace {
 
+/// What a verb needs of the link.
+struct LinkWish {
+  bool reconnect = false;
+  bool stops = false;
+};
+constexpr LinkWish kShort{};
+constexpr LinkWish kLong{.reconnect = true};
+constexpr LinkWish kStopping{.stops = true};
+constexpr LinkWish kCommanding{.reconnect = true, .stops = true};
+
 /// Carries one command out: what needs no robot first, then the connection, then the verb.
 class Dispatch {
  public:
@@ -42,14 +52,14 @@ class Dispatch {
   }
   VerbResult operator()(const DoctorVerb&) const {
     return examine(context_, {robot_, SEEKER_VERSION}, [&] {
-      return connect_({robot_, context_.tls, context_.timeout, false, client_name_});
+      return connect_({robot_, context_.tls, context_.timeout, false, false, client_name_});
     });
   }
   VerbResult operator()(const AuditVerb& verb) {
     return with_robot([&] { return show_audit(context_, verb); });
   }
   VerbResult operator()(const WatchVerb& verb) {
-    return with_robot([&] { return watch(context_, verb); }, true);
+    return with_robot([&] { return watch(context_, verb); }, kLong);
   }
   VerbResult operator()(const SearchVerb& verb) { return with_mission(verb, search); }
   VerbResult operator()(const ExploreVerb& verb) { return with_mission(verb, explore); }
@@ -58,16 +68,16 @@ class Dispatch {
   VerbResult operator()(const LocaliseVerb& verb) { return with_mission(verb, localise); }
   VerbResult operator()(const RecogniseVerb& verb) { return with_mission(verb, recognise); }
   VerbResult operator()(const DriveVerb& verb) {
-    return with_robot([&] { return drive(context_, verb); });
+    return with_robot([&] { return drive(context_, verb); }, kStopping);
   }
   VerbResult operator()(const LeaseVerb& verb) {
-    return with_robot([&] { return lease(context_, verb); }, true);
+    return with_robot([&] { return lease(context_, verb); }, kCommanding);
   }
   VerbResult operator()(const StopVerb&) {
-    return with_robot([&] { return stop(context_); });
+    return with_robot([&] { return stop(context_); }, kStopping);
   }
   VerbResult operator()(const EstopVerb& verb) {
-    return with_robot([&] { return estop(context_, verb); });
+    return with_robot([&] { return estop(context_, verb); }, kStopping);
   }
   VerbResult operator()(const PauseVerb&) {
     return with_robot([&] { return command_mission(context_, api::MissionCommand::kPause); });
@@ -88,19 +98,19 @@ class Dispatch {
     return with_robot([&] { return list_maps(context_); });
   }
   VerbResult operator()(const MapInspectVerb& verb) {
-    return with_robot([&] { return inspect_map(context_, verb); }, verb.verify);
+    return with_robot([&] { return inspect_map(context_, verb); }, verb.verify ? kLong : kShort);
   }
   VerbResult operator()(const MapDeleteVerb& verb) {
     return with_robot([&] { return delete_map(context_, verb); });
   }
   VerbResult operator()(const MapDownloadVerb& verb) {
-    return with_robot([&] { return download_map(context_, verb); }, true);
+    return with_robot([&] { return download_map(context_, verb); }, kLong);
   }
   VerbResult operator()(const MapUploadVerb& verb) {
-    return with_robot([&] { return upload_map(context_, verb); }, true);
+    return with_robot([&] { return upload_map(context_, verb); }, kLong);
   }
   VerbResult operator()(const RelocaliseVerb& verb) {
-    return with_robot([&] { return relocalise(context_, verb); }, verb.wait);
+    return with_robot([&] { return relocalise(context_, verb); }, verb.wait ? kLong : kShort);
   }
   VerbResult operator()(const LandmarksInspectVerb& verb) {
     return with_robot([&] { return inspect_landmarks(context_, verb); });
@@ -118,10 +128,10 @@ class Dispatch {
     return with_robot([&] { return delete_landmarks(context_, verb); });
   }
   VerbResult operator()(const LandmarksDownloadVerb& verb) {
-    return with_robot([&] { return download_landmarks(context_, verb); }, true);
+    return with_robot([&] { return download_landmarks(context_, verb); }, kLong);
   }
   VerbResult operator()(const LandmarksUploadVerb& verb) {
-    return with_robot([&] { return upload_landmarks(context_, verb); }, true);
+    return with_robot([&] { return upload_landmarks(context_, verb); }, kLong);
   }
   VerbResult operator()(const FleetStatusVerb& verb) const { return fleet(context_, robot_, verb); }
   VerbResult operator()(const FleetMergeVerb& verb) const { return fleet(context_, robot_, verb); }
@@ -164,7 +174,7 @@ class Dispatch {
       return ExitCode::kOk;
     }
     const FleetCall fleet = [&] { return fleet_status(context_, robot_, verb); };
-    return with_robot([&] { return run_script(context_, *script, file.parent_path(), folders, fleet); }, true);
+    return with_robot([&] { return run_script(context_, *script, file.parent_path(), folders, fleet); }, kCommanding);
   }
   VerbResult operator()(const CompletionVerb& verb) const {
     const Result<std::string> script = completion_script(verb.shell);
@@ -190,14 +200,15 @@ class Dispatch {
   VerbResult with_mission(const MissionVerb& verb,
                           VerbResult (*run)(const Context&, const api::MissionRequest&, const MissionVerb&)) {
     const Result<api::MissionRequest> request = make_request(verb);
-    return request ? with_robot([&] { return run(context_, *request, verb); }, true)
+    return request ? with_robot([&] { return run(context_, *request, verb); }, kCommanding)
                    : VerbResult(tl::unexpected<Error>(request.error()));
   }
   template <class Run>
-  VerbResult with_robot(Run run, bool reconnect = false) {
+  VerbResult with_robot(Run run, const LinkWish& wish = kShort) {
     // A long verb's --timeout is for its whole; connecting has the usual time then.
-    Result<Connection> connection = connect_(
-        {robot_, context_.tls, reconnect ? std::optional<Duration>() : context_.timeout, reconnect, client_name_});
+    Result<Connection> connection =
+        connect_({robot_, context_.tls, wish.reconnect ? std::optional<Duration>() : context_.timeout, wish.reconnect,
+                  wish.stops, client_name_});
     if (!connection) {
       return tl::unexpected<Error>(connection.error());
     }

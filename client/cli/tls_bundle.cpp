@@ -3,15 +3,12 @@
 #include <filesystem>
 
 #include "common/pki/site_authority.hpp"
+#include "common/rpc/endpoint.hpp"
 
 namespace seeker::cli {
 namespace {
 
 constexpr const char* kPlain = "none";
-
-bool is_this_machine(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
-}
 
 bool has_certificate(const std::filesystem::path& folder) {
   std::error_code ignored;
@@ -26,7 +23,7 @@ Result<std::optional<pki::BundleFiles>> bundle_for(const std::string& tls, const
   }
   if (tls.empty()) {
     const std::filesystem::path own = pki::default_bundle_folder();
-    return !is_this_machine(host) && has_certificate(own) ? std::optional(pki::bundle_in(own)) : std::nullopt;
+    return !rpc::is_this_machine(host) && has_certificate(own) ? std::optional(pki::bundle_in(own)) : std::nullopt;
   }
   if (!has_certificate(tls)) {
     return fail(Errc::kInvalidArgument, "--tls: the folder " + tls + " holds no " + pki::kCertificateName +

@@ -20,7 +20,7 @@
 namespace seeker::api {
 
 inline constexpr std::uint32_t kProtocolMajor = 1;
-inline constexpr std::uint32_t kProtocolMinor = 6;
+inline constexpr std::uint32_t kProtocolMinor = 7;
 
 /// Identity and capabilities of a robot, as sent in the answer to hello.
 struct RobotInfo {

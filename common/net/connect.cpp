@@ -46,6 +46,7 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
                               self->on_resolved(error, found);
                             });
   }
+  void give_up() { finish(fail(Errc::kCancelled, "the attempt to connect was given up")); }
 
  private:
   [[nodiscard]] std::string name() const { return target_.host + " port " + std::to_string(target_.port); }
@@ -132,8 +133,14 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
 
 }  // namespace
 
-void async_connect(asio::io_context& io, Target target, std::function<void(Result<Transport>)> done) {
-  std::make_shared<Attempt>(io, std::move(target), std::move(done))->start();
+std::function<void()> async_connect(asio::io_context& io, Target target, std::function<void(Result<Transport>)> done) {
+  const auto attempt = std::make_shared<Attempt>(io, std::move(target), std::move(done));
+  attempt->start();
+  return [weak = std::weak_ptr<Attempt>(attempt)] {
+    if (const auto self = weak.lock()) {
+      self->give_up();
+    }
+  };
 }
 
 }  // namespace seeker::net

@@ -26,8 +26,10 @@ struct Target {
 /// Looks the host up, tries its addresses in turn and, with TLS, shakes hands; `done` is called exactly once, on the
 /// io_context. kLinkLost names the cause, kTimeout the time; kRefused: the other side is not whom it should be, or does
 /// not speak TLS; the errors of our certificates' files. Whether the other side believes our certificate shows only
-/// when something is read from it.
-void async_connect(boost::asio::io_context& io, Target target, std::function<void(Result<Transport>)> done);
+/// when something is read from it. The returned function, which may be called at any later time on the io_context,
+/// gives up: `done` gets kCancelled, unless it was called before.
+std::function<void()> async_connect(boost::asio::io_context& io, Target target,
+                                    std::function<void(Result<Transport>)> done);
 
 /// Delays between attempts: they double from `first` up to `max`.
 class Backoff {

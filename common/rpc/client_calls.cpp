@@ -41,15 +41,6 @@ class RemoteSubscription final : public api::Subscription {
 
 }  // namespace
 
-bool RobotClient::Impl::send(const pb::Envelope& envelope) {
-  Result<wire::OutFrame> frame = wire::frame_of(envelope);
-  if (!frame || !outbox_.push(std::move(*frame))) {
-    return false;
-  }
-  connection_->wake();
-  return true;
-}
-
 void RobotClient::Impl::on_thread(std::function<void()> work, const std::function<void()>& closed) {
   {
     const std::lock_guard lock(mutex_);
@@ -69,20 +60,21 @@ void RobotClient::Impl::call(pb::Request request, const wire::ClientSession::Ans
 }
 
 void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answer answer, Duration at_least) {
-  if (closing_ || !session_ || !session_->open()) {
-    answer(closing_ ? fail(Errc::kCancelled, "the client was closed")
-                    : fail(Errc::kLinkLost, "there is no connection to the robot now; it is tried again"));
-    return;
-  }
-  if (request.ByteSizeLong() + wire::kMaxTextBytes > wire::kMaxFrameBytes) {
-    answer(fail(Errc::kTooLarge, "the request has more than the 16 MiB of one frame; give smaller pictures"));
-    return;
-  }
-  const pb::Envelope envelope =
-      session_->call(std::move(request), net::wall_now(), std::max(params_.call_timeout, at_least), std::move(answer));
-  if (!send(envelope)) {
-    end_connection({Errc::kLinkLost, "the robot does not read: too many requests wait to be sent"}, false);
-  }
+  main_->call(std::move(request), std::max(params_.call_timeout, at_least), std::move(answer));
+}
+
+void RobotClient::Impl::call_urgently(pb::Request request, const wire::ClientSession::Answer& answer) {
+  on_thread(
+      [self = shared_from_this(), request = std::move(request), answer] {
+        std::vector<RobotLink*> links{self->main_.get()};
+        for (const auto& link : self->stop_links_) {
+          if (link->open()) {
+            links.push_back(link.get());
+          }
+        }
+        self->urgent_.call(request, self->params_.call_timeout, answer, links);
+      },
+      [answer] { answer(fail(Errc::kCancelled, "the client was closed")); });
 }
 
 void RobotClient::Impl::sync_time(const api::Reply<TimeSync>& reply) {
@@ -164,14 +156,14 @@ Result<std::unique_ptr<api::Subscription>> RobotClient::Impl::subscribe(const st
   }
   asio::post(io_, [self = shared_from_this(), stream] {
     self->streams_[stream->id()] = stream;
-    if (self->session_ && self->session_->open()) {
+    if (self->main_->open()) {
       self->send_subscription(stream);
     }
   });
   const auto end = [weak = weak_from_this(), id = stream->id()] {
     if (const auto self = weak.lock()) {
       asio::post(self->io_, [self, id] {
-        if (self->streams_.erase(id) == 0 || !self->session_ || !self->session_->open()) {
+        if (self->streams_.erase(id) == 0 || !self->main_->open()) {
           return;
         }
         pb::Request request;

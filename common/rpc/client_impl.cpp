@@ -24,12 +24,11 @@ constexpr std::string_view kPart = "rpc";
 constexpr int kTicksPerHeartbeat = 5;
 constexpr Duration kMinTick = std::chrono::milliseconds(5);
 constexpr Duration kMaxTick = std::chrono::milliseconds(100);
-/// Wall time for goodbye to leave.
-constexpr Duration kLinger = std::chrono::milliseconds(300);
-constexpr std::size_t kMaxQueuedFrames = 1024;
-constexpr std::size_t kMaxQueuedBytes = 64UL * 1024 * 1024;
 /// Lost after so many heartbeats without a sign of life, as the robot does by default.
 constexpr int kLostHeartbeats = 3;
+/// Robots that speak less would carry a copy of a request out again.
+constexpr std::uint32_t kOnceMinor = 7;
+constexpr int kMostStopLinks = 8;
 
 }  // namespace
 
@@ -46,13 +45,9 @@ std::string_view to_string(LinkState state) {
 RobotClient::Impl::Impl(Endpoint endpoint, ClientParams params)
     : endpoint_(std::move(endpoint)),
       params_(std::move(params)),
-      instance_(net::random_id()),
       io_(1),
       work_(asio::make_work_guard(io_)),
-      tick_(io_),
-      retry_(io_),
-      backoff_(params_.reconnect.first_delay, params_.reconnect.max_delay),
-      outbox_(kMaxQueuedFrames, kMaxQueuedBytes) {}
+      tick_(io_) {}
 
 RobotClient::Impl::~Impl() {
   if (thread_.joinable()) {
@@ -83,12 +78,18 @@ Status RobotClient::Impl::open() {
   auto promise = std::make_shared<std::promise<Status>>();
   std::future<Status> first = promise->get_future();
   on_first_ = [promise](Status result) { promise->set_value(std::move(result)); };
-  asio::post(io_, [this] {
-    connect_now();
-    tick();
+  const auto self = shared_from_this();
+  main_ = std::make_shared<RobotLink>(
+      io_, link_params(),
+      RobotLink::Handlers{[self] { self->on_open(); },
+                          [self](const pb::StreamUpdate& update) { self->on_update(update); },
+                          [self](const Error& why, bool again) { self->on_broken(why, again); }});
+  asio::post(io_, [self] {
+    self->main_->connect();
+    self->tick();
   });
   // The thread keeps the object alive: a callback may drop the last reference to the client.
-  thread_ = std::thread([self = shared_from_this()] { self->io_.run(); });
+  thread_ = std::thread([self] { self->io_.run(); });
   if (first.wait_for(params_.connect_timeout) != std::future_status::ready) {
     return fail(Errc::kTimeout, "no hello from " + rpc::to_string(endpoint_) + " in " +
                                     std::to_string(to_seconds(params_.connect_timeout)) +
@@ -117,17 +118,10 @@ void RobotClient::Impl::shut_down() {
 void RobotClient::Impl::close_now() {
   closing_ = true;
   tick_.cancel();
-  retry_.cancel();
-  if (session_) {
-    session_->fail_all({Errc::kCancelled, "the client was closed"});
+  for (const auto& link : stop_links_) {
+    link->close();
   }
-  if (connection_) {
-    pb::Envelope goodbye;
-    goodbye.mutable_close()->set_reason(pb::Close::REASON_GOODBYE);
-    (void)send(goodbye);
-    connection_->finish(kLinger);
-    connection_.reset();
-  }
+  main_->close();
   for (const auto& [id, stream] : streams_) {
     stream->cancel();
   }
@@ -137,86 +131,37 @@ void RobotClient::Impl::close_now() {
   work_.reset();
 }
 
-void RobotClient::Impl::connect_now() {
-  const auto self = shared_from_this();
-  net::async_connect(io_, {endpoint_.host, endpoint_.port, params_.connect_timeout, params_.tls},
-                     [self](Result<net::Transport> transport) { self->on_connected(std::move(transport)); });
-}
-
-void RobotClient::Impl::on_connected(Result<net::Transport> transport) {
-  if (closing_) {
-    return;
-  }
-  if (!transport) {
-    end_connection(transport.error(), transport.error().code == Errc::kRefused);
-    return;
-  }
-  wire::ClientSessionParams p;
-  p.client_name = params_.client_name;
-  p.robot_id = params_.robot_id;
-  p.instance = instance_;
-  p.role = params_.role;
-  p.liveness = {params_.heartbeat, kLostHeartbeats * params_.heartbeat};
-  session_.emplace(p, net::wall_now());
-  outbox_ = wire::Outbox(kMaxQueuedFrames, kMaxQueuedBytes);
-  connection_ = std::make_shared<net::Connection>(std::move(*transport), net::ConnectionParams{});
-  const std::uint64_t number = ++connection_number_;
-  const auto self = shared_from_this();
-  const bool pushed = send(session_->hello());
-  SEEKER_ASSERT(pushed);
-  connection_->start(
-      {[self, number](std::string_view payload) {
-         if (number == self->connection_number_ && self->session_) {
-           self->on_payload(payload);
-         }
-       },
-       [self, number] { return number == self->connection_number_ ? self->outbox_.pop() : std::nullopt; },
-       [self, number](std::size_t) {
-         if (number == self->connection_number_ && self->session_) {
-           self->session_->on_sent(net::wall_now());
-         }
-       },
-       [self, number](const Error& error) {
-         if (number == self->connection_number_) {
-           const bool refused = error.code == Errc::kRefused;  // asking again would change nothing
-           self->end_connection({refused ? error.code : Errc::kLinkLost, error.message}, refused);
-         }
-       }});
-}
-
-void RobotClient::Impl::on_payload(std::string_view payload) { act(session_->on_payload(payload, net::wall_now())); }
-
-void RobotClient::Impl::act(wire::ClientStep step) {
-  if (closing_) {
-    return;
-  }
-  if (step.opened) {
-    on_open();
-  }
-  if (step.update) {
-    on_update(*step.update);
-  }
-  if (step.send) {
-    (void)send(*step.send);
-  }
-  if (step.end && !closing_) {
-    end_connection(*step.end, step.final_end);
-  }
+RobotLinkParams RobotClient::Impl::link_params() const {
+  RobotLinkParams p;
+  p.endpoint = endpoint_;
+  p.session.client_name = params_.client_name;
+  p.session.robot_id = params_.robot_id;
+  p.session.instance = net::random_id();
+  p.session.role = params_.role;
+  p.session.liveness = {params_.heartbeat, kLostHeartbeats * params_.heartbeat};
+  p.tls = params_.tls;
+  p.connect_timeout = params_.connect_timeout;
+  p.reconnect = params_.reconnect;
+  return p;
 }
 
 void RobotClient::Impl::on_open() {
-  opened_at_ = net::wall_now();
+  const wire::ClientSession& session = main_->session();
   best_sync_.reset();  // another run of the robot has another clock
   {
     const std::lock_guard lock(mutex_);
-    robot_ = session_->robot();
-    role_ = session_->role();
+    robot_ = session.robot();
+    role_ = session.role();
   }
-  const bool restarted = was_open_ && stream_id_ != session_->stream_id();
+  const bool restarted = was_open_ && stream_id_ != session.stream_id();
   const std::string why =
       was_open_ ? (restarted ? "connected again; the robot's server was restarted meanwhile" : "connected again") : "";
-  stream_id_ = session_->stream_id();
+  stream_id_ = session.stream_id();
   const bool again = std::exchange(was_open_, true);
+  urgent_.opened(*main_);
+  if (!again) {
+    open_stop_links();
+  }
   for (const auto& [id, stream] : streams_) {
     send_subscription(stream);
     if (again) {
@@ -247,36 +192,33 @@ void RobotClient::Impl::on_update(const pb::StreamUpdate& message) {
   stream->deliver(std::make_shared<const api::Update>(std::move(*update)));
 }
 
-void RobotClient::Impl::end_connection(const Error& error, bool final_end) {
-  if (closing_) {
-    return;
-  }
-  if (connection_) {
-    connection_->close();
-    connection_.reset();
-  }
-  ++connection_number_;
-  // Taken out first: an answer may make the next call at once.
-  std::optional<wire::ClientSession> ended = std::exchange(session_, std::nullopt);
-  const bool first_failed = !was_open_;
-  if (first_failed) {
+void RobotClient::Impl::on_broken(const Error& error, bool again) {
+  if (!was_open_) {
     first_result(tl::unexpected<Error>(error));
   }
-  const bool retry = params_.reconnect.enabled && !final_end && was_open_;
-  set_link(retry ? LinkState::kLost : LinkState::kClosed, error.message);
-  if (ended) {
-    ended->fail_all({Errc::kLinkLost, error.message});
-  }
-  if (!retry || closing_) {
+  set_link(again ? LinkState::kLost : LinkState::kClosed, error.message);
+}
+
+void RobotClient::Impl::open_stop_links() {
+  if (main_->session().robot().protocol_minor < kOnceMinor) {
     return;
   }
-  const auto opened_at = std::exchange(opened_at_, std::nullopt);
-  retry_.expires_after(opened_at ? backoff_.after(net::wall_now() - *opened_at) : backoff_.next());
-  retry_.async_wait([self = shared_from_this()](error_code cancelled) {
-    if (!cancelled && !self->closing_) {
-      self->connect_now();
-    }
-  });
+  RobotLinkParams p = link_params();
+  p.session.role = api::Role::kObserver;  // who may stop the robot
+  p.persistent = true;
+  for (int k = 0; k < std::min(params_.stop_links, kMostStopLinks); ++k) {
+    // Under a name of its own: whether this client is heard is for its first link to say.
+    const std::string suffix = ".stop" + std::to_string(k + 1);
+    p.session.client_name = params_.client_name.substr(0, wire::kMaxNameBytes - suffix.size()) + suffix;
+    p.session.instance = net::random_id();
+    const auto slot = stop_links_.size();
+    stop_links_.push_back(std::make_shared<RobotLink>(
+        io_, p,
+        RobotLink::Handlers{[self = shared_from_this(), slot] { self->urgent_.opened(*self->stop_links_[slot]); },
+                            {},
+                            [](const Error&, bool) {}}));
+    stop_links_.back()->connect();
+  }
 }
 
 void RobotClient::Impl::tick() {
@@ -284,21 +226,11 @@ void RobotClient::Impl::tick() {
     return;
   }
   const wire::WallTime now = net::wall_now();
-  if (session_) {
-    const std::uint64_t number = connection_number_;
-    wire::ClientStep step = session_->on_tick(now);
-    if (number == connection_number_) {
-      act(std::move(step));
-    }
-    if (session_ && session_->open()) {
-      const bool stale = session_->stale(now);
-      if (stale && link() == LinkState::kConnected) {
-        set_link(LinkState::kStale, "no frame was received from the robot for more than a heartbeat");
-      } else if (!stale && link() == LinkState::kStale) {
-        set_link(LinkState::kConnected, "frames of the robot are received again");
-      }
-    }
+  main_->tick(now);
+  for (const auto& link : stop_links_) {
+    link->tick(now);
   }
+  note_staleness(now);
   if (closing_) {
     return;
   }
@@ -308,6 +240,18 @@ void RobotClient::Impl::tick() {
       self->tick();
     }
   });
+}
+
+void RobotClient::Impl::note_staleness(wire::WallTime now) {
+  if (!main_->open()) {
+    return;
+  }
+  const bool stale = main_->stale(now);
+  if (stale && link() == LinkState::kConnected) {
+    set_link(LinkState::kStale, "no frame was received from the robot for more than a heartbeat");
+  } else if (!stale && link() == LinkState::kStale) {
+    set_link(LinkState::kConnected, "frames of the robot are received again");
+  }
 }
 
 void RobotClient::Impl::set_link(LinkState state, std::string why, bool restarted) {

@@ -1,12 +1,12 @@
 /// \file
-/// Implementation of RobotClient: one thread, one connection at a time, subscriptions that outlive connections.
+/// Implementation of RobotClient: one thread, one link with all calls and streams, subscriptions that outlive its
+/// connections, and links that carry nothing but copies of what stops the robot.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <thread>
 #include <vector>
 
@@ -14,12 +14,10 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
 
-#include "common/net/connect.hpp"
-#include "common/net/connection.hpp"
 #include "common/rpc/client_streams.hpp"
 #include "common/rpc/robot_client.hpp"
-#include "common/wire/client_session.hpp"
-#include "common/wire/outbox.hpp"
+#include "common/rpc/robot_link.hpp"
+#include "common/rpc/urgent_calls.hpp"
 
 namespace seeker::rpc {
 
@@ -37,6 +35,8 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   /// The answer has `at_least` the time, where that is more than ClientParams::call_timeout.
   void call(seeker::v1::Request request, const wire::ClientSession::Answer& answer,
             Duration at_least = Duration::zero());
+  /// As call(), for a request that carries `once`: a copy goes over every link, and the first answer counts.
+  void call_urgently(seeker::v1::Request request, const wire::ClientSession::Answer& answer);
   void sync_time(const api::Reply<TimeSync>& reply);
   void drive(const api::DriveCommand& command, const api::Reply<void>& reply);
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,
@@ -50,17 +50,16 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
  private:
   /// Has the name begin with that of the certificate, if there is one.
   Status take_certified_name();
-  void connect_now();
-  void on_connected(Result<net::Transport> transport);
-  void on_payload(std::string_view payload);
-  void act(wire::ClientStep step);
+  [[nodiscard]] RobotLinkParams link_params() const;
   void on_open();
   void on_update(const seeker::v1::StreamUpdate& message);
-  void end_connection(const Error& error, bool final_end);
+  void on_broken(const Error& error, bool again);
+  /// Where the robot knows copies of a request.
+  void open_stop_links();
   void tick();
+  void note_staleness(wire::WallTime now);
   void close_now();
   void set_link(LinkState state, std::string why, bool restarted = false);
-  bool send(const seeker::v1::Envelope& envelope);
   /// Runs `work` on the client's thread, or `closed` here when there is none any more.
   void on_thread(std::function<void()> work, const std::function<void()>& closed);
   void sync_now(api::Reply<TimeSync> reply);
@@ -73,17 +72,12 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
 
   Endpoint endpoint_;
   ClientParams params_;
-  std::uint64_t instance_;
   boost::asio::io_context io_;
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_;
   boost::asio::steady_timer tick_;
-  boost::asio::steady_timer retry_;
-  net::Backoff backoff_;
-  std::optional<wire::WallTime> opened_at_;  ///< when the session that there is was opened
-  std::shared_ptr<net::Connection> connection_;
-  std::optional<wire::ClientSession> session_;
-  std::uint64_t connection_number_ = 0;  ///< distinguishes late handlers of a former connection
-  wire::Outbox outbox_;
+  std::shared_ptr<RobotLink> main_;
+  std::vector<std::shared_ptr<RobotLink>> stop_links_;
+  UrgentCalls urgent_;
   std::map<std::uint64_t, std::shared_ptr<ClientStream>> streams_;
   std::uint64_t next_stream_ = 1;
   std::uint64_t stream_id_ = 0;  ///< stream id of the run of the robot that was connected last

@@ -24,5 +24,7 @@ struct Endpoint {
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
 /// Writes the notation that parse_endpoint() reads, always with the port.
 [[nodiscard]] std::string to_string(const Endpoint& endpoint);
+/// Whether a host is this machine by its name or address alone; nothing is looked up.
+[[nodiscard]] bool is_this_machine(std::string_view host);
 
 }  // namespace seeker::rpc

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/net/random_id.hpp"
 #include "common/rpc/answers.hpp"
 #include "common/rpc/client_impl.hpp"
 
@@ -91,15 +92,20 @@ void RobotClient::get_mission(api::Reply<api::MissionStatus> reply) {
 
 void RobotClient::stop(api::Reply<void> reply) {
   pb::Request request;
-  request.mutable_stop();
-  impl_->call(std::move(request), empty_answer(std::move(reply)));
+  request.mutable_stop()->set_once(net::random_id());
+  impl_->call_urgently(std::move(request), empty_answer(std::move(reply)));
 }
 
 void RobotClient::set_estop(bool engaged, api::Reply<void> reply) {
   pb::Request request;
   request.mutable_set_estop()->set_engaged(engaged);
   request.mutable_set_estop()->set_release(!engaged);
-  impl_->call(std::move(request), empty_answer(std::move(reply)));
+  if (!engaged) {
+    impl_->call(std::move(request), empty_answer(std::move(reply)));
+    return;
+  }
+  request.mutable_set_estop()->set_once(net::random_id());
+  impl_->call_urgently(std::move(request), empty_answer(std::move(reply)));
 }
 
 void RobotClient::command_lease(const api::LeaseCommand& command, api::Reply<api::LeaseState> reply) {

@@ -53,6 +53,10 @@ struct ClientParams {
   Duration call_timeout = std::chrono::seconds(5);
   Duration heartbeat = std::chrono::seconds(1);  ///< send at least this often; stale after 1.5, lost after 3 of them
   ReconnectParams reconnect;
+  /// Connections beside the first that carry nothing but copies of stop() and of engaging the emergency stop, of which
+  /// the first to arrive counts: a lost packet holds back a copy, not the stop. At most 8; none to a robot that speaks
+  /// less than 1.7.
+  int stop_links = 0;
   std::function<void(const LinkEvent&)> on_link;  ///< on the client's thread; must not block
 };
 

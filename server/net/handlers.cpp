@@ -106,12 +106,19 @@ void drive(const Responder& responder, Session& session, const pb::DriveRequest&
 }
 
 /// An empty request releases nothing.
-void set_estop(const Responder& responder, Session& session, const pb::SetEstopRequest& request) {
-  if (!request.engaged() && !request.release() && session.minor() >= kIntentMinor) {
+void set_estop(const Responder& responder, Session& session, const pb::Request& request) {
+  const bool engaged = request.set_estop().engaged();
+  if (!engaged && !request.set_estop().release() && session.minor() >= kIntentMinor) {
     responder.answer_now(fail(Errc::kInvalidArgument, "field 'release' must be set to release the emergency stop"));
     return;
   }
-  session.robot().set_estop(request.engaged(), reply_empty(responder));
+  session.once_calls().carry_out(request, reply_empty(responder),
+                                 [&](const api::Reply<void>& reply) { session.robot().set_estop(engaged, reply); });
+}
+
+void stop(const Responder& responder, Session& session, const pb::Request& request) {
+  session.once_calls().carry_out(request, reply_empty(responder),
+                                 [&](const api::Reply<void>& reply) { session.robot().stop(reply); });
 }
 
 void grab_image(const Responder& responder, Session& session, const pb::GrabImageRequest& request) {
@@ -236,8 +243,8 @@ void handle(const SessionPtr& session, const pb::Request& request, RobotTime rec
                             static_cast<wire::CallNumber>(request.call_case()), received};
   Session& s = *session;
   switch (request.call_case()) {
-    case R::kStop: return s.robot().stop(reply_empty(responder));
-    case R::kSetEstop: return set_estop(responder, s, request.set_estop());
+    case R::kStop: return stop(responder, s, request);
+    case R::kSetEstop: return set_estop(responder, s, request);
     case R::kDrive: return drive(responder, s, request.drive());
     case R::kStartMission: return start_mission(responder, s, request.start_mission());
     case R::kCommandMission: return command_mission(responder, s, request.command_mission());

@@ -66,7 +66,7 @@ class Server::Impl {
         tick_(*io_),
         mailbox_(std::make_shared<Mailbox>(2 * params_.backlog.items)),
         backlogs_(make_backlogs(params_.backlog, std::make_index_sequence<api::kTopicCount>())),
-        hub_{params_, host, io_, backlogs_, {}, net::random_id(), {}, {}, false, {}, {}, {}, {}},
+        hub_{params_, host, io_, backlogs_, {}, net::random_id(), {}, {}, false, {}, {}, {}, {}, {}},
         loop_(params_.lost_after, net::wall_now()) {
     hub_.robot_now = [this] { return params_.robot_now ? params_.robot_now() : newest_; };
     hub_.loop_pass = [this] { return params_.loop_pass ? params_.loop_pass() : ++own_passes_; };

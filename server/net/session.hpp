@@ -16,6 +16,7 @@
 #include "common/wire/outcome.hpp"
 #include "common/wire/server_session.hpp"
 #include "common/wire/stream_sender.hpp"
+#include "server/net/once_calls.hpp"
 #include "server/net/server.hpp"
 #include "server/net/session_audit.hpp"
 
@@ -40,6 +41,7 @@ struct SessionHub {
   /// By topic: what a new subscriber gets at once, since a robot that stands still in a simulation publishes nothing
   /// more. Null for RELIABLE topics, which are resumed, and for tiles, which get_tiles gives.
   std::array<api::UpdatePtr, api::kTopicCount> newest;
+  OnceCalls once_calls;
 };
 
 /// All methods run on the network thread.
@@ -64,6 +66,7 @@ class Session : public std::enable_shared_from_this<Session> {
   [[nodiscard]] api::RobotApi& robot() { return *robot_; }
   [[nodiscard]] wire::StreamSender& streams() { return streams_; }
   [[nodiscard]] const SessionHub& hub() const { return hub_; }
+  [[nodiscard]] OnceCalls& once_calls() { return hub_.once_calls; }
   /// Bytes of answers that the client has not taken yet.
   [[nodiscard]] std::size_t queued_bytes() const { return outbox_.bytes(); }
   [[nodiscard]] bool open() const { return session_.open(); }

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "common/rpc/robot_client.hpp"
@@ -24,6 +25,7 @@ constexpr Duration kPatience = std::chrono::seconds(60);
 constexpr Duration kLoopPeriod = std::chrono::milliseconds(100);
 constexpr int kMissions = 20;
 constexpr int kMostTries = 20;
+constexpr int kStopLinks = 2;
 
 double ms(Duration duration) { return 1e3 * to_seconds(duration); }
 
@@ -57,11 +59,16 @@ class Followed {
   int reports_ = 0;
 };
 
-Result<std::shared_ptr<rpc::RobotClient>> connect(const rpc::Endpoint& robot, const std::string& bundle) {
+Result<std::shared_ptr<rpc::RobotClient>> connect(const rpc::Endpoint& robot, const std::string& bundle,
+                                                  int stop_links) {
   rpc::ClientParams params;
   params.client_name = "soak";
+  params.stop_links = stop_links;
   params.tls = pki::bundle_in(bundle);
   params.connect_timeout = params.call_timeout = kPatience;
+  params.on_link = [](const rpc::LinkEvent& event) {
+    std::cout << "  info  the link is " << rpc::to_string(event.state) << ": " << event.why << std::endl;
+  };
   Result<std::shared_ptr<rpc::RobotClient>> client = rpc::RobotClient::connect(robot, params);
   for (int k = 1; k < kMostTries && !client; ++k) {
     client = rpc::RobotClient::connect(robot, params);
@@ -81,6 +88,19 @@ Duration round_trip(rpc::RobotClient& client) {
   return all.empty() ? kPatience : quantile(all, 0.5);
 }
 
+/// A start that is repeated, since the link may be broken just now, is harmless: the mission has an id.
+Result<api::MissionAccepted> start(rpc::RobotClient& client, const api::MissionRequest& request) {
+  const auto give_up = Clock::now() + kPatience;
+  for (;;) {
+    auto started = rpc::wait<api::MissionAccepted>([&](auto reply) { client.start_mission(request, std::move(reply)); },
+                                                   kPatience);
+    if (started || started.error().code != Errc::kLinkLost || Clock::now() > give_up) {
+      return started;
+    }
+    std::this_thread::sleep_for(kLoopPeriod);
+  }
+}
+
 /// Commands, follows and stops one mission; the time that STOP took.
 std::optional<Duration> one_mission(rpc::RobotClient& client, Followed& followed, int number) {
   api::MissionRequest request;
@@ -88,8 +108,7 @@ std::optional<Duration> one_mission(rpc::RobotClient& client, Followed& followed
   const double away_m = number % 2 == 0 ? 0.0 : 2.0;
   request.task = api::GotoMission{.waypoints = {{away_m, 0.0}}, .final_heading_rad = {}, .keep_out = {}};
   request.link_policy = api::LinkPolicy::kContinue;
-  const auto started =
-      rpc::wait<api::MissionAccepted>([&](auto reply) { client.start_mission(request, std::move(reply)); }, kPatience);
+  const auto started = start(client, request);
   if (!started) {
     std::cerr << "not started: " << started.error().message << "\n";
     return std::nullopt;
@@ -102,6 +121,8 @@ std::optional<Duration> one_mission(rpc::RobotClient& client, Followed& followed
     std::cerr << "no report of the mission under way\n";
     return std::nullopt;
   }
+  // Reports come in step with the loop; STOP comes at any of its moments.
+  std::this_thread::sleep_for(kLoopPeriod * (number - 1) / kMissions);
   const auto begin = Clock::now();
   const Status stopped = rpc::wait<void>([&](auto reply) { client.stop(std::move(reply)); }, kPatience);
   const Duration took = Clock::now() - begin;
@@ -114,9 +135,9 @@ std::optional<Duration> one_mission(rpc::RobotClient& client, Followed& followed
   return took;
 }
 
-int run(const std::string& address, const std::string& bundle) {
+int run(const std::string& address, const std::string& bundle, int stop_links) {
   const Result<rpc::Endpoint> robot = rpc::parse_endpoint(address);
-  const auto client = robot ? connect(*robot, bundle) : tl::unexpected<Error>(robot.error());
+  const auto client = robot ? connect(*robot, bundle, stop_links) : tl::unexpected<Error>(robot.error());
   if (!client) {
     std::cerr << client.error().message << "\n";
     return 1;
@@ -141,15 +162,15 @@ int run(const std::string& address, const std::string& bundle) {
   }
   std::cout << "  info  STOP acknowledged in " << ms(quantile(stops, 0.5)) << " ms (median), "
             << ms(quantile(stops, 1.0)) << " ms at worst; " << in_time << " of them within that time\n";
-  return stops.size() == kMissions && quantile(stops, 0.5) <= most ? 0 : 1;
+  return stops.size() == kMissions && in_time >= kMissions - 1 ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: soak_operator HOST:PORT BUNDLE\n";
+  if (argc != 3 && argc != 4) {
+    std::cerr << "usage: soak_operator HOST:PORT BUNDLE [STOP_LINKS]\n";
     return 2;
   }
-  return run(argv[1], argv[2]);
+  return run(argv[1], argv[2], argc == 4 ? std::stoi(argv[3]) : kStopLinks);
 }

@@ -195,7 +195,7 @@ has_device() { ip -n "$1" link show "$2" >/dev/null 2>&1; }
 lay_own_cable() {
   local side
   ip -n "${namespaces[0]}" link del cable0
-  "$WIRE" "${namespaces[@]}" "$delay_ms" "$loss_percent" "$rate_kbit" 1 &
+  "$WIRE" "${namespaces[@]}" "$delay_ms" "$loss_percent" "$rate_kbit" "$seed" &
   wire_pid=$!
   for side in 0 1; do
     wait_until 50 has_device "${namespaces[$side]}" "cable$side" || return 1
@@ -212,8 +212,8 @@ use_cable() {
 
 # A mission is commanded, followed and stopped over a network of 200 ms, 5 % loss and 256 kbit/s.
 judge_bad_network() {
-  local network=10.213.74 delay_ms=100 loss_percent=5 rate_kbit=256 code=0 why settings
-  echo "two hosts, ${delay_ms} ms each way, $loss_percent % loss, $rate_kbit kbit/s"
+  local network=10.213.74 delay_ms=100 loss_percent=5 rate_kbit=256 seed=${SEED:-1} code=0 why settings
+  echo "two hosts, ${delay_ms} ms each way, $loss_percent % loss, $rate_kbit kbit/s, seed $seed"
   why=$(make_namespaces) || { echo "  skip  $why"; remove_network; return 0; }
   if lay_cable; then
     echo "  info  by tc netem"
@@ -227,7 +227,7 @@ judge_bad_network() {
   SEEKERD="ip netns exec ${namespaces[0]} $SEEKERD" start_server "$out/network-server.log" \
     --config config/robots/live.yaml --set "server.address=$network.1" --set sim.people=false "${settings[@]}"
   ip netns exec "${namespaces[1]}" "$OPERATOR" "$network.1:$server_port" "$site/bundles/anna" || code=$?
-  verdict "a mission is commanded, followed and stopped; STOP takes a round trip and a period of the loop" "$code"
+  verdict "missions are commanded, followed and stopped; STOP takes a round trip and a period of the loop in all but one" "$code"
   stop_server
   remove_network
 }

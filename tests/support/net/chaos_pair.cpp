@@ -20,8 +20,8 @@ constexpr double kSlice_s = 0.01;
 
 }  // namespace
 
-ChaosPair::ChaosPair(Socket client, asio::io_context& io, const Impairment& rules, Rng& rng)
-    : client_(std::move(client)), server_(io), rules_(rules), rng_(rng), lanes_{Lane(io), Lane(io)} {
+ChaosPair::ChaosPair(Socket client, asio::io_context& io, const Impairment& rules, Rng& rng, std::size_t number)
+    : client_(std::move(client)), server_(io), number_(number), rules_(rules), rng_(rng), lanes_{Lane(io), Lane(io)} {
   for (Lane& lane : lanes_) {
     lane.buffer.resize(kBufferBytes);
   }
@@ -93,7 +93,7 @@ std::optional<std::size_t> ChaosPair::budget() const {
 
 void ChaosPair::read(std::size_t way) {
   Lane& lane = lanes_.at(way);
-  if (!started_ || lane.reading || lane.ended || !from(way).is_open() || rules_.stalled || lane.queued >= kMostQueued) {
+  if (!started_ || lane.reading || lane.ended || !from(way).is_open() || stalls() || lane.queued >= kMostQueued) {
     return;
   }
   lane.reading = true;
@@ -125,14 +125,14 @@ void ChaosPair::on_read(std::size_t way, std::size_t bytes) {
 
 void ChaosPair::write(std::size_t way) {
   Lane& lane = lanes_.at(way);
-  if (lane.writing || lane.on_the_way.empty() || rules_.stalled || lives_on_) {
+  if (lane.writing || lane.on_the_way.empty() || stalls() || lives_on_) {
     return;
   }
   lane.writing = true;
   lane.timer.expires_at(lane.on_the_way.front().due);
   lane.timer.async_wait([self = shared_from_this(), way](error_code error) {
     self->lanes_.at(way).writing = false;
-    if (!error && self->on_end_ && !self->rules_.stalled && !self->lives_on_) {
+    if (!error && self->on_end_ && !self->stalls() && !self->lives_on_) {
       self->write_front(way);
     }
   });

@@ -25,8 +25,8 @@ class ChaosPair : public std::enable_shared_from_this<ChaosPair> {
  public:
   using Socket = boost::asio::ip::tcp::socket;
 
-  /// `rules` and `rng` are the proxy's and outlive the pair.
-  ChaosPair(Socket client, boost::asio::io_context& io, const Impairment& rules, Rng& rng);
+  /// `rules` and `rng` are the proxy's and outlive the pair; `number` counts its connections from 1.
+  ChaosPair(Socket client, boost::asio::io_context& io, const Impairment& rules, Rng& rng, std::size_t number);
 
   /// Connects to the server's port of 127.0.0.1. `on_heard` is called once, when the server has been given the first
   /// bytes; `on_end` once, when both sides are closed.
@@ -61,6 +61,7 @@ class ChaosPair : public std::enable_shared_from_this<ChaosPair> {
 
   [[nodiscard]] Socket& from(std::size_t way) { return way == kToServer ? client_ : server_; }
   [[nodiscard]] Socket& to(std::size_t way) { return way == kToServer ? server_ : client_; }
+  [[nodiscard]] bool stalls() const { return rules_.stalled || rules_.stalled_alone == number_; }
   [[nodiscard]] std::size_t most_at_once() const;
   [[nodiscard]] Time due_after_now(Lane& lane, std::size_t bytes);
   /// Bytes that still pass before the connection breaks; nothing: it does not.
@@ -77,6 +78,7 @@ class ChaosPair : public std::enable_shared_from_this<ChaosPair> {
 
   Socket client_;
   Socket server_;
+  std::size_t number_;
   const Impairment& rules_;
   Rng& rng_;
   std::function<void()> on_heard_;

@@ -70,6 +70,7 @@ class ChaosProxy::Impl {
   std::set<std::shared_ptr<ChaosPair>> pairs_;
   std::atomic<std::size_t> connections_{0};
   std::atomic<std::size_t> open_{0};
+  std::size_t served_ = 0;
   std::thread thread_;
 
  private:
@@ -112,7 +113,7 @@ class ChaosProxy::Impl {
     }
   }
   void serve(tcp::socket socket) {
-    const auto pair = std::make_shared<ChaosPair>(std::move(socket), io_, rules_, rng_);
+    const auto pair = std::make_shared<ChaosPair>(std::move(socket), io_, rules_, rng_, ++served_);
     pairs_.insert(pair);
     ++open_;
     // The server must have heard the newer one before the held one, whose bytes wait already, reaches it.

@@ -23,8 +23,9 @@ struct Impairment {
   double bytes_per_s = 0;  ///< bandwidth of either way; 0: no limit
   std::size_t piece = 0;   ///< bytes are passed on at most so many at a time; 0: as they come
   bool stalled = false;    ///< nothing passes, the connections stay
-  double drop = 0.0;       ///< the share of new connections that are closed at once
-  double reorder = 0.0;    ///< the share of new connections that are served when the next one was heard
+  std::optional<std::size_t> stalled_alone = {};  ///< as stalled, the connection of this number (the first is 1) alone
+  double drop = 0.0;                              ///< the share of new connections that are closed at once
+  double reorder = 0.0;  ///< the share of new connections that are served when the next one was heard
   Duration hold = std::chrono::milliseconds(200);  ///< or after this, when no other one comes
   std::optional<std::size_t> cut_at = {};          ///< the connection breaks after so many bytes
   std::optional<std::size_t> half_open_at = {};  ///< after so many bytes one side is gone, and the other is never told

@@ -26,5 +26,14 @@ TEST(Endpoint, IsWrittenSoThatItCanBeRead) {
   }
 }
 
+TEST(Endpoint, LoopbackIsThisMachine) {
+  for (const char* host : {"localhost", "127.0.0.1", "127.8.8.8", "::1"}) {
+    EXPECT_TRUE(is_this_machine(host)) << host;
+  }
+  for (const char* host : {"robot", "10.0.0.1", "::2", "1270.example"}) {
+    EXPECT_FALSE(is_this_machine(host)) << host;
+  }
+}
+
 }  // namespace
 }  // namespace seeker::rpc

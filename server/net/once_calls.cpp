@@ -1,0 +1,82 @@
+#include "server/net/once_calls.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace seeker::server_net {
+namespace {
+
+/// More than are on their way at any time: a client has a handful of connections and stops once.
+constexpr std::size_t kKept = 256;
+
+}  // namespace
+
+/// What a call came to, and who waits for that.
+class OnceCalls::Outcome {
+ public:
+  void tell(const api::Reply<void>& reply) {
+    std::unique_lock lock(mutex_);
+    if (!outcome_) {
+      waiting_.push_back(reply);
+      return;
+    }
+    const Status outcome = *outcome_;
+    lock.unlock();
+    reply(outcome);
+  }
+  void set(const Status& outcome) {
+    std::vector<api::Reply<void>> waiting;
+    {
+      const std::lock_guard lock(mutex_);
+      outcome_ = outcome;
+      waiting.swap(waiting_);
+    }
+    for (const auto& reply : waiting) {
+      reply(outcome);
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::optional<Status> outcome_;
+  std::vector<api::Reply<void>> waiting_;
+};
+
+OnceCalls::Key OnceCalls::key_of(const seeker::v1::Request& request) {
+  using R = seeker::v1::Request;
+  switch (request.call_case()) {
+    case R::kStop: return {R::kStop, request.stop().once()};
+    case R::kSetEstop: return {R::kSetEstop, request.set_estop().engaged() ? request.set_estop().once() : 0};
+    default: return {request.call_case(), 0};
+  }
+}
+
+std::shared_ptr<OnceCalls::Outcome> OnceCalls::find(const Key& key) const {
+  const auto found = std::find_if(newest_.begin(), newest_.end(), [&](const auto& one) { return one.first == key; });
+  return key.second == 0 || found == newest_.end() ? nullptr : found->second;
+}
+
+bool OnceCalls::is_copy(const seeker::v1::Request& request) const { return find(key_of(request)) != nullptr; }
+
+void OnceCalls::carry_out(const seeker::v1::Request& request, const api::Reply<void>& reply, const Work& work) {
+  const Key key = key_of(request);
+  if (key.second == 0) {
+    work(reply);
+    return;
+  }
+  if (const auto known = find(key)) {
+    known->tell(reply);
+    return;
+  }
+  const auto outcome = std::make_shared<Outcome>();
+  outcome->tell(reply);
+  newest_.emplace_back(key, outcome);
+  if (newest_.size() > kKept) {
+    newest_.pop_front();
+  }
+  work([outcome](const Status& done) { outcome->set(done); });
+}
+
+}  // namespace seeker::server_net
