@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -112,6 +114,29 @@ TEST_F(Usage, AnEndedPipeIsNoErrorAndAFullDiskIs) {
     const Connector none = [](const ConnectRequest&) -> Result<Connection> { return fail(Errc::kLinkLost, "none"); };
     EXPECT_EQ(run_program({"version"}, process, none), ended ? ExitCode::kOk : ExitCode::kFailed);
     EXPECT_EQ(err.str(), ended ? "" : "seeker: stdout cannot be written\n");
+  }
+}
+
+TEST_F(Usage, VerbsThatMayStopTheRobotSaySoWhenTheyConnect) {
+  const auto stops = [](const std::vector<std::string>& verb) {
+    std::ostringstream discarded;
+    Process process;
+    process.out = &discarded;
+    process.err = &discarded;
+    std::optional<bool> asked;
+    const Connector none = [&asked](const ConnectRequest& request) -> Result<Connection> {
+      asked = request.stops;
+      return fail(Errc::kLinkLost, "none");
+    };
+    EXPECT_EQ(run_program(verb, process, none), ExitCode::kNoLink);
+    return asked;
+  };
+  for (const std::vector<std::string>& verb :
+       {std::vector<std::string>{"stop"}, {"estop"}, {"drive"}, {"explore"}, {"goto", "1,0"}}) {
+    EXPECT_EQ(stops(verb), true) << verb.front();
+  }
+  for (const std::vector<std::string>& verb : {std::vector<std::string>{"status"}, {"watch"}, {"pause"}}) {
+    EXPECT_EQ(stops(verb), false) << verb.front();
   }
 }
 
