@@ -31,9 +31,7 @@ Context for_clean_up(const Context& context) {
 }
 
 Status stop_mission(const Context& context) {
-  return ask<void>(for_clean_up(context), [&](api::Reply<void> reply) {
-    context.robot->command_mission(api::MissionCommand::kStop, std::move(reply));
-  });
+  return ask<void>(for_clean_up(context), [&](api::Reply<void> reply) { context.robot->stop(std::move(reply)); });
 }
 
 }  // namespace

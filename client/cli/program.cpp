@@ -21,7 +21,6 @@ struct LinkWish {
 };
 constexpr LinkWish kShort{};
 constexpr LinkWish kLong{.reconnect = true};
-constexpr LinkWish kStopping{.stops = true};
 constexpr LinkWish kCommanding{.reconnect = true, .stops = true};
 
 /// Carries one command out: what needs no robot first, then the connection, then the verb.
@@ -68,16 +67,16 @@ class Dispatch {
   VerbResult operator()(const LocaliseVerb& verb) { return with_mission(verb, localise); }
   VerbResult operator()(const RecogniseVerb& verb) { return with_mission(verb, recognise); }
   VerbResult operator()(const DriveVerb& verb) {
-    return with_robot([&] { return drive(context_, verb); }, kStopping);
+    return with_robot([&] { return drive(context_, verb); });
   }
   VerbResult operator()(const LeaseVerb& verb) {
-    return with_robot([&] { return lease(context_, verb); }, kCommanding);
+    return with_robot([&] { return lease(context_, verb); }, kLong);
   }
   VerbResult operator()(const StopVerb&) {
-    return with_robot([&] { return stop(context_); }, kStopping);
+    return with_robot([&] { return stop(context_); });
   }
   VerbResult operator()(const EstopVerb& verb) {
-    return with_robot([&] { return estop(context_, verb); }, kStopping);
+    return with_robot([&] { return estop(context_, verb); });
   }
   VerbResult operator()(const PauseVerb&) {
     return with_robot([&] { return command_mission(context_, api::MissionCommand::kPause); });

@@ -20,7 +20,7 @@ struct ConnectRequest {
   std::string tls;                  ///< as given with --tls
   std::optional<Duration> timeout;  ///< wall time for the connection
   bool reconnect = false;           ///< true: a broken connection is made again, for verbs that run long
-  bool stops = false;               ///< true: the verb may stop the robot, also over a bad link
+  bool stops = false;               ///< true: the verb runs long and may have to stop the robot
   std::string client_name = {};     ///< empty: of program, host and process
 };
 using Connector = std::function<Result<Connection>(const ConnectRequest&)>;

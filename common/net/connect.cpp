@@ -46,7 +46,11 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
                               self->on_resolved(error, found);
                             });
   }
-  void give_up() { finish(fail(Errc::kCancelled, "the attempt to connect was given up")); }
+  void give_up() {
+    if (!tls_) {
+      finish(fail(Errc::kCancelled, "the attempt to connect was given up"));
+    }
+  }
 
  private:
   [[nodiscard]] std::string name() const { return target_.host + " port " + std::to_string(target_.port); }

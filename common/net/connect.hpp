@@ -27,7 +27,8 @@ struct Target {
 /// io_context. kLinkLost names the cause, kTimeout the time; kRefused: the other side is not whom it should be, or does
 /// not speak TLS; the errors of our certificates' files. Whether the other side believes our certificate shows only
 /// when something is read from it. The returned function, which may be called at any later time on the io_context,
-/// gives up: `done` gets kCancelled, unless it was called before.
+/// gives up: `done` gets kCancelled, unless it was called before. A handshake that has begun goes on to its end, since
+/// the other side would count a broken one as an attack.
 std::function<void()> async_connect(boost::asio::io_context& io, Target target,
                                     std::function<void(Result<Transport>)> done);
 

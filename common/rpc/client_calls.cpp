@@ -63,18 +63,12 @@ void RobotClient::Impl::call_now(pb::Request request, wire::ClientSession::Answe
   main_->call(std::move(request), std::max(params_.call_timeout, at_least), std::move(answer));
 }
 
-void RobotClient::Impl::call_urgently(pb::Request request, const wire::ClientSession::Answer& answer) {
-  on_thread(
-      [self = shared_from_this(), request = std::move(request), answer] {
-        std::vector<RobotLink*> links{self->main_.get()};
-        for (const auto& link : self->stop_links_) {
-          if (link->open()) {
-            links.push_back(link.get());
-          }
-        }
-        self->urgent_.call(request, self->params_.call_timeout, answer, links);
-      },
-      [answer] { answer(fail(Errc::kCancelled, "the client was closed")); });
+void RobotClient::Impl::call_urgently(pb::Request request, pb::Request copy,
+                                      const wire::ClientSession::Answer& answer) {
+  UrgentCalls::Call call{std::move(request), std::move(copy), params_.call_timeout};
+  on_thread([self = shared_from_this(), call = std::move(call),
+             answer] { self->urgent_.call(call, answer, *self->main_, self->stop_links_); },
+            [answer] { answer(fail(Errc::kCancelled, "the client was closed")); });
 }
 
 void RobotClient::Impl::sync_time(const api::Reply<TimeSync>& reply) {

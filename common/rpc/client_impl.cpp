@@ -158,7 +158,6 @@ void RobotClient::Impl::on_open() {
       was_open_ ? (restarted ? "connected again; the robot's server was restarted meanwhile" : "connected again") : "";
   stream_id_ = session.stream_id();
   const bool again = std::exchange(was_open_, true);
-  urgent_.opened(*main_);
   if (!again) {
     open_stop_links();
   }
@@ -205,10 +204,11 @@ void RobotClient::Impl::open_stop_links() {
   }
   RobotLinkParams p = link_params();
   p.session.role = api::Role::kObserver;  // who may stop the robot
-  p.persistent = true;
+  p.session.robot_id = main_->session().robot().robot_id;
+  p.persistent = p.reconnect.enabled = true;
   for (int k = 0; k < std::min(params_.stop_links, kMostStopLinks); ++k) {
     // Under a name of its own: whether this client is heard is for its first link to say.
-    const std::string suffix = ".stop" + std::to_string(k + 1);
+    const std::string suffix = "/stop" + std::to_string(k + 1);
     p.session.client_name = params_.client_name.substr(0, wire::kMaxNameBytes - suffix.size()) + suffix;
     p.session.instance = net::random_id();
     const auto slot = stop_links_.size();
@@ -216,7 +216,11 @@ void RobotClient::Impl::open_stop_links() {
         io_, p,
         RobotLink::Handlers{[self = shared_from_this(), slot] { self->urgent_.opened(*self->stop_links_[slot]); },
                             {},
-                            [](const Error&, bool) {}}));
+                            [](const Error& why, bool again) {
+                              if (!again) {
+                                log::warning(kPart, "a connection for stops is gone for good: " + why.message);
+                              }
+                            }}));
     stop_links_.back()->connect();
   }
 }

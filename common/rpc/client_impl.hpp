@@ -35,8 +35,8 @@ class RobotClient::Impl : public std::enable_shared_from_this<RobotClient::Impl>
   /// The answer has `at_least` the time, where that is more than ClientParams::call_timeout.
   void call(seeker::v1::Request request, const wire::ClientSession::Answer& answer,
             Duration at_least = Duration::zero());
-  /// As call(), for a request that carries `once`: a copy goes over every link, and the first answer counts.
-  void call_urgently(seeker::v1::Request request, const wire::ClientSession::Answer& answer);
+  /// As call(), with a copy of the request over every stop link.
+  void call_urgently(seeker::v1::Request request, seeker::v1::Request copy, const wire::ClientSession::Answer& answer);
   void sync_time(const api::Reply<TimeSync>& reply);
   void drive(const api::DriveCommand& command, const api::Reply<void>& reply);
   Result<std::unique_ptr<api::Subscription>> subscribe(const std::vector<api::TopicRequest>& topics,

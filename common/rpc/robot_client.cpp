@@ -93,19 +93,23 @@ void RobotClient::get_mission(api::Reply<api::MissionStatus> reply) {
 void RobotClient::stop(api::Reply<void> reply) {
   pb::Request request;
   request.mutable_stop()->set_once(net::random_id());
-  impl_->call_urgently(std::move(request), empty_answer(std::move(reply)));
+  pb::Request copy = request;
+  copy.mutable_stop()->set_copy(true);
+  impl_->call_urgently(std::move(request), std::move(copy), empty_answer(std::move(reply)));
 }
 
 void RobotClient::set_estop(bool engaged, api::Reply<void> reply) {
   pb::Request request;
   request.mutable_set_estop()->set_engaged(engaged);
-  request.mutable_set_estop()->set_release(!engaged);
   if (!engaged) {
+    request.mutable_set_estop()->set_release(true);
     impl_->call(std::move(request), empty_answer(std::move(reply)));
     return;
   }
   request.mutable_set_estop()->set_once(net::random_id());
-  impl_->call_urgently(std::move(request), empty_answer(std::move(reply)));
+  pb::Request copy = request;
+  copy.mutable_set_estop()->set_copy(true);
+  impl_->call_urgently(std::move(request), std::move(copy), empty_answer(std::move(reply)));
 }
 
 void RobotClient::command_lease(const api::LeaseCommand& command, api::Reply<api::LeaseState> reply) {

@@ -27,7 +27,7 @@ RobotLink::RobotLink(boost::asio::io_context& io, RobotLinkParams params, Handle
       outbox_(kMaxQueuedFrames, kMaxQueuedBytes) {}
 
 void RobotLink::connect() {
-  net::async_connect(
+  give_up_connecting_ = net::async_connect(
       io_, {params_.endpoint.host, params_.endpoint.port, params_.connect_timeout, params_.tls},
       [self = shared_from_this()](Result<net::Transport> transport) { self->on_connected(std::move(transport)); });
 }

@@ -10,6 +10,25 @@ namespace {
 
 /// More than are on their way at any time: a client has a handful of connections and stops once.
 constexpr std::size_t kKept = 256;
+/// A client has a handful of connections.
+constexpr std::size_t kMostWaiting = 64;
+
+/// The call, its number (0: it has no copies), and whether it is a copy.
+struct Mark {
+  std::pair<int, std::uint64_t> key;
+  bool copy = false;
+};
+
+Mark mark_of(const seeker::v1::Request& request) {
+  using R = seeker::v1::Request;
+  switch (request.call_case()) {
+    case R::kStop: return {{R::kStop, request.stop().once()}, request.stop().copy()};
+    case R::kSetEstop:
+      return {{R::kSetEstop, request.set_estop().engaged() ? request.set_estop().once() : 0},
+              request.set_estop().copy()};
+    default: return {{request.call_case(), 0}, false};
+  }
+}
 
 }  // namespace
 
@@ -18,11 +37,11 @@ class OnceCalls::Outcome {
  public:
   void tell(const api::Reply<void>& reply) {
     std::unique_lock lock(mutex_);
-    if (!outcome_) {
+    if (!outcome_ && waiting_.size() < kMostWaiting) {
       waiting_.push_back(reply);
       return;
     }
-    const Status outcome = *outcome_;
+    const Status outcome = outcome_.value_or(fail(Errc::kBusy, "too many copies wait for the same answer"));
     lock.unlock();
     reply(outcome);
   }
@@ -44,30 +63,22 @@ class OnceCalls::Outcome {
   std::vector<api::Reply<void>> waiting_;
 };
 
-OnceCalls::Key OnceCalls::key_of(const seeker::v1::Request& request) {
-  using R = seeker::v1::Request;
-  switch (request.call_case()) {
-    case R::kStop: return {R::kStop, request.stop().once()};
-    case R::kSetEstop: return {R::kSetEstop, request.set_estop().engaged() ? request.set_estop().once() : 0};
-    default: return {request.call_case(), 0};
-  }
-}
-
 std::shared_ptr<OnceCalls::Outcome> OnceCalls::find(const Key& key) const {
   const auto found = std::find_if(newest_.begin(), newest_.end(), [&](const auto& one) { return one.first == key; });
   return key.second == 0 || found == newest_.end() ? nullptr : found->second;
 }
 
-bool OnceCalls::is_copy(const seeker::v1::Request& request) const { return find(key_of(request)) != nullptr; }
+bool OnceCalls::known(const seeker::v1::Request& request) const { return find(mark_of(request).key) != nullptr; }
 
 void OnceCalls::carry_out(const seeker::v1::Request& request, const api::Reply<void>& reply, const Work& work) {
-  const Key key = key_of(request);
-  if (key.second == 0) {
-    work(reply);
+  const auto [key, copy] = mark_of(request);
+  const auto known = find(key);
+  if (known && copy) {
+    known->tell(reply);
     return;
   }
-  if (const auto known = find(key)) {
-    known->tell(reply);
+  if (known || key.second == 0) {
+    work(reply);
     return;
   }
   const auto outcome = std::make_shared<Outcome>();

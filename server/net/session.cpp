@@ -109,7 +109,7 @@ void Session::act(wire::ServerStep step) {
     send(*step.send);
   }
   if (step.request && !ended_) {
-    if (!hub_.once_calls.is_copy(*step.request)) {
+    if (!hub_.once_calls.known(*step.request)) {
       audit_.asked(*step.request, session_.caller(), clocks());
     }
     handle(shared_from_this(), *step.request, hub_.robot_now());

@@ -269,6 +269,8 @@ void tick(benchmark::State& state, MakeTalk make, MakeLine make_line) {
   const Sender sender(*talk);
   for (auto _ : state) {
     const Status ticked = talk->host.clock->advance(kTick);
+    while (!talk->host.clock->await(kTick).value_or(true)) {
+    }
     const Wall::time_point begun = Wall::now();
     const std::optional<unsigned> number = talk->newest();
     const Wall::time_point read = Wall::now();

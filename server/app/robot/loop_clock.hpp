@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 
 #include "common/core/time.hpp"
 
@@ -17,9 +18,11 @@ class LoopClock {
  public:
   using WallTime = std::chrono::steady_clock::time_point;
 
-  /// The loop has passed; `runs`: its time goes on with the wall clock.
-  void passed(RobotTime now, WallTime wall_now, bool runs) {
+  /// The loop has passed and reached the tick of this time; nothing: it waits for its next tick. `runs`: its time goes
+  /// on with the wall clock.
+  void passed(std::optional<RobotTime> tick, WallTime wall_now, bool runs) {
     const std::lock_guard lock(mutex_);
+    const RobotTime now = tick.value_or(now_);
     if (now != now_ || !runs) {
       wall_ = wall_now;
     }

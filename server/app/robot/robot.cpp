@@ -348,9 +348,9 @@ void Robot::run(bool wait_for_client) {
 }
 
 bool Robot::pass() {
-  const auto wall_now = std::chrono::steady_clock::now();
-  const bool there = loop_.await(kAwaitSlice, wall_now);
-  clock_.passed(loop_.now(), std::chrono::steady_clock::now(), loop_.world().realtime() && !loop_.world().ended());
+  const bool there = loop_.await(kAwaitSlice, std::chrono::steady_clock::now());
+  clock_.passed(there ? std::optional(loop_.now()) : std::nullopt, std::chrono::steady_clock::now(),
+                loop_.world().realtime() && !loop_.world().ended());
   return there;
 }
 

@@ -15,6 +15,11 @@ pb::Request stop(std::uint64_t once) {
   return request;
 }
 
+pb::Request copy_of(pb::Request request) {
+  request.mutable_stop()->set_copy(true);
+  return request;
+}
+
 pb::Request estop(bool engaged, std::uint64_t once) {
   pb::Request request;
   request.mutable_set_estop()->set_engaged(engaged);
@@ -36,20 +41,39 @@ class OnceCallsTest : public ::testing::Test {
 };
 
 TEST_F(OnceCallsTest, CopiesAreCarriedOutOnceAndAllAnswered) {
-  EXPECT_FALSE(calls_.is_copy(stop(7)));
-  come(stop(7));
-  EXPECT_TRUE(calls_.is_copy(stop(7)));
-  come(stop(7));
+  EXPECT_FALSE(calls_.known(stop(7)));
+  come(copy_of(stop(7)));
+  EXPECT_TRUE(calls_.known(stop(7)));
+  come(copy_of(stop(7)));
   ASSERT_EQ(carried_out_.size(), 1U);
   EXPECT_TRUE(answers_.empty()) << "it is not done yet";
   carried_out_.front()(fail(Errc::kNotReady, "the disk is full"));
-  come(stop(7));
+  come(copy_of(stop(7)));
   EXPECT_EQ(carried_out_.size(), 1U);
   ASSERT_EQ(answers_.size(), 3U);
   for (const Status& answer : answers_) {
     ASSERT_FALSE(answer);
     EXPECT_EQ(answer.error(), (Error{Errc::kNotReady, "the disk is full"}));
   }
+}
+
+TEST_F(OnceCallsTest, TheRequestItselfIsCarriedOutAfterItsCopyAndItsCopyNotAfterIt) {
+  come(copy_of(stop(7)));
+  come(stop(7));
+  EXPECT_EQ(carried_out_.size(), 2U);
+  come(copy_of(stop(7)));
+  EXPECT_EQ(carried_out_.size(), 2U);
+}
+
+TEST_F(OnceCallsTest, ThoseWhoWaitAreBounded) {
+  constexpr int kMany = 1000;
+  for (int k = 0; k < kMany; ++k) {
+    come(copy_of(stop(7)));
+  }
+  ASSERT_FALSE(answers_.empty());
+  EXPECT_EQ(answers_.front().error().code, Errc::kBusy);
+  carried_out_.front()({});
+  EXPECT_EQ(answers_.size(), 1U * kMany) << "each one is answered";
 }
 
 TEST_F(OnceCallsTest, OtherNumbersAndOtherCallsAreNoCopies) {
@@ -72,8 +96,8 @@ TEST_F(OnceCallsTest, WhatIsRememberedIsBounded) {
   for (std::uint64_t once = 1; once <= kMany; ++once) {
     come(stop(once));
   }
-  EXPECT_TRUE(calls_.is_copy(stop(kMany)));
-  EXPECT_FALSE(calls_.is_copy(stop(1)));
+  EXPECT_TRUE(calls_.known(stop(kMany)));
+  EXPECT_FALSE(calls_.known(stop(1)));
   carried_out_.front()({});
   EXPECT_EQ(answers_.size(), 1U) << "one that is forgotten is answered all the same";
 }
