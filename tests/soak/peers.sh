@@ -115,8 +115,8 @@ judge_testssl() {
   local name=$1 json=$out/testssl-$1.json code=0 worse
   shift
   rm -f "$json"
-  timeout 900 testssl --quiet --warnings off --color 0 --ip one --nodns none --add-ca "$site/ca.pem" --jsonfile "$json" "$@" "127.0.0.1:$server_port" \
-    >"$out/testssl-$name.txt" 2>&1 || code=$?
+  timeout 900 testssl --quiet --warnings off --color 0 --nodns none --add-ca "$site/ca.pem" --jsonfile "$json" "$@" \
+    "127.0.0.1:$server_port" >"$out/testssl-$name.txt" 2>&1 || code=$?
   [[ -s $json ]] || { verdict "testssl.sh ($name) gave no report (code $code): $out/testssl-$name.txt" 1; return; }
   worse=$(testssl_worse "$json")
   echo "  info  testssl.sh ($name): $(grep -c '"severity"' "$json") findings, code $code"
