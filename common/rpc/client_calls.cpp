@@ -9,7 +9,6 @@
 #include "common/rpc/answers.hpp"
 #include "common/rpc/client_impl.hpp"
 #include "common/wire/convert.hpp"
-#include "common/wire/envelope.hpp"
 #include "common/wire/outcome.hpp"
 
 namespace seeker::rpc {

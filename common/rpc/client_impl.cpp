@@ -9,8 +9,6 @@
 #include "common/log/log.hpp"
 #include "common/net/random_id.hpp"
 #include "common/wire/convert.hpp"
-#include "common/wire/envelope.hpp"
-#include "common/wire/outcome.hpp"
 #include "common/wire/server_session.hpp"
 
 namespace seeker::rpc {

@@ -63,29 +63,33 @@ class OnceCalls::Outcome {
   std::vector<api::Reply<void>> waiting_;
 };
 
-std::shared_ptr<OnceCalls::Outcome> OnceCalls::find(const Key& key) const {
-  const auto found = std::find_if(newest_.begin(), newest_.end(), [&](const auto& one) { return one.first == key; });
-  return key.second == 0 || found == newest_.end() ? nullptr : found->second;
+const OnceCalls::Entry* OnceCalls::find(const Key& key) const {
+  const auto found = std::find_if(newest_.begin(), newest_.end(), [&](const Entry& one) { return one.key == key; });
+  return key.second == 0 || found == newest_.end() ? nullptr : &*found;
 }
 
-bool OnceCalls::known(const seeker::v1::Request& request) const { return find(mark_of(request).key) != nullptr; }
+bool OnceCalls::known(const seeker::v1::Request& request) const {
+  const auto [key, copy] = mark_of(request);
+  const Entry* entry = find(key);
+  return entry != nullptr && (copy || !entry->requested);
+}
 
 void OnceCalls::carry_out(const seeker::v1::Request& request, const api::Reply<void>& reply, const Work& work) {
   const auto [key, copy] = mark_of(request);
-  const auto known = find(key);
-  if (known && copy) {
-    known->tell(reply);
+  const Entry* entry = find(key);
+  if (entry != nullptr && copy) {
+    entry->outcome->tell(reply);
     return;
   }
-  if (known || key.second == 0) {
+  if (key.second == 0) {
     work(reply);
     return;
   }
   const auto outcome = std::make_shared<Outcome>();
   outcome->tell(reply);
-  newest_.emplace_back(key, outcome);
+  newest_.push_front({key, !copy, outcome});
   if (newest_.size() > kKept) {
-    newest_.pop_front();
+    newest_.pop_back();
   }
   work([outcome](const Status& done) { outcome->set(done); });
 }

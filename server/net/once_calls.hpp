@@ -20,7 +20,8 @@ class OnceCalls {
  public:
   using Work = std::function<void(api::Reply<void>)>;
 
-  /// Whether the request, or a copy of it, has come before.
+  /// Whether it is a copy of what has come before, or the request itself after its copies. A request that comes again
+  /// under the same number is another one.
   [[nodiscard]] bool known(const seeker::v1::Request& request) const;
   /// Does `work` and replies as it does. A copy of what has come before gets the reply of that.
   void carry_out(const seeker::v1::Request& request, const api::Reply<void>& reply, const Work& work);
@@ -29,9 +30,16 @@ class OnceCalls {
   class Outcome;
   using Key = std::pair<int, std::uint64_t>;  ///< the call and its number
 
-  [[nodiscard]] std::shared_ptr<Outcome> find(const Key& key) const;
+  struct Entry {
+    Key key;
+    bool requested = false;  ///< not only copies have come
+    std::shared_ptr<Outcome> outcome;
+  };
 
-  std::deque<std::pair<Key, std::shared_ptr<Outcome>>> newest_;
+  /// Null: it has no number, or nothing with it came.
+  [[nodiscard]] const Entry* find(const Key& key) const;
+
+  std::deque<Entry> newest_;  ///< the newest first
 };
 
 }  // namespace seeker::server_net

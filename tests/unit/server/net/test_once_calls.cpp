@@ -65,6 +65,14 @@ TEST_F(OnceCallsTest, TheRequestItselfIsCarriedOutAfterItsCopyAndItsCopyNotAfter
   EXPECT_EQ(carried_out_.size(), 2U);
 }
 
+TEST_F(OnceCallsTest, ANumberThatIsUsedAgainHidesNothing) {
+  come(copy_of(stop(7)));
+  EXPECT_TRUE(calls_.known(stop(7))) << "its copy was told";
+  come(stop(7));
+  EXPECT_FALSE(calls_.known(stop(7))) << "another request";
+  EXPECT_TRUE(calls_.known(copy_of(stop(7))));
+}
+
 TEST_F(OnceCallsTest, ThoseWhoWaitAreBounded) {
   constexpr int kMany = 1000;
   for (int k = 0; k < kMany; ++k) {
@@ -96,8 +104,8 @@ TEST_F(OnceCallsTest, WhatIsRememberedIsBounded) {
   for (std::uint64_t once = 1; once <= kMany; ++once) {
     come(stop(once));
   }
-  EXPECT_TRUE(calls_.known(stop(kMany)));
-  EXPECT_FALSE(calls_.known(stop(1)));
+  EXPECT_TRUE(calls_.known(copy_of(stop(kMany))));
+  EXPECT_FALSE(calls_.known(copy_of(stop(1))));
   carried_out_.front()({});
   EXPECT_EQ(answers_.size(), 1U) << "one that is forgotten is answered all the same";
 }
