@@ -99,6 +99,20 @@ std::vector<Frontier> find_frontiers(const CostMap& map, const DistanceField& co
   return frontiers;
 }
 
+bool border_near(const CostMap& map, const Point2& p_map, double radius_m) {
+  const CellIndex low = map.frame().cell_of(p_map - Point2::Constant(radius_m));
+  const CellIndex high = map.frame().cell_of(p_map + Point2::Constant(radius_m));
+  for (CellIndex cell = low; cell.j <= high.j; ++cell.j) {
+    for (cell.i = low.i; cell.i <= high.i; ++cell.i) {
+      const bool near = (map.frame().centre_of(cell) - p_map).norm() <= radius_m;
+      if (near && map.traversable(cell) && beside_unknown(map, cell)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 bool near_any(const Point2& p_map, const std::vector<Point2>& places, double radius_m) {
   return std::any_of(places.begin(), places.end(), [&](const Point2& q) { return (q - p_map).norm() < radius_m; });
 }

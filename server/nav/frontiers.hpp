@@ -23,6 +23,9 @@ struct Frontier {
 /// path cost.
 [[nodiscard]] std::vector<Frontier> find_frontiers(const CostMap& map, const DistanceField& costs, double min_length_m);
 
+/// Whether floor that the robot's centre can stand on lies beside unknown space within `radius_m` of p.
+[[nodiscard]] bool border_near(const CostMap& map, const Point2& p_map, double radius_m);
+
 /// Whether p lies within `radius_m` of one of the places.
 [[nodiscard]] bool near_any(const Point2& p_map, const std::vector<Point2>& places, double radius_m);
 

@@ -91,6 +91,10 @@ void PathFollower::transform(const MapMove& move) {
 
 void PathFollower::clear() { set_path(Path{}, RobotTime{}); }
 
+double PathFollower::braking_m() const {
+  return command_.v_m_s * command_.v_m_s / (2.0 * kBrakeShare * params_.accel_m_s2);
+}
+
 Point2 PathFollower::point_at(double along_m) const {
   const auto after = std::upper_bound(arc_m_.begin(), arc_m_.end(), along_m);
   if (after == arc_m_.begin()) {

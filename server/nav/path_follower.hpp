@@ -79,6 +79,8 @@ class PathFollower {
   /// Whether the end of the path is reached and only stopping or the rotation to the final heading is left.
   [[nodiscard]] bool at_goal() const { return at_goal_; }
   [[nodiscard]] const Path& path() const { return path_; }
+  /// Remaining length of the path at which the robot, as fast as it is commanded now, begins to brake for its end.
+  [[nodiscard]] double braking_m() const;
 
   /// Computes one control step. `points_base` holds the obstacles seen now in the frame `base` (points_in_base(scan),
   /// sonar echoes); when it is empty, only the path counts. `now` must not decrease.

@@ -1,6 +1,7 @@
 #include "server/nav/planned_driver.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "common/core/angle.hpp"
 
@@ -45,6 +46,7 @@ PlannedDriver::PlannedDriver(const DriverParams& params) : params_(params), foll
 
 bool PlannedDriver::start(const DriveInput& input, const Point2& goal_map, std::optional<double> final_heading_rad) {
   goal_ = goal_map;
+  through_.reset();
   final_heading_rad_ = final_heading_rad;
   failures_ = 0;
   drive_progress_.start(input.now);
@@ -52,9 +54,28 @@ bool PlannedDriver::start(const DriveInput& input, const Point2& goal_map, std::
   return driving_;
 }
 
+bool PlannedDriver::go_on(const DriveInput& input, const Point2& next_goal_map,
+                          std::optional<double> final_heading_rad) {
+  const Point2 before = std::exchange(goal_, next_goal_map);
+  const auto through_before = std::exchange(through_, Through{before});
+  auto path = find_path(input);
+  if (!path) {
+    goal_ = before;
+    through_ = through_before;
+    return false;
+  }
+  final_heading_rad_ = final_heading_rad;
+  drive_progress_.start(input.now);
+  take(std::move(*path), input.now);
+  return true;
+}
+
 void PlannedDriver::transform(const MapMove& move) {
   const Pose2 new_T_old = move.at(goal_);
   goal_ = new_T_old * goal_;
+  if (through_) {
+    through_->p_map = move * through_->p_map;
+  }
   if (final_heading_rad_) {
     final_heading_rad_ = wrap_angle(*final_heading_rad_ + new_T_old.theta_rad);
   }
@@ -63,21 +84,38 @@ void PlannedDriver::transform(const MapMove& move) {
 
 void PlannedDriver::stop() {
   driving_ = false;
+  through_.reset();
   follower_.clear();
 }
 
-Result<Path> PlannedDriver::find_path(const DriveInput& input) const {
+Result<Path> PlannedDriver::find_path(const DriveInput& input) {
+  const Point2 here = input.map_T_base.translation();
+  if (!through_) {
+    return find_leg(input, here, goal_);
+  }
+  auto path = find_leg(input, here, through_->p_map);
+  auto rest = path ? find_leg(input, path->waypoints.back(), goal_) : path;
+  if (!rest) {
+    return rest;
+  }
+  through_->beyond_m = rest->length_m;
+  path->waypoints.insert(path->waypoints.end(), rest->waypoints.begin() + 1, rest->waypoints.end());
+  path->length_m += rest->length_m;
+  path->cost += rest->cost;
+  return path;
+}
+
+Result<Path> PlannedDriver::find_leg(const DriveInput& input, const Point2& from_map, const Point2& to_map) const {
   const auto floor = input.floors.view(true);
   if (!floor) {
     return tl::unexpected(floor.error());
   }
-  const Point2 here = input.map_T_base.translation();
   if (const std::optional<CostMap> crowded = input.floors.around_movers(**floor)) {
-    if (auto path = nav::plan(*crowded, here, goal_, params_.planner)) {
+    if (auto path = nav::plan(*crowded, from_map, to_map, params_.planner)) {
       return path;
     }  // otherwise up to the mover that blocks the path: it may have moved on by then
   }
-  return nav::plan((*floor)->cost, here, goal_, params_.planner);
+  return nav::plan((*floor)->cost, from_map, to_map, params_.planner);
 }
 
 UnreachableCause PlannedDriver::cause_of_failure(const DriveInput& input) const {
@@ -94,10 +132,14 @@ bool PlannedDriver::plan(const DriveInput& input) {
     failure_ = {cause_of_failure(input), path.error().message};
     return false;
   }
-  planned_ = input.now;
-  path_progress_.start(input.now);
-  follower_.set_path(std::move(*path), input.now, final_heading_rad_);
+  take(std::move(*path), input.now);
   return true;
+}
+
+void PlannedDriver::take(Path path, RobotTime now) {
+  planned_ = now;
+  path_progress_.start(now);
+  follower_.set_path(std::move(path), now, final_heading_rad_);
 }
 
 void PlannedDriver::refresh(const DriveInput& input) {
@@ -134,6 +176,9 @@ DriveStep PlannedDriver::step(const DriveInput& input) {
   const FollowStep follow = follower_.step(input.map_T_base, obstacles_in_base(input), input.now);
   if (drive_progress_.nearer(follow.remaining_m, kNearer_m, input.now)) {
     failures_ = 0;
+  }
+  if (through_ && follow.remaining_m <= through_->beyond_m + params_.follower.goal_tolerance_m) {
+    through_.reset();
   }
   switch (follow.state) {
     case FollowState::kFollowing:

@@ -65,19 +65,31 @@ class PlannedDriver {
 
   /// Plans and starts a drive; false when no path leads to the goal now (the cause is in reason()).
   bool start(const DriveInput& input, const Point2& goal_map, std::optional<double> final_heading_rad = {});
+  /// Goes on to another goal behind the present one, which the robot passes without a stop where the path does not
+  /// turn sharply there. False, with nothing changed, when no path leads on.
+  bool go_on(const DriveInput& input, const Point2& next_goal_map, std::optional<double> final_heading_rad = {});
   [[nodiscard]] DriveStep step(const DriveInput& input);
   /// The map was corrected: the rest of the path moves with the robot.
   void transform(const MapMove& move);
   void stop();
   [[nodiscard]] const std::vector<Point2>& path() const { return follower_.path().waypoints; }
+  /// Whether the goal behind which go_on() led still lies ahead.
+  [[nodiscard]] bool passes_through() const { return through_.has_value(); }
+  /// Whether less than `lead_s` is left before the robot begins to brake for the end of its path.
+  [[nodiscard]] bool brakes_within(double lead_s, const DriveStep& step) const {
+    return step.remaining_m <= follower_.braking_m() + step.command.v_m_s * lead_s + params_.follower.goal_tolerance_m;
+  }
   [[nodiscard]] const Point2& goal() const { return goal_; }
   [[nodiscard]] const std::string& reason() const { return failure_.text; }
   /// Of the last plan that failed.
   [[nodiscard]] const DriveFailure& failure() const { return failure_; }
 
  private:
-  [[nodiscard]] Result<Path> find_path(const DriveInput& input) const;
+  /// To the goal; also through the place that the path leads through, whose distance to the goal it notes.
+  [[nodiscard]] Result<Path> find_path(const DriveInput& input);
+  [[nodiscard]] Result<Path> find_leg(const DriveInput& input, const Point2& from_map, const Point2& to_map) const;
   bool plan(const DriveInput& input);
+  void take(Path path, RobotTime now);
   [[nodiscard]] UnreachableCause cause_of_failure(const DriveInput& input) const;
   /// Replans while driving. If no path is found the present one is kept: whoever blocks it may have moved on by then.
   void refresh(const DriveInput& input);
@@ -85,7 +97,13 @@ class PlannedDriver {
 
   DriverParams params_;
   PathFollower follower_;
+  /// A place that the path leads through.
+  struct Through {
+    Point2 p_map;
+    double beyond_m = 0.0;  ///< length of the path behind it
+  };
   Point2 goal_ = Point2::Zero();
+  std::optional<Through> through_;
   std::optional<double> final_heading_rad_;
   RobotTime planned_;
   ProgressWatch drive_progress_;  ///< progress of the whole drive; progress forgets its failures

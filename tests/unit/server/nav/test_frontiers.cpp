@@ -34,6 +34,18 @@ std::vector<Frontier> frontiers_of(const std::vector<std::string>& rows) {
   return find_frontiers(*map, *costs, kNoise_m);
 }
 
+TEST(Frontiers, ABorderIsNearUntilWhatLiesBehindItIsSeen) {
+  const auto rows = room_with_opening(1.0);
+  const auto open = CostMap::build(ascii_map(rows, kCell_m));
+  ASSERT_TRUE(open);
+  const Point2 p = frontiers_of(rows).at(0).p_map;
+  EXPECT_TRUE(border_near(*open, p, 0.5));
+  EXPECT_FALSE(border_near(*open, {1.0, 1.0}, 0.5));
+  const auto closed = CostMap::build(ascii_map(room_with_opening(0.0), kCell_m));
+  ASSERT_TRUE(closed);
+  EXPECT_FALSE(border_near(*closed, p, 0.5));
+}
+
 TEST(Frontiers, ADoorIsAsWideAsItsPostsAreApart) {
   for (const double width_m : {0.8, 1.0}) {
     const auto found = frontiers_of(room_with_opening(width_m));
