@@ -36,6 +36,7 @@ void describe(config::Fields& f, ImageFolderParams& params) {
 void describe(config::Fields& f, PictureReaderParams& params) {
   f.seconds("max_age_s", params.max_age);
   f.seconds("first_picture_s", params.first_picture);
+  f.seconds("reopen_after_s", params.reopen_after);
   auto kept = static_cast<std::uint64_t>(params.kept);
   f.field("kept", kept);
   constexpr std::uint64_t kMost = 100;

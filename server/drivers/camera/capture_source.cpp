@@ -41,16 +41,14 @@ class CaptureSource final : public PictureSource {
 
   Status open() override {
     try {
-      const bool device = starts_with(params_.device, "/dev/");
-      const bool network = params_.device.find("://") != std::string::npos;
       const std::vector<int> timeouts{cv::CAP_PROP_OPEN_TIMEOUT_MSEC, kNetworkTimeout_ms,
                                       cv::CAP_PROP_READ_TIMEOUT_MSEC, kNetworkTimeout_ms};
-      if (device) {
+      if (is_device()) {
         capture_.open(params_.device, cv::CAP_V4L2);
         ask(cv::CAP_PROP_FRAME_WIDTH, params_.width_px);
         ask(cv::CAP_PROP_FRAME_HEIGHT, params_.height_px);
         ask(cv::CAP_PROP_FPS, params_.rate_hz);
-      } else if (network) {
+      } else if (is_on_network()) {
         capture_.open(params_.device, cv::CAP_FFMPEG, timeouts);
       } else {
         capture_.open(params_.device, cv::CAP_ANY);
@@ -80,8 +78,11 @@ class CaptureSource final : public PictureSource {
   }
 
   void close() override { capture_.release(); }
+  [[nodiscard]] bool comes_back() const override { return is_device() || is_on_network(); }
 
  private:
+  [[nodiscard]] bool is_device() const { return starts_with(params_.device, "/dev/"); }
+  [[nodiscard]] bool is_on_network() const { return params_.device.find("://") != std::string::npos; }
   void ask(cv::VideoCaptureProperties property, double value) {
     if (capture_.isOpened() && value > 0.0) {
       capture_.set(property, value);  // whether it obeys shows in the pictures' size

@@ -31,12 +31,24 @@ void PictureReader::stop() {
     stopping_ = true;
     running_ = false;
   }
+  changed_.notify_all();
   if (thread_.joinable()) {
     thread_.join();
   }
 }
 
 void PictureReader::run() {
+  do {
+    read_until_it_fails();
+  } while (source_->comes_back() && wait_to_reopen());
+}
+
+bool PictureReader::wait_to_reopen() {
+  std::unique_lock lock(mutex_);
+  return !changed_.wait_for(lock, params_.reopen_after, [this] { return stopping_; });
+}
+
+void PictureReader::read_until_it_fails() {
   Status opened = source_->open();
   while (true) {
     Result<Image> picture = opened ? source_->read() : Result<Image>(tl::unexpected<Error>(opened.error()));
@@ -48,6 +60,7 @@ void PictureReader::run() {
       }
       break;
     }
+    error_.reset();
     frames_.push_back({stamp, std::move(*picture)});
     while (frames_.size() > params_.kept) {
       frames_.pop_front();

@@ -27,10 +27,16 @@ class Script {
     ended_ = true;
     changed_.notify_all();
   }
+  /// The next reading fails, once.
+  void fail_once() {
+    const std::scoped_lock lock(mutex_);
+    fails_ = true;
+    changed_.notify_all();
+  }
   Result<Image> take() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return ended_ || !pictures_.empty(); });
-    if (pictures_.empty()) {
+    changed_.wait(lock, [this] { return ended_ || fails_ || !pictures_.empty(); });
+    if (std::exchange(fails_, false) || pictures_.empty()) {
       return fail(Errc::kIo, "the cable is out");
     }
     Image picture = std::move(pictures_.front());
@@ -43,18 +49,22 @@ class Script {
   std::condition_variable changed_;
   std::deque<Image> pictures_;
   bool ended_ = false;
+  bool fails_ = false;
 };
 
 class ScriptedSource final : public PictureSource {
  public:
-  explicit ScriptedSource(std::shared_ptr<Script> script) : script_(std::move(script)) {}
+  explicit ScriptedSource(std::shared_ptr<Script> script, bool comes_back = false)
+      : script_(std::move(script)), comes_back_(comes_back) {}
   ~ScriptedSource() override { script_->end(); }
   Status open() override { return {}; }
   Result<Image> read() override { return script_->take(); }
   void close() override {}
+  [[nodiscard]] bool comes_back() const override { return comes_back_; }
 
  private:
   std::shared_ptr<Script> script_;
+  bool comes_back_;
 };
 
 /// Robot time that the test sets.
@@ -68,8 +78,8 @@ struct TestClock {
 
 /// A reader that can be waited for and is stopped before the source's script ends.
 struct Reader {
-  explicit Reader(const PictureReaderParams& params = {})
-      : reader("the test camera", std::make_unique<ScriptedSource>(script), clock.function(), params) {}
+  explicit Reader(const PictureReaderParams& params = {}, bool comes_back = false)
+      : reader("the test camera", std::make_unique<ScriptedSource>(script, comes_back), clock.function(), params) {}
   ~Reader() { script->end(); }
   std::shared_ptr<Script> script = std::make_shared<Script>();
   TestClock clock;
@@ -102,6 +112,35 @@ TEST(PictureReader, TellsWhenNoPictureEverComesAndWhatTheDeviceSaid) {
   const auto failed = r.reader.pictures();
   EXPECT_EQ(failed.error().code, Errc::kIo);
   EXPECT_NE(failed.error().message.find("the test camera: the cable is out"), std::string::npos);
+}
+
+TEST(PictureReader, OpensADeviceThatFailedAnew) {
+  PictureReaderParams params;
+  params.reopen_after = 1ms;
+  Reader r(params, true);
+  r.reader.start();
+  r.script->fail_once();
+  ASSERT_TRUE(r.reader.wait_for_picture(5s));
+  EXPECT_EQ(r.reader.pictures().error().code, Errc::kIo);
+  r.script->give(Image(4, 4, 1, 7));
+  auto again = r.reader.pictures();
+  for (const auto end = std::chrono::steady_clock::now() + 5s; !again && std::chrono::steady_clock::now() < end;) {
+    std::this_thread::yield();
+    again = r.reader.pictures();
+  }
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(*again->back().image.at(0, 0), 7);
+}
+
+TEST(PictureReader, StopsWhileItWaitsToOpenADeviceAnew) {
+  PictureReaderParams params;
+  params.reopen_after = std::chrono::hours(1);
+  Reader r(params, true);
+  r.reader.start();
+  r.script->fail_once();
+  ASSERT_TRUE(r.reader.wait_for_picture(5s));
+  r.reader.stop();
+  EXPECT_EQ(r.reader.pictures().error().code, Errc::kIo);
 }
 
 StereoGeometry small_geometry() { return {32, 24, 40.0, 16.0, 12.0, 0.1}; }
