@@ -17,6 +17,7 @@ round: the streams' backlogs fill meanwhile. Samples: build/soak/memory.csv, bui
 ./run soak sweep: what an operator reaches over links of each kind and level, into build/soak/impairments.csv.
 ./run soak abuse [N]: N connections (default 10000) torment a port, with TLS and without; the control loop must not notice.
 ./run soak peers: openssl and testssl.sh judge the TLS side; tc netem delays, loses and throttles between two namespaces.
+./run soak calibration [N]: wheels and mounts that are wrong are found on seeds 1 to N (default 3).
 ./run soak kills [N]: the server of a busy robot is killed N times (default 500); all that it has acknowledged must be there.
 TEXT
 }

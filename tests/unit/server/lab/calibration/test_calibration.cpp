@@ -12,6 +12,7 @@
 #include "server/lab/scoring/score_reference.hpp"
 #include "server/lab/slam/slam_command.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/unit/server/lab/calibration/recorded_exploration.hpp"
 #include "tests/unit/server/lab/experiments/files.hpp"
 
@@ -40,11 +41,11 @@ class Calibration : public LabFiles {
   }
 };
 
-class CalibrationOfSeed : public Calibration, public ::testing::WithParamInterface<std::uint64_t> {};
+class CalibrationOfSeed : public Calibration, public ::testing::WithParamInterface<int> {};
 
 TEST_P(CalibrationOfSeed, FindsWheelsThatDifferByThreePercentAndATrackThatIsTwoPercentOff) {
   const auto log = folder() / "drive.clf.gz";
-  explore_and_record(log, GetParam(), 900.0,
+  explore_and_record(log, static_cast<std::uint64_t>(GetParam()), 900.0,
                      {"sim.robot.odometry.left_wheel_scale=1.015", "sim.robot.odometry.right_wheel_scale=0.985",
                       "sim.robot.odometry.wheel_base_scale=1.02"});
   constexpr double kAssumedTrack_m = 0.357 * 1.02;
@@ -62,7 +63,8 @@ TEST_P(CalibrationOfSeed, FindsWheelsThatDifferByThreePercentAndATrackThatIsTwoP
 
 TEST_P(CalibrationOfSeed, FindsWhereTheLaserIsMounted) {
   const auto log = folder() / "drive.clf.gz";
-  explore_and_record(log, GetParam(), 500.0, {"sim.robot.lidar.base_T_laser=[0.15, -0.05, 12]"});
+  explore_and_record(log, static_cast<std::uint64_t>(GetParam()), 500.0,
+                     {"sim.robot.lidar.base_T_laser=[0.15, -0.05, 12]"});
   // The robot file says that the laser is over the middle of the base and looks ahead.
   const nlohmann::json fit = found(options_for(log), CalibrationSubject::kMount);
   EXPECT_NEAR(fit.at("x_m").get<double>(), 0.15, 0.01) << fit;
@@ -70,7 +72,9 @@ TEST_P(CalibrationOfSeed, FindsWhereTheLaserIsMounted) {
   EXPECT_NEAR(fit.at("heading_deg").get<double>(), 12.0, 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, CalibrationOfSeed, ::testing::Values(1, 2, 3));
+/// Each explores for minutes of robot time: more seeds by `./run soak calibration`.
+INSTANTIATE_TEST_SUITE_P(Seeds, CalibrationOfSeed,
+                         ::testing::Range(1, 1 + seeker::testing::number_from_environment("SEEKER_CALIBRATIONS", 1)));
 
 TEST_F(Calibration, RefusesARobotThatStandsAndOdometryAsItsOwnWitness) {
   const auto log = write("stand.clf",
