@@ -40,6 +40,7 @@ void describe(config::Fields& f, PlanParams& params) {
   f.field("replan_period_s", params.replan_period_s);
   f.field("map_period_s", params.map_period_s);
   f.field("look_spacing_m", params.look_spacing_m);
+  f.field("stop_spacing_m", params.stop_spacing_m);
   f.field("look_while_moving", params.look_while_moving);
   f.field("cell_target_probability", params.cell_target_probability);
   f.field("min_gain_cells", params.min_gain_cells);
@@ -68,6 +69,7 @@ void describe(config::Fields& f, MissionParams& params) {
   f.field("confirm_time_s", params.confirm_time_s);
   f.field("confirm_step_m", params.confirm_step_m);
   f.field("confirm_looks", params.confirm_looks);
+  f.field("doubtful_looks", params.doubtful_looks);
   f.field("max_position_sigma_m", params.max_position_sigma_m);
 }
 
@@ -111,6 +113,8 @@ void describe(config::Fields& f, DetectionParams& params) {
   f.field("sure_score", params.sure_score);
   f.field("max_misses", params.max_misses);
   f.field("miss_probability", params.miss_probability);
+  f.field("doubtful_score", params.doubtful_score);
+  f.field("doubtful_unseen", params.doubtful_unseen);
   f.field("max_bearing_range_m", params.max_bearing_range_m);
 }
 

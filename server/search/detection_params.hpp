@@ -35,6 +35,10 @@ struct DetectionParams {
   int max_misses = 3;        ///< misses beyond the number of sightings that refute a track
   /// An observation without the target counts as a miss where the hit rate is at least this.
   double miss_probability = 0.5;
+  /// A sighting with a lower score is doubtful: the search goes on, and its next pictures decide. It is refuted when a
+  /// target at its place would have stayed unseen in all of them with a probability below doubtful_unseen.
+  double doubtful_score = 0.8;
+  double doubtful_unseen = 0.2;
   double max_bearing_range_m = 8.0;  ///< intersections of bearings farther away are rejected
 };
 

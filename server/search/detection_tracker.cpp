@@ -173,6 +173,13 @@ void DetectionTracker::join(Track& track, const Observation& observation, const 
     *same = observation;
   }
   estimate(track);
+  track.unseen = 1.0;
+  track.presumed_map = d.position_map;
+  if (!d.position_map && sighting.range_m) {
+    const BearingRange& m = observation.measurement;
+    track.presumed_map = m.map_T_camera * Point2(*sighting.range_m * std::cos(m.bearing_rad),
+                                                 *sighting.range_m * std::sin(m.bearing_rad));
+  }
   const bool located = d.position_map.has_value() || !params_.confirm_position;
   const bool seen_enough = static_cast<int>(track.places.size()) >= params_.confirm_places;
   d.confirmed = d.confirmed || (seen_enough && located) || sighting.score >= params_.sure_score;
@@ -206,11 +213,7 @@ std::vector<std::uint64_t> DetectionTracker::note_misses(const std::vector<std::
   for (Track& track : tracks_) {
     Detection& d = track.detection;
     const bool was_seen = std::find(seen.begin(), seen.end(), d.id) != seen.end();
-    if (was_seen || !d.position_map || should_see(*d.position_map, d.target) < params_.miss_probability) {
-      continue;
-    }
-    ++d.misses;
-    if (!d.confirmed && d.misses - d.sightings >= params_.max_misses) {
+    if (!was_seen && track.presumed_map && miss(track, should_see(*track.presumed_map, d.target))) {
       refuted.push_back(d.id);
     }
   }
@@ -218,6 +221,15 @@ std::vector<std::uint64_t> DetectionTracker::note_misses(const std::vector<std::
     refute(id);
   }
   return refuted;
+}
+
+bool DetectionTracker::miss(Track& track, double p) const {
+  Detection& d = track.detection;
+  track.unseen *= 1.0 - p;
+  d.misses += d.position_map && p >= params_.miss_probability ? 1 : 0;
+  const bool doubtful = d.sightings == 1 && d.score < params_.doubtful_score;
+  return !d.confirmed &&
+         (d.misses - d.sightings >= params_.max_misses || (doubtful && track.unseen < params_.doubtful_unseen));
 }
 
 void DetectionTracker::refute(std::uint64_t id) {
@@ -252,6 +264,15 @@ std::vector<Point2> DetectionTracker::places(std::uint64_t id) const {
   return {};
 }
 
+std::optional<Point2> DetectionTracker::presumed_place(std::uint64_t id) const {
+  for (const Track& track : tracks_) {
+    if (track.detection.id == id) {
+      return track.presumed_map;
+    }
+  }
+  return std::nullopt;
+}
+
 void DetectionTracker::transform(const MapMove& move) {
   for (Track& track : tracks_) {
     for (Observation& o : track.observations) {
@@ -259,6 +280,9 @@ void DetectionTracker::transform(const MapMove& move) {
     }
     for (Point2& p : track.places) {
       p = move * p;
+    }
+    if (track.presumed_map) {
+      track.presumed_map = move * *track.presumed_map;
     }
     const Pose2 new_T_old = move.at(track.detection.map_T_base.translation());
     track.detection.map_T_base = new_T_old * track.detection.map_T_base;

@@ -50,6 +50,8 @@ class DetectionTracker {
   [[nodiscard]] std::optional<Detection> find(std::uint64_t id) const;
   /// The places from which the track was seen, one entry per place.
   [[nodiscard]] std::vector<Point2> places(std::uint64_t id) const;
+  /// Where the track stands: its position, or as far away as its apparent size says.
+  [[nodiscard]] std::optional<Point2> presumed_place(std::uint64_t id) const;
   void transform(const MapMove& move);
 
  private:
@@ -62,6 +64,8 @@ class DetectionTracker {
     Detection detection;
     std::vector<Observation> observations;
     std::vector<Point2> places;
+    std::optional<Point2> presumed_map;  ///< see presumed_place()
+    double unseen = 1.0;  ///< probability that a target there stays unseen in all pictures since that did not show it
     Matrix3 pose_covariance = Matrix3::Zero();  ///< covariance of the robot's pose at the newest sighting
   };
 
@@ -72,6 +76,9 @@ class DetectionTracker {
                              const std::vector<std::uint64_t>& taken);
   void join(Track& track, const Observation& observation, const vision::Sighting& sighting, const Look& look);
   void estimate(Track& track) const;
+  /// Records that a picture which shows a target at the track's place with probability p did not show it; whether that
+  /// refutes the track.
+  [[nodiscard]] bool miss(Track& track, double p) const;
 
   std::vector<SearchTarget> targets_;
   DetectionParams params_;

@@ -48,6 +48,8 @@ class GoalChooser {
 
   /// The next goal. Nothing: no goal is left.
   [[nodiscard]] virtual std::optional<Goal> choose(const ChooseInput& input) = 0;
+  /// The goal that choose() would return there; nothing where the rule cannot know it beforehand.
+  [[nodiscard]] virtual std::optional<Goal> foresee(const ChooseInput& /*input*/) const { return std::nullopt; }
   /// Records that the robot reached the goal (or came as near as it can) and took its picture.
   virtual void visited(const Goal& goal, const Pose2& map_T_base) = 0;
   /// Checked after every picture taken while driving: false drops the goal for a better one.
@@ -61,7 +63,8 @@ class GoalChooser {
 class PlanChooser final : public GoalChooser {
  public:
   explicit PlanChooser(const PlanParams& params) : params_(params) {}
-  [[nodiscard]] std::optional<Goal> choose(const ChooseInput& input) override;
+  [[nodiscard]] std::optional<Goal> choose(const ChooseInput& input) override { return foresee(input); }
+  [[nodiscard]] std::optional<Goal> foresee(const ChooseInput& input) const override;
   void visited(const Goal& goal, const Pose2& map_T_base) override;
   [[nodiscard]] bool still_worth(const Goal& goal, const nav::FloorView& floor, const EvidenceGrid& evidence,
                                  double target_size_m) const override;

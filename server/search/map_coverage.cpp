@@ -14,6 +14,8 @@ constexpr double kRotationTime_s = 3.0;
 constexpr int kMaxRotations = 5;
 /// Share of a cell's reachable floor that must be covered before it counts as searched.
 constexpr double kSearchedShare = 0.8;
+/// The next goal is chosen so long before the robot would brake for the present one.
+constexpr double kPlanAhead_s = 0.3;
 
 }  // namespace
 
@@ -70,8 +72,9 @@ void MapCoverage::choose(const StrategyInput& input, StrategyStep& out) {
     return;
   }
   out.events.push_back({"goal", goal_->why + " " + text(goal_->p_map)});
-  out.activity = "going to " + goal_->why + " " + text(goal_->p_map);
   state_ = State::kDrive;
+  planned_ahead_ = goes_on_ = false;
+  drive(input, out);
 }
 
 ChooseInput MapCoverage::choice(const StrategyInput& input, const nav::FloorView& floor,
@@ -81,6 +84,9 @@ ChooseInput MapCoverage::choice(const StrategyInput& input, const nav::FloorView
 
 void MapCoverage::begin_rotation(const StrategyInput& input, const std::string& why, StrategyStep& out) {
   if (++rotations_ > kMaxRotations) {
+    if (wait_enclosed(input, out)) {
+      return;
+    }
     state_ = State::kDone;
     trapped_ = true;
     cause_ = why;
@@ -103,7 +109,29 @@ void MapCoverage::rotate(const StrategyInput& input, StrategyStep& out) {
 }
 
 bool MapCoverage::look_due(const StrategyInput& input) const {
-  return !last_look_ || (input.map_T_base.translation() - *last_look_).norm() >= params_.look_spacing_m;
+  const double spacing_m = params_.look_while_moving ? params_.look_spacing_m : params_.stop_spacing_m;
+  return !last_look_ || (input.map_T_base.translation() - *last_look_).norm() >= spacing_m;
+}
+
+/// Before the goal is reached, its picture is taken for granted: what the evidence will be decides where to go on.
+void MapCoverage::plan_ahead(const StrategyInput& input, const nav::DriveStep& drive) {
+  const bool due = !planned_ahead_ && params_.look_while_moving && !goal_->is_frontier;
+  if (!due || !driver_.brakes_within(kPlanAhead_s, drive)) {
+    return;
+  }
+  planned_ahead_ = true;
+  const auto floor = input.floors.view();
+  const auto costs = floor ? nav::DistanceField::build((*floor)->cost, goal_->p_map) : tl::unexpected(floor.error());
+  if (!costs) {
+    return;
+  }
+  const Pose2 map_T_there{goal_->p_map.x(), goal_->p_map.y(), input.map_T_base.theta_rad};
+  EvidenceGrid evidence = input.evidence;
+  evidence.add_look((*floor)->occupancy, goal_->p_map, input.target_size_m);
+  const std::vector<Point2> avoid = avoided(input.now);
+  const std::optional<Goal> next =
+      chooser_->foresee({**floor, *costs, evidence, map_T_there, input.target_size_m, avoid, input.map_views});
+  goes_on_ = next && driver_.go_on(input, next->p_map, next->heading_rad);
 }
 
 void MapCoverage::drive(const StrategyInput& input, StrategyStep& out) {
@@ -113,7 +141,8 @@ void MapCoverage::drive(const StrategyInput& input, StrategyStep& out) {
   out.activity = "going to " + goal_->why + " " + text(goal_->p_map);
   switch (drive.state) {
     case nav::DriveState::kDriving:
-      if (look_due(input)) {
+      plan_ahead(input, drive);
+      if (look_due(input) || passes_goal()) {
         out.wants_image = true;
         out.while_moving = params_.look_while_moving;
       }
@@ -179,6 +208,12 @@ void MapCoverage::image_taken(const StrategyInput& input) {
   last_look_ = input.map_T_base.translation();
   update_lists(input);
   if (state_ == State::kLook) {
+    state_ = State::kChoose;
+    return;
+  }
+  if (state_ == State::kDrive && passes_goal()) {
+    chooser_->visited(*goal_, input.map_T_base);
+    waits_.reset();
     state_ = State::kChoose;
     return;
   }

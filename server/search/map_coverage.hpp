@@ -14,11 +14,12 @@
 
 namespace seeker::search {
 
-/// Takes pictures at every goal and every look_spacing_m while driving. Without a usable map (at the start, or with
-/// noise around the robot) it rotates on the spot so that the sensors can observe, and ends as trapped when that does
-/// not help. A goal that could not be reached rests for a while. When no other goal is left, the robot waits at blocked
-/// paths that led on before, and tries the unreached goals once more, before it ends. Lists: cells of 0.8 m of the
-/// reachable floor, searched when at least 80 % of the cell's floor is covered.
+/// Takes pictures at every goal and every look_spacing_m while driving. A robot that takes pictures while it moves
+/// plans on from a goal before it arrives, and drives through; what it sees there decides where it really goes. Without
+/// a usable map (at the start, or with noise around the robot) it rotates on the spot so that the sensors can observe,
+/// and ends as trapped when that does not help. A goal that could not be reached rests for a while. When no other goal
+/// is left, the robot waits at blocked paths that led on before, and tries the unreached goals once more, before it
+/// ends. Lists: cells of 0.8 m of the reachable floor, searched when at least 80 % of the cell's floor is covered.
 class MapCoverage final : public CoverageStrategy {
  public:
   MapCoverage(const PlanParams& params, std::unique_ptr<GoalChooser> chooser);
@@ -42,6 +43,10 @@ class MapCoverage final : public CoverageStrategy {
   void begin_rotation(const StrategyInput& input, const std::string& why, StrategyStep& out);
   void rotate(const StrategyInput& input, StrategyStep& out);
   void drive(const StrategyInput& input, StrategyStep& out);
+  /// Chooses the goal behind the present one before the robot would brake for this one, so that it drives through.
+  void plan_ahead(const StrategyInput& input, const nav::DriveStep& drive);
+  /// Whether the robot drives through its goal now: the picture there is due.
+  [[nodiscard]] bool passes_goal() const { return goes_on_ && !driver_.passes_through(); }
   void fail_goal(const nav::DriveFailure& why, RobotTime now, StrategyStep& out);
   /// Places near which no goal may be chosen now.
   [[nodiscard]] std::vector<Point2> avoided(RobotTime now) const;
@@ -52,6 +57,8 @@ class MapCoverage final : public CoverageStrategy {
                     StrategyStep& out);
   void begin_wait(const nav::PlannedWait& planned, const StrategyInput& input, const nav::FloorView& floor,
                   const nav::DistanceField& costs, StrategyStep& out);
+  /// Waits where the robot is held, if it drove there: who holds it may go on. False when it has waited enough.
+  [[nodiscard]] bool wait_enclosed(const StrategyInput& input, StrategyStep& out);
   void wait(const StrategyInput& input, StrategyStep& out);
   void update_lists(const StrategyInput& input);
   void note_searched_cells();
@@ -70,6 +77,8 @@ class MapCoverage final : public CoverageStrategy {
   nav::PlannedDriver driver_;
   State state_ = State::kLook;  ///< the first action is to take a picture
   std::optional<Goal> goal_;
+  bool planned_ahead_ = false;  ///< the goal behind this one was looked for
+  bool goes_on_ = false;        ///< the path leads through the goal to one behind it
   std::optional<Point2> last_look_;
   RobotTime rotation_since_;
   int rotations_ = 0;

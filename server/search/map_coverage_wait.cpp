@@ -55,6 +55,21 @@ void MapCoverage::begin_wait(const nav::PlannedWait& planned, const StrategyInpu
   }
 }
 
+bool MapCoverage::wait_enclosed(const StrategyInput& input, StrategyStep& out) {
+  const bool came_here = !searched_cells_.empty();
+  if (!came_here || !waits_.next({{input.map_T_base.translation(), true}})) {
+    return false;
+  }
+  driver_.stop();
+  rotations_ = 0;
+  state_ = State::kWait;
+  waiting_since_ = input.now;
+  out.phase = "wait";
+  out.activity = "waiting for whoever stands against the robot to go on";
+  out.events.push_back({"wait", out.activity});
+  return true;
+}
+
 void MapCoverage::wait(const StrategyInput& input, StrategyStep& out) {
   out.phase = "wait";
   out.activity = "waiting for the path to become free again";

@@ -112,7 +112,7 @@ void PlanChooser::add_map_views(const ChooseInput& input, std::vector<Candidate>
   }
 }
 
-std::optional<Goal> PlanChooser::choose(const ChooseInput& input) {
+std::optional<Goal> PlanChooser::foresee(const ChooseInput& input) const {
   const Grid<std::uint8_t> wanted =
       wanted_floor(input.floor.reachable, input.evidence, params_.cell_target_probability);
   std::vector<Candidate> candidates = cells(input, wanted);
@@ -156,7 +156,7 @@ void PlanChooser::visited(const Goal& goal, const Pose2& /*map_T_base*/) {
 bool PlanChooser::still_worth(const Goal& goal, const nav::FloorView& floor, const EvidenceGrid& evidence,
                               double target_size_m) const {
   if (goal.is_frontier) {
-    return true;
+    return goal.heading_rad || nav::border_near(floor.cost, goal.p_map, params_.frontier_reach_m);
   }
   constexpr double kWorthShare = 0.5;  ///< of what was expected when the goal was chosen
   const Grid<std::uint8_t> wanted = wanted_floor(floor.reachable, evidence, params_.cell_target_probability);

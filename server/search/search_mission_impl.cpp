@@ -108,7 +108,7 @@ SearchStep SearchMission::Impl::step(const SearchInput& input) {
     process_looks(now, out);
   }
   if (!end_) {
-    start_waiting_confirm(now.now);
+    confirm_next(now.now, false);
     if (visit_.active()) {
       run_visit(now, out);
     } else {
@@ -160,6 +160,9 @@ void SearchMission::Impl::run_cover(const StrategyInput& input, SearchStep& out)
   StrategyStep step = strategy_->step(input);
   if (step.done) {
     out.events.insert(out.events.end(), step.events.begin(), step.events.end());
+    if (confirm_next(input.now, true)) {
+      return;
+    }
     finish_covered(step, input, out);
     return;
   }

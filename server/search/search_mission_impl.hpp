@@ -54,7 +54,9 @@ class SearchMission::Impl {
   void process_look(const PendingLook& look, const StrategyInput& input, SearchStep& out);
   void note_sighting(std::uint64_t id, const StrategyInput& input, SearchStep& out);
   void note_confirmed(const Detection& detection, const StrategyInput& input, SearchStep& out);
-  void start_waiting_confirm(RobotTime now);
+  /// Begins to look at the next unconfirmed sighting from another place, if one is due; doubtful ones wait for a few
+  /// pictures unless `doubtful_too`.
+  bool confirm_next(RobotTime now, bool doubtful_too);
   void run_visit(const StrategyInput& input, SearchStep& out);
   void run_cover(const StrategyInput& input, SearchStep& out);
   void hand_over(StrategyStep&& from, const StrategyInput& input, SearchStep& out);
@@ -65,15 +67,25 @@ class SearchMission::Impl {
   void finish_found(std::uint64_t id, SearchStep& out);
   [[nodiscard]] std::string not_found() const;
   void finish_covered(const StrategyStep& step, const StrategyInput& input, SearchStep& out);
+  /// Whether doubtful sightings wait for the next pictures. As printed, each is looked at again at once.
+  [[nodiscard]] bool follows_doubts() const { return request_.strategy != Strategy::kPaper; }
+  [[nodiscard]] bool out_of_reach(const Detection& detection) const;
   [[nodiscard]] bool refused_before(const Detection& detection) const;
   void note_refusal(std::uint64_t id);
+  /// Approaches a target that was confirmed while another one was approached, if there is one.
+  void approach_next(RobotTime now);
   [[nodiscard]] std::string name_of(int target) const;
   [[nodiscard]] double smallest_target_m() const;
 
   std::shared_ptr<const nav::FloorView> noted_floor_;  ///< the last view that was added to known_floor_
   std::optional<RobotTime> floor_noted_at_;
   std::deque<PendingLook> looks_;
-  std::deque<std::uint64_t> to_confirm_;
+  /// A sighting that is to be confirmed.
+  struct Unconfirmed {
+    std::uint64_t id = 0;
+    int looks = 0;  ///< pictures since
+  };
+  std::deque<Unconfirmed> to_confirm_;
   std::set<std::uint64_t> sighted_;    ///< detections reported as sighting
   std::set<std::uint64_t> confirmed_;  ///< detections reported as confirmed
   std::vector<Point2> refused_;        ///< places where confirming failed, frame `map`

@@ -83,6 +83,9 @@ void SearchMission::Impl::process_look(const PendingLook& look, const StrategyIn
       out.events.push_back({"refuted", "detection " + std::to_string(id) + " was not seen again"});
     }
   }
+  for (Unconfirmed& one : to_confirm_) {
+    ++one.looks;
+  }
   for (const std::uint64_t id : look.seen) {
     if (!end_) {
       note_sighting(id, input, out);
@@ -105,8 +108,14 @@ void SearchMission::Impl::note_sighting(std::uint64_t id, const StrategyInput& i
                                   : " at a bearing of " + text(rad_to_deg(detection->bearing_map_rad)) + " deg";
     out.events.push_back({"sighting", "detection " + std::to_string(id) + ": " + name_of(detection->target) + where +
                                           ", score " + text(detection->score)});
+    if (!detection->confirmed && out_of_reach(*detection)) {
+      out.events.push_back(
+          {"refuted", "detection " + std::to_string(id) + " is farther off than targets are recognised"});
+      tracker_.refute(id);
+      return;
+    }
     if (!detection->confirmed) {
-      to_confirm_.push_back(id);
+      to_confirm_.push_back({id});
     }
   }
   if (detection->confirmed && confirmed_.insert(id).second) {
@@ -128,15 +137,29 @@ void SearchMission::Impl::note_confirmed(const Detection& detection, const Strat
   }
 }
 
-void SearchMission::Impl::start_waiting_confirm(RobotTime now) {
-  while (!visit_.active() && !to_confirm_.empty()) {
-    const std::uint64_t id = to_confirm_.front();
-    to_confirm_.pop_front();
-    const auto detection = tracker_.find(id);
-    if (detection && !detection->confirmed) {
-      visit_.begin_confirm(id, now);
-    }
+/// A doubtful sighting from where the recogniser hardly sees targets is worth no detour, and two of them no belief:
+/// that floor still counts as unsearched, so that the search gets there anyway.
+bool SearchMission::Impl::out_of_reach(const Detection& detection) const {
+  const auto place = tracker_.presumed_place(detection.id);
+  const bool doubtful = follows_doubts() && detection.score < params_.detection.doubtful_score;
+  return doubtful && place && (*place - detection.map_T_base.translation()).norm() > params_.hit_rate.max_range_m;
+}
+
+bool SearchMission::Impl::confirm_next(RobotTime now, bool doubtful_too) {
+  std::erase_if(to_confirm_, [this](const Unconfirmed& one) {
+    const auto detection = tracker_.find(one.id);
+    return !detection || detection->confirmed;
+  });
+  const auto due = std::find_if(to_confirm_.begin(), to_confirm_.end(), [&](const Unconfirmed& one) {
+    const bool doubtful = tracker_.find(one.id)->score < params_.detection.doubtful_score;
+    return doubtful_too || !follows_doubts() || !doubtful || one.looks >= params_.mission.doubtful_looks;
+  });
+  if (visit_.active() || due == to_confirm_.end()) {
+    return false;
   }
+  visit_.begin_confirm(due->id, now);
+  to_confirm_.erase(due);
+  return true;
 }
 
 void SearchMission::Impl::run_visit(const StrategyInput& input, SearchStep& out) {
@@ -155,6 +178,17 @@ void SearchMission::Impl::run_visit(const StrategyInput& input, SearchStep& out)
     note_refusal(id);
     out.events.push_back({"refuted", "detection " + std::to_string(id) +
                                          (approaching ? " is not there from near" : " could not be confirmed")});
+    approach_next(input.now);
+  }
+}
+
+void SearchMission::Impl::approach_next(RobotTime now) {
+  for (const std::uint64_t id : confirmed_) {
+    const auto detection = tracker_.find(id);
+    if (detection && request_.on_found == OnFound::kApproach) {
+      visit_.begin_approach(*detection, now);
+      return;
+    }
   }
 }
 

@@ -37,6 +37,7 @@ Status validate_lengths(const SearchParams& p) {
                        {"paper.stuck_time_s", p.paper.stuck_time_s},
                        {"plan.cell_m", p.plan.cell_m},
                        {"plan.look_spacing_m", p.plan.look_spacing_m},
+                       {"plan.stop_spacing_m", p.plan.stop_spacing_m},
                        {"plan.travel_offset_m", p.plan.travel_offset_m},
                        {"plan.goal_time_s", p.plan.goal_time_s},
                        {"plan.retry_s", p.plan.retry_s},

@@ -39,7 +39,8 @@ struct PlanParams {
   double cell_m = 0.8;
   double replan_period_s = 2.0;           ///< cost map and goals are refreshed this often while driving
   double map_period_s = 1.0;              ///< shortest time between two cost maps
-  double look_spacing_m = 0.8;            ///< driven distance after which a picture is taken while driving
+  double look_spacing_m = 0.5;            ///< driven distance after which a picture is taken while driving
+  double stop_spacing_m = 0.8;            ///< the same of a robot that stops for its pictures
   bool look_while_moving = true;          ///< false: the robot also stops for the pictures between goals
   double cell_target_probability = 0.55;  ///< evidence a cell should reach, above the certificate's threshold
   double min_gain_cells = 6.0;            ///< expected new evidence (cells x probability) that is worth a drive
@@ -57,7 +58,8 @@ struct PlanParams {
   double min_look_spacing_m = 0.3;  ///< a picture taken nearer than this to an earlier one adds no evidence
   nav::WaitParams waits;
   nav::CostMapParams cost;
-  nav::FollowerParams follower;
+  /// Faster than other missions drive: what the clearance and the sensors allow limits the speed.
+  nav::FollowerParams follower = {.max_v_m_s = 0.75, .rotate_in_place_rad = 0.8, .clearance = {}};
 
   [[nodiscard]] nav::DriverParams driver() const { return {.goal_time_s = goal_time_s, .follower = follower}; }
 };
@@ -72,6 +74,8 @@ struct MissionParams {
   double approach_time_s = 90.0;  ///< time limit of the approach, after which the position estimate is final
   /// Time limit of a confirmation, after which the track is refused and the search continues.
   double confirm_time_s = 45.0;
+  /// Pictures after a doubtful sighting for which the search goes on before it is looked at from a place of its own.
+  int doubtful_looks = 2;
   double confirm_step_m = 0.7;        ///< distance to the second place
   int confirm_looks = 3;              ///< number of pictures without another sighting after which the track is refused
   double max_position_sigma_m = 3.0;  ///< standard deviation of the position beyond which the search ends as uncertain

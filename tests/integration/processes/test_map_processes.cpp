@@ -53,7 +53,7 @@ TEST(MapProcesses, SearchGoesOnWithTheFloorItHadSearchedAfterAKill) {
   const fs::path folder = fresh_folder("search_crash");
   const fs::path kept = folder / "state" / "maps" / "checkpoints" / "sim-1" / "look.search";
   const std::vector<std::string> slow{"--set", "sim.speed=15", "--set", "loop.map.checkpoint_period_s=1"};
-  constexpr int kMoreCells = 8;  // checkpoints follow meanwhile
+  constexpr int kMoreCells = 20;  // checkpoints follow meanwhile
   int searched = 0;
   {
     Daemon daemon(slow, folder);

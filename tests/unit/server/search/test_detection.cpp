@@ -323,6 +323,28 @@ TEST(DetectionTracker, LooksInVainRefute) {
   EXPECT_TRUE(tracker.detections().empty());
 }
 
+TEST(DetectionTracker, OfADoubtfulSightingTheNextPictureDecides) {
+  const auto sure = [](const Point2& p, int) { return (p - Point2(2.0, 0.0)).norm() < 0.1 ? 0.9 : 0.0; };
+  Look look;
+  look.sightings = {sighting_at(0.0, 0.7)};
+  look.sightings[0].range_m = 2.0;
+  DetectionTracker doubtful({{"thing"}}, {});
+  ASSERT_EQ(doubtful.add(look), std::vector<std::uint64_t>{1});
+  EXPECT_FALSE(doubtful.find(1)->position_map);
+  EXPECT_THAT(*doubtful.presumed_place(1), Point2Near(Point2(2.0, 0.0), 1e-9));
+  doubtful.transform(MapMove{Pose2{0.0, 1.0, 0.0}});
+  EXPECT_THAT(*doubtful.presumed_place(1), Point2Near(Point2(2.0, 1.0), 1e-9));
+  doubtful.transform(MapMove{Pose2{0.0, -1.0, 0.0}});
+  EXPECT_EQ(doubtful.note_misses({}, sure), std::vector<std::uint64_t>{1});
+
+  look.sightings[0].score = 0.85;
+  DetectionTracker clear({{"thing"}}, {});
+  ASSERT_EQ(clear.add(look), std::vector<std::uint64_t>{1});
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_TRUE(clear.note_misses({}, sure).empty()) << "without a position there is no place where it is missed";
+  }
+}
+
 TEST(DetectionTracker, IgnoresWhatMakesNoSense) {
   DetectionTracker tracker({{"thing"}}, {});
   Look look;

@@ -10,7 +10,7 @@ namespace seeker::search {
 namespace {
 
 TEST(SearchMission, SearchThatWasCutOffGoesOnWithWhatItHadSeenAndListed) {
-  constexpr double kUntilCutOff_s = 60.0;
+  constexpr double kUntilCutOff_s = 25.0;
   for (const Strategy strategy : {Strategy::kPlan, Strategy::kPaper}) {
     auto first = mission_of(strategy);
     ToyRobot robot(furnished_rooms(), {1.0, 1.0, 0.3}, true, 13);

@@ -43,6 +43,7 @@ struct ToyRun {
   double least_clearance_m = 100.0;
   Pose2 pose;
   int images = 0;
+  int stops = 0;  ///< times that the robot came to rest
   bool left_bound = false;
 };
 
@@ -52,6 +53,9 @@ class ToyRobot : public seeker::testing::ToyBase {
       : ToyBase(world, start, seed), recogniser_(world), laser_fitted_(laser) {}
 
   [[nodiscard]] std::vector<vision::Sighting> recognise() {
+    if (phantom) {
+      return {*std::exchange(phantom, std::nullopt)};
+    }
     if (!world_.target) {
       return {};
     }
@@ -68,6 +72,7 @@ class ToyRobot : public seeker::testing::ToyBase {
     return {sighting};
   }
 
+  std::optional<vision::Sighting> phantom;  ///< recognised in the next picture, and never again
   MapViews map_views;                       ///< handed to the mission
   std::function<void(double t_s)> between;  ///< called before each step: people, who are walls of world()
   std::size_t pictures_at_once = 1;         ///< that answer for one
@@ -106,7 +111,9 @@ class ToyRobot : public seeker::testing::ToyBase {
                                              {now, pose_, Matrix3::Zero(), recognise(), laser_or_none, &sonar_scan}));
         }
       }
+      const double before_m_s = twist_.v_m_s;
       drive(held ? Twist2{} : step.command);
+      out.stops += before_m_s > 0.0 && twist_.v_m_s <= 0.0 ? 1 : 0;
       out.least_clearance_m = std::min(out.least_clearance_m, world_.clearance(pose_.translation()));
       out.left_bound = out.left_bound || (bound && !contains(*bound, pose_.translation()));
     }
@@ -152,11 +159,14 @@ inline SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::k
   return std::move(*mission);
 }
 
-inline SearchMission planned_search() {
+/// With a robot that drives at up to `max_v_m_s`.
+inline SearchMission planned_search(double max_v_m_s = SearchParams{}.plan.follower.max_v_m_s) {
+  SearchParams params;
+  params.plan.follower.max_v_m_s = max_v_m_s;
   SearchRequest request;
   request.targets = {{"box", 0.4, 0.4, 0.3}};
   request.strategy = Strategy::kPlan;
-  auto mission = SearchMission::create(request, {}, shared_table());
+  auto mission = SearchMission::create(request, params, shared_table());
   EXPECT_TRUE(mission.has_value());
   return std::move(*mission);
 }
