@@ -29,7 +29,7 @@ class PictureSource {
   /// Waits for the next picture. A failure ends the source until it is opened again.
   [[nodiscard]] virtual Result<Image> read() = 0;
   virtual void close() = 0;
-  /// Whether a source that failed may give pictures again when it is opened anew: a device or a network does, a file
+  /// Whether a source that failed may give pictures again when it is opened again: a device or a network does, a file
   /// that has ended does not.
   [[nodiscard]] virtual bool comes_back() const { return false; }
 };
@@ -40,7 +40,7 @@ using NowFunction = std::function<RobotTime()>;
 struct PictureReaderParams {
   Duration max_age = std::chrono::milliseconds(500);         ///< older pictures are not returned
   Duration first_picture = std::chrono::milliseconds(5000);  ///< time to open the device and to set its exposure
-  Duration reopen_after = std::chrono::milliseconds(1000);   ///< a source that failed is opened anew so much later
+  Duration reopen_after = std::chrono::milliseconds(1000);   ///< a source that failed is opened again so much later
   std::size_t kept = 4;  ///< number of newest pictures kept, to find those of one moment
 };
 
