@@ -41,15 +41,23 @@ std::unique_ptr<CoverageStrategy> make_strategy(const SearchRequest& request, co
   return std::make_unique<MapCoverage>(params.plan, std::make_unique<PlanChooser>(params.plan));
 }
 
+/// As printed, every sighting is looked at again at once: none is doubtful.
+SearchParams params_for(const SearchRequest& request, SearchParams params) {
+  if (request.strategy == Strategy::kPaper) {
+    params.detection.doubtful_score = 0.0;
+  }
+  return params;
+}
+
 }  // namespace
 
 SearchMission::Impl::Impl(SearchRequest request, const SearchParams& params,
                           const std::shared_ptr<const ControlTable>& table)
     : request_(std::move(request)),
-      params_(params),
+      params_(params_for(request_, params)),
       floors_(params.plan.cost, request_.areas, params.evidence.cell_m, params.plan.map_period_s),
       evidence_(params.evidence, params.hit_rate),
-      tracker_(request_.targets, params.detection),
+      tracker_(request_.targets, params_.detection),
       planner_(make_planner(request_, params, table)),
       strategy_(make_strategy(request_, params, planner_)),
       visit_(params, planner_, request_.strategy != Strategy::kPaper) {}

@@ -67,8 +67,6 @@ class SearchMission::Impl {
   void finish_found(std::uint64_t id, SearchStep& out);
   [[nodiscard]] std::string not_found() const;
   void finish_covered(const StrategyStep& step, const StrategyInput& input, SearchStep& out);
-  /// Whether doubtful sightings wait for the next pictures. As printed, each is looked at again at once.
-  [[nodiscard]] bool follows_doubts() const { return request_.strategy != Strategy::kPaper; }
   [[nodiscard]] bool out_of_reach(const Detection& detection) const;
   [[nodiscard]] bool refused_before(const Detection& detection) const;
   void note_refusal(std::uint64_t id);
