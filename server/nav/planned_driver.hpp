@@ -85,6 +85,11 @@ class PlannedDriver {
   [[nodiscard]] const DriveFailure& failure() const { return failure_; }
 
  private:
+  /// A place that the path leads through.
+  struct Through {
+    Point2 p_map;
+    double beyond_m = 0.0;  ///< length of the path behind it
+  };
   /// To the goal; also through the place that the path leads through, whose distance to the goal it notes.
   [[nodiscard]] Result<Path> find_path(const DriveInput& input);
   [[nodiscard]] Result<Path> find_leg(const DriveInput& input, const Point2& from_map, const Point2& to_map) const;
@@ -97,11 +102,6 @@ class PlannedDriver {
 
   DriverParams params_;
   PathFollower follower_;
-  /// A place that the path leads through.
-  struct Through {
-    Point2 p_map;
-    double beyond_m = 0.0;  ///< length of the path behind it
-  };
   Point2 goal_ = Point2::Zero();
   std::optional<Through> through_;
   std::optional<double> final_heading_rad_;

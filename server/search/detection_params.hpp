@@ -40,6 +40,8 @@ struct DetectionParams {
   double doubtful_score = 0.8;
   double doubtful_unseen = 0.2;
   double max_bearing_range_m = 8.0;  ///< intersections of bearings farther away are rejected
+
+  [[nodiscard]] bool doubtful(double score) const { return score < doubtful_score; }
 };
 
 }  // namespace seeker::search

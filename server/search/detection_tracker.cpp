@@ -174,11 +174,11 @@ void DetectionTracker::join(Track& track, const Observation& observation, const 
   }
   estimate(track);
   track.unseen = 1.0;
-  track.presumed_map = d.position_map;
-  if (!d.position_map && sighting.range_m) {
+  track.by_size_map.reset();
+  if (sighting.range_m) {
     const BearingRange& m = observation.measurement;
-    track.presumed_map = m.map_T_camera * Point2(*sighting.range_m * std::cos(m.bearing_rad),
-                                                 *sighting.range_m * std::sin(m.bearing_rad));
+    track.by_size_map = m.map_T_camera * Point2(*sighting.range_m * std::cos(m.bearing_rad),
+                                                *sighting.range_m * std::sin(m.bearing_rad));
   }
   const bool located = d.position_map.has_value() || !params_.confirm_position;
   const bool seen_enough = static_cast<int>(track.places.size()) >= params_.confirm_places;
@@ -213,7 +213,8 @@ std::vector<std::uint64_t> DetectionTracker::note_misses(const std::vector<std::
   for (Track& track : tracks_) {
     Detection& d = track.detection;
     const bool was_seen = std::find(seen.begin(), seen.end(), d.id) != seen.end();
-    if (!was_seen && track.presumed_map && miss(track, should_see(*track.presumed_map, d.target))) {
+    const auto place = presumed_place_of(track);
+    if (!was_seen && place && miss(track, should_see(*place, d.target))) {
       refuted.push_back(d.id);
     }
   }
@@ -227,7 +228,7 @@ bool DetectionTracker::miss(Track& track, double p) const {
   Detection& d = track.detection;
   track.unseen *= 1.0 - p;
   d.misses += d.position_map && p >= params_.miss_probability ? 1 : 0;
-  const bool doubtful = d.sightings == 1 && d.score < params_.doubtful_score;
+  const bool doubtful = d.sightings == 1 && params_.doubtful(d.score);
   return !d.confirmed &&
          (d.misses - d.sightings >= params_.max_misses || (doubtful && track.unseen < params_.doubtful_unseen));
 }
@@ -246,31 +247,25 @@ std::vector<Detection> DetectionTracker::detections() const {
   return out;
 }
 
+const DetectionTracker::Track* DetectionTracker::track_of(std::uint64_t id) const {
+  const auto found =
+      std::find_if(tracks_.begin(), tracks_.end(), [id](const Track& track) { return track.detection.id == id; });
+  return found == tracks_.end() ? nullptr : &*found;
+}
+
 std::optional<Detection> DetectionTracker::find(std::uint64_t id) const {
-  for (const Track& track : tracks_) {
-    if (track.detection.id == id) {
-      return track.detection;
-    }
-  }
-  return std::nullopt;
+  const Track* track = track_of(id);
+  return track != nullptr ? std::optional(track->detection) : std::nullopt;
 }
 
 std::vector<Point2> DetectionTracker::places(std::uint64_t id) const {
-  for (const Track& track : tracks_) {
-    if (track.detection.id == id) {
-      return track.places;
-    }
-  }
-  return {};
+  const Track* track = track_of(id);
+  return track != nullptr ? track->places : std::vector<Point2>{};
 }
 
 std::optional<Point2> DetectionTracker::presumed_place(std::uint64_t id) const {
-  for (const Track& track : tracks_) {
-    if (track.detection.id == id) {
-      return track.presumed_map;
-    }
-  }
-  return std::nullopt;
+  const Track* track = track_of(id);
+  return track != nullptr ? presumed_place_of(*track) : std::nullopt;
 }
 
 void DetectionTracker::transform(const MapMove& move) {
@@ -281,8 +276,8 @@ void DetectionTracker::transform(const MapMove& move) {
     for (Point2& p : track.places) {
       p = move * p;
     }
-    if (track.presumed_map) {
-      track.presumed_map = move * *track.presumed_map;
+    if (track.by_size_map) {
+      track.by_size_map = move * *track.by_size_map;
     }
     const Pose2 new_T_old = move.at(track.detection.map_T_base.translation());
     track.detection.map_T_base = new_T_old * track.detection.map_T_base;

@@ -64,11 +64,15 @@ class DetectionTracker {
     Detection detection;
     std::vector<Observation> observations;
     std::vector<Point2> places;
-    std::optional<Point2> presumed_map;  ///< see presumed_place()
+    std::optional<Point2> by_size_map;  ///< the place as far away as the newest sighting's apparent size says
     double unseen = 1.0;  ///< probability that a target there stays unseen in all pictures since that did not show it
     Matrix3 pose_covariance = Matrix3::Zero();  ///< covariance of the robot's pose at the newest sighting
   };
 
+  [[nodiscard]] const Track* track_of(std::uint64_t id) const;
+  [[nodiscard]] static std::optional<Point2> presumed_place_of(const Track& track) {
+    return track.detection.position_map ? track.detection.position_map : track.by_size_map;
+  }
   [[nodiscard]] Observation observe(const Look& look, const vision::Sighting& sighting) const;
   [[nodiscard]] std::optional<double> distance(const Track& track, const Observation& observation,
                                                const Look& look) const;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "server/nav/planned_driver.hpp"
@@ -59,6 +60,7 @@ class MapCoverage final : public CoverageStrategy {
                   const nav::DistanceField& costs, StrategyStep& out);
   /// Waits where the robot is held, if it drove there: who holds it may go on. False when it has waited enough.
   [[nodiscard]] bool wait_enclosed(const StrategyInput& input, StrategyStep& out);
+  void stand_waiting(std::string what, const StrategyInput& input, StrategyStep& out);
   void wait(const StrategyInput& input, StrategyStep& out);
   void update_lists(const StrategyInput& input);
   void note_searched_cells();

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <utility>
 
 #include "common/core/text.hpp"
 #include "server/nav/lookout.hpp"
@@ -40,12 +42,7 @@ void MapCoverage::nothing_left(const StrategyInput& input, const nav::FloorView&
 /// Drives to a place in sight of the blocked place, or aside of the person who blocks it, and stands there.
 void MapCoverage::begin_wait(const nav::PlannedWait& planned, const StrategyInput& input, const nav::FloorView& floor,
                              const nav::DistanceField& costs, StrategyStep& out) {
-  state_ = State::kWait;
-  waiting_since_ = input.now;
-  const std::string where = "waiting for the path to " + text(planned.p_map) + " to become free again";
-  out.events.push_back({"wait", where});
-  out.phase = "wait";
-  out.activity = where;
+  stand_waiting("waiting for the path to " + text(planned.p_map) + " to become free again", input, out);
   const auto found =
       planned.aside ? nav::place_aside(planned.p_map, floor, costs) : nav::lookout_for(planned.p_map, floor, costs);
   const Point2 place = found.value_or(input.map_T_base.translation());
@@ -62,12 +59,16 @@ bool MapCoverage::wait_enclosed(const StrategyInput& input, StrategyStep& out) {
   }
   driver_.stop();
   rotations_ = 0;
+  stand_waiting("waiting for whoever stands against the robot to go on", input, out);
+  return true;
+}
+
+void MapCoverage::stand_waiting(std::string what, const StrategyInput& input, StrategyStep& out) {
   state_ = State::kWait;
   waiting_since_ = input.now;
   out.phase = "wait";
-  out.activity = "waiting for whoever stands against the robot to go on";
-  out.events.push_back({"wait", out.activity});
-  return true;
+  out.events.push_back({"wait", what});
+  out.activity = std::move(what);
 }
 
 void MapCoverage::wait(const StrategyInput& input, StrategyStep& out) {

@@ -141,8 +141,8 @@ void SearchMission::Impl::note_confirmed(const Detection& detection, const Strat
 /// that floor still counts as unsearched, so that the search gets there anyway.
 bool SearchMission::Impl::out_of_reach(const Detection& detection) const {
   const auto place = tracker_.presumed_place(detection.id);
-  const bool doubtful = detection.score < params_.detection.doubtful_score;
-  return doubtful && place && (*place - detection.map_T_base.translation()).norm() > params_.hit_rate.max_range_m;
+  return params_.detection.doubtful(detection.score) && place &&
+         (*place - detection.map_T_base.translation()).norm() > params_.hit_rate.max_range_m;
 }
 
 bool SearchMission::Impl::confirm_next(RobotTime now, bool doubtful_too) {
@@ -151,8 +151,8 @@ bool SearchMission::Impl::confirm_next(RobotTime now, bool doubtful_too) {
     return !detection || detection->confirmed;
   });
   const auto due = std::find_if(to_confirm_.begin(), to_confirm_.end(), [&](const Unconfirmed& one) {
-    const bool doubtful = tracker_.find(one.id)->score < params_.detection.doubtful_score;
-    return doubtful_too || !doubtful || one.looks >= params_.mission.doubtful_looks;
+    return doubtful_too || !params_.detection.doubtful(tracker_.find(one.id)->score) ||
+           one.looks >= params_.mission.doubtful_looks;
   });
   if (visit_.active() || due == to_confirm_.end()) {
     return false;

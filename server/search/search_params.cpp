@@ -62,7 +62,8 @@ Status validate(const SearchParams& params) {
   if (const Status probabilities =
           all_probabilities({{"evidence.threshold", params.evidence.threshold},
                              {"evidence.max_probability", params.evidence.max_probability},
-                             {"plan.cell_target_probability", params.plan.cell_target_probability}});
+                             {"plan.cell_target_probability", params.plan.cell_target_probability},
+                             {"detection.doubtful_unseen", params.detection.doubtful_unseen}});
       !probabilities) {
     return probabilities;
   }

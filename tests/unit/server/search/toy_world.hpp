@@ -148,13 +148,13 @@ inline ToyWorld furnished_rooms() {
 }
 
 inline SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::kApproach,
-                                nav::ForbiddenAreas areas = {}) {
+                                nav::ForbiddenAreas areas = {}, const SearchParams& params = {}) {
   SearchRequest request;
   request.targets = {{"box", 0.4, 0.4, 0.3}};
   request.strategy = strategy;
   request.on_found = on_found;
   request.areas = std::move(areas);
-  auto mission = SearchMission::create(request, {}, shared_table());
+  auto mission = SearchMission::create(request, params, shared_table());
   EXPECT_TRUE(mission.has_value());
   return std::move(*mission);
 }
@@ -163,12 +163,7 @@ inline SearchMission mission_of(Strategy strategy, OnFound on_found = OnFound::k
 inline SearchMission planned_search(double max_v_m_s = SearchParams{}.plan.follower.max_v_m_s) {
   SearchParams params;
   params.plan.follower.max_v_m_s = max_v_m_s;
-  SearchRequest request;
-  request.targets = {{"box", 0.4, 0.4, 0.3}};
-  request.strategy = Strategy::kPlan;
-  auto mission = SearchMission::create(request, params, shared_table());
-  EXPECT_TRUE(mission.has_value());
-  return std::move(*mission);
+  return mission_of(Strategy::kPlan, OnFound::kApproach, {}, params);
 }
 
 inline void print(const char* name, const ToyRun& run) {
