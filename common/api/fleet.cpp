@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/core/polygon.hpp"
+
 namespace seeker::api {
 namespace {
 
@@ -58,6 +60,19 @@ std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const
     tiles.resize(kMaxFleetTiles);
   }
   return tiles;
+}
+
+std::vector<MappedSide> within_limits(std::vector<MappedSide> sides, const Point2& p_map) {
+  std::erase_if(sides, [](const MappedSide& side) { return !in_reach(side.left_map) || !in_reach(side.right_map); });
+  if (sides.size() > kMaxFleetSides) {
+    const auto off_m = [&](const MappedSide& side) {
+      return distance_to_segment_m(side.left_map, side.right_map, p_map);
+    };
+    std::stable_sort(sides.begin(), sides.end(),
+                     [&](const MappedSide& a, const MappedSide& b) { return off_m(a) < off_m(b); });
+    sides.resize(kMaxFleetSides);
+  }
+  return sides;
 }
 
 std::vector<Detection> within_limits(std::vector<Detection> detections) {

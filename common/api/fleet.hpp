@@ -12,6 +12,7 @@
 
 #include "common/api/perception.hpp"
 #include "common/core/line_map.hpp"
+#include "common/core/mapped_side.hpp"
 #include "common/core/occupancy_tile.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/searched_floor.hpp"
@@ -39,6 +40,7 @@ inline constexpr std::size_t kMaxFleetTopologyEdges = 10'000;
 inline constexpr int kMaxFleetLayer = 64;
 inline constexpr std::size_t kMaxFleetTiles = 1'024;     ///< of the floor of one robot
 inline constexpr int kMaxFleetFloorSide_tiles = 64;      ///< largest width and height of a floor: 205 m
+inline constexpr std::size_t kMaxFleetSides = 4'000;     ///< of walls that one robot has mapped
 inline constexpr std::size_t kMaxFleetDetections = 64;   ///< of one robot
 inline constexpr int kMaxFleetSearchedSide_cells = 512;  ///< largest side of the searched floor of one robot
 inline constexpr std::size_t kMaxFleetTargets = 64;      ///< of the searched floor of one robot
@@ -157,7 +159,8 @@ struct FleetShared {
   friend bool operator==(const FleetShared&, const FleetShared&) = default;
 };
 
-/// Occupancy, detections and searched floor of a robot, in its own frame `map`. Empty where the robot is not localised.
+/// Occupancy, mapped walls, detections and searched floor of a robot, in its own frame `map`. Empty where the robot is
+/// not localised.
 struct FleetSeen {
   std::string robot_id;
   std::uint64_t instance = 0;             ///< as in FleetManifest
@@ -165,6 +168,7 @@ struct FleetSeen {
   std::vector<OccupancyTile> tiles;       ///< all tiles of its occupancy map
   std::vector<Detection> detections;      ///< of all its missions since it was started
   std::optional<SearchedFloor> searched;  ///< of its last search
+  std::vector<MappedSide> sides = {};     ///< all sides of walls in its map
   friend bool operator==(const FleetSeen&, const FleetSeen&) = default;
 };
 
@@ -181,6 +185,7 @@ struct FleetSightings {
   std::vector<OccupancyTile> floor;
   std::vector<FleetFinding> findings;
   std::vector<SearchedFloor> searched;
+  std::vector<MappedSide> sides = {};
   friend bool operator==(const FleetSightings&, const FleetSightings&) = default;
 };
 
@@ -194,6 +199,9 @@ struct FleetScene {
 
 /// The tiles that are nearest to `p_map`, as many as the limits above allow.
 [[nodiscard]] std::vector<OccupancyTile> within_limits(std::vector<OccupancyTile> tiles, const Point2& p_map);
+
+/// The sides within reach that are nearest to `p_map`, as many as one robot may report.
+[[nodiscard]] std::vector<MappedSide> within_limits(std::vector<MappedSide> sides, const Point2& p_map);
 
 [[nodiscard]] bool in_reach(const Point2& p_map);
 /// Whether a target and the robot that detected it lie within kMaxFleetReach_m, with a covariance within

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/core/grid.hpp"
+#include "common/core/mapped_side.hpp"
 #include "common/core/pose2.hpp"
 #include "common/core/searched_floor.hpp"
 
@@ -88,6 +89,7 @@ struct FleetView {
   /// Occupancy that the others have reported, cells as in OccupancyTile on multiples of its resolution; null: none.
   std::shared_ptr<const Grid<std::uint8_t>> floor = nullptr;
   SharedSearch searched = nullptr;  ///< floor that the others have searched
+  SharedSides sides = nullptr;      ///< sides of walls that the others have mapped, frame `map`; null: none
 
   friend bool operator==(const FleetView&, const FleetView&) = default;
 };

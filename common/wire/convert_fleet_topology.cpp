@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <set>
 #include <utility>
 
@@ -37,26 +36,10 @@ void write_place(const TopologyNode& from, pb::FleetPlace* to) {
   }
 }
 
-double within(double value, double limit, std::string_view field, Check& check) {
-  if (!(std::abs(value) <= limit)) {  // also where it is no number
-    check.refuse(field, Errc::kInvalidArgument, "is out of reach or not a finite number");
-    return 0.0;
-  }
-  return value;
-}
-
 Point2 read_point(bool present, const pb::Point2& from, std::string_view field, Check& check) {
   Point2 p = Point2::Zero();
   read_required(present, from, p, field, check);
   return {within(p.x(), api::kMaxFleetReach_m, field, check), within(p.y(), api::kMaxFleetReach_m, field, check)};
-}
-
-Pose2 read_place_pose(bool present, const pb::Pose2& from, std::string_view field, Check& check) {
-  Pose2 pose;
-  read_required(present, from, pose, field, check);
-  within(pose.x_m, api::kMaxFleetReach_m, field, check);
-  within(pose.y_m, api::kMaxFleetReach_m, field, check);
-  return pose;
 }
 
 void read_goal(const pb::FleetGoal& from, const Point2& place_map, TopologyGoal& to, Check& check) {
@@ -140,37 +123,22 @@ void read_edges(const pb::FleetTopology& from, Topology& to, Check& check) {
   }
 }
 
-using TileField = google::protobuf::RepeatedPtrField<pb::Tile>;
+}  // namespace
 
-void write_tiles(const std::vector<OccupancyTile>& from, TileField* to) {
-  for (const OccupancyTile& tile : from) {
-    write(tile, to->Add());
+double within(double value, double limit, std::string_view field, Check& check) {
+  if (!(std::abs(value) <= limit)) {  // also where it is no number
+    check.refuse(field, Errc::kInvalidArgument, "is out of reach or not a finite number");
+    return 0.0;
   }
+  return value;
 }
 
-/// A few tiles far apart would make a grid larger than all memory.
-bool close_together(const std::vector<OccupancyTile>& tiles) {
-  const auto spread = [&](auto coordinate) {
-    const auto [low, high] = std::minmax_element(
-        tiles.begin(), tiles.end(), [&](const auto& a, const auto& b) { return coordinate(a) < coordinate(b); });
-    return coordinate(*high) - coordinate(*low);
-  };
-  return tiles.empty() ||
-         (spread([](const OccupancyTile& tile) { return tile.index.i; }) < api::kMaxFleetFloorSide_tiles &&
-          spread([](const OccupancyTile& tile) { return tile.index.j; }) < api::kMaxFleetFloorSide_tiles);
-}
-
-void read_tiles(const TileField& from, std::vector<OccupancyTile>& to, Check& check) {
-  if (!check.count("tiles", static_cast<std::size_t>(from.size()), api::kMaxFleetTiles)) {
-    return;
-  }
-  for (int k = 0; k < from.size() && check.ok(); ++k) {
-    const auto scope = check.in("tiles", static_cast<std::size_t>(k));
-    read(from[k], to.emplace_back(), check);
-  }
-  if (!close_together(to)) {
-    check.refuse("tiles", Errc::kTooLarge, "are too far apart");
-  }
+Pose2 read_place_pose(bool present, const pb::Pose2& from, std::string_view field, Check& check) {
+  Pose2 pose;
+  read_required(present, from, pose, field, check);
+  within(pose.x_m, api::kMaxFleetReach_m, field, check);
+  within(pose.y_m, api::kMaxFleetReach_m, field, check);
+  return pose;
 }
 
 void write_others(const std::vector<RobotTopology>& from, pb::FleetReply* to) {
@@ -188,32 +156,6 @@ void read_others(const pb::FleetReply& from, std::vector<RobotTopology>& to, std
     read(from.others(k), to.emplace_back(), check);
   }
 }
-
-void write_findings(const std::vector<api::FleetFinding>& from, pb::FleetReply* to) {
-  for (const api::FleetFinding& finding : from) {
-    pb::FleetFinding* one = to->add_findings();
-    one->set_robot_id(finding.robot_id);
-    write(finding.detection, one->mutable_detection());
-  }
-}
-
-void read_findings(const pb::FleetReply& from, std::vector<api::FleetFinding>& to, std::size_t most_robots,
-                   Check& check) {
-  if (!check.count("findings", static_cast<std::size_t>(from.findings_size()),
-                   api::kMaxFleetDetections * most_robots)) {
-    return;
-  }
-  for (int k = 0; k < from.findings_size(); ++k) {
-    const auto scope = check.in("findings", static_cast<std::size_t>(k));
-    api::FleetFinding& finding = to.emplace_back();
-    finding.robot_id = read_robot_id(from.findings(k).robot_id(), check);
-    read_required(from.findings(k).has_detection(), from.findings(k).detection(), finding.detection, "detection",
-                  check);
-    check_reach(finding.detection, check);
-  }
-}
-
-}  // namespace
 
 void write(const RobotTopology& from, pb::FleetTopology* to) {
   to->set_robot_id(from.robot_id);
@@ -288,94 +230,6 @@ void write(const api::FleetShared& from, pb::FleetReply* to) {
 void read(const pb::FleetReply& from, api::FleetShared& to, Check& check) {
   check.enumerator("state", from.state(), api::FleetState::kSplit, to.state);
   read_others(from, to.others, api::kMaxFleetRobots - 1, check);
-}
-
-void write(const SearchedFloor& from, pb::SearchedFloor* to) {
-  for (const std::string& target : from.targets) {
-    to->add_targets(clean_text(target, kMaxNameBytes));
-  }
-  write(from.map_T_grid, to->mutable_map_t_grid());
-  if (from.probability) {
-    write(*from.probability, to->mutable_probability());
-  }
-}
-
-void read(const pb::SearchedFloor& from, SearchedFloor& to, Check& check) {
-  const auto too_long = [](std::uint32_t cells) { return cells > api::kMaxFleetSearchedSide_cells; };
-  if (!check.count("targets", static_cast<std::size_t>(from.targets_size()), api::kMaxFleetTargets)) {
-    return;
-  }
-  if (too_long(from.probability().width()) || too_long(from.probability().height())) {
-    check.refuse("probability", Errc::kTooLarge, "is more than 512 cells wide or high");
-    return;
-  }
-  for (const std::string& target : from.targets()) {
-    to.targets.push_back(check.text("targets", target, kMaxNameBytes));
-  }
-  to.map_T_grid = read_place_pose(from.has_map_t_grid(), from.map_t_grid(), "map_t_grid", check);
-  Grid<std::uint8_t> probability;
-  read_required(from.has_probability(), from.probability(), probability, "probability", check);
-  const auto scope = check.in("probability");
-  const Point2& origin = probability.frame().origin;
-  within(origin.x(), api::kMaxFleetReach_m, "origin_x_m", check);
-  within(origin.y(), api::kMaxFleetReach_m, "origin_y_m", check);
-  within(probability.frame().resolution_m, kMaxSearchedCell_m, "resolution_m", check);
-  to.probability = std::make_shared<const Grid<std::uint8_t>>(std::move(probability));
-}
-
-void write(const api::FleetSeen& from, pb::FleetSeen* to) {
-  to->set_robot_id(from.robot_id);
-  to->set_instance(from.instance);
-  to->set_placed(from.placed);
-  write_tiles(from.tiles, to->mutable_tiles());
-  write_detections(from.detections, to->mutable_detections());
-  if (from.searched) {
-    write(*from.searched, to->mutable_searched());
-  }
-}
-
-void read(const pb::FleetSeen& from, api::FleetSeen& to, Check& check) {
-  to.robot_id = read_robot_id(from.robot_id(), check);
-  to.instance = from.instance();
-  to.placed = from.placed();
-  read_tiles(from.tiles(), to.tiles, check);
-  read_detections(from.detections(), to.detections, check);
-  if (from.has_searched()) {
-    const auto scope = check.in("searched");
-    read(from.searched(), to.searched.emplace(), check);
-  }
-}
-
-void write(const api::FleetSightings& from, pb::FleetReply* to) {
-  write_tiles(from.floor, to->mutable_floor());
-  write_findings(from.findings, to);
-  for (const SearchedFloor& searched : from.searched) {
-    write(searched, to->add_searched());
-  }
-}
-
-void read(const pb::FleetReply& from, api::FleetSightings& to, Check& check) {
-  read_tiles(from.floor(), to.floor, check);
-  read_findings(from, to.findings, api::kMaxFleetRobots - 1, check);
-  if (!check.count("searched", static_cast<std::size_t>(from.searched_size()), api::kMaxFleetRobots - 1)) {
-    return;
-  }
-  for (int k = 0; k < from.searched_size(); ++k) {
-    const auto scope = check.in("searched", static_cast<std::size_t>(k));
-    read(from.searched(k), to.searched.emplace_back(), check);
-  }
-}
-
-void write(const api::FleetScene& from, pb::FleetReply* to) {
-  write_tiles(from.floor, to->mutable_floor());
-  write_others(from.robots, to);
-  write_findings(from.findings, to);
-}
-
-void read(const pb::FleetReply& from, api::FleetScene& to, Check& check) {
-  read_tiles(from.floor(), to.floor, check);
-  read_others(from, to.robots, api::kMaxFleetRobots, check);
-  read_findings(from, to.findings, api::kMaxFleetRobots, check);
 }
 
 }  // namespace seeker::wire

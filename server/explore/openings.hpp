@@ -11,6 +11,7 @@
 
 #include "common/core/line_map.hpp"
 #include "common/core/map_move.hpp"
+#include "common/core/mapped_side.hpp"
 #include "common/core/time.hpp"
 #include "common/core/unreachable.hpp"
 #include "server/explore/viewpoint_params.hpp"
@@ -55,6 +56,8 @@ struct OpeningsInput {
   /// Whether to include faces that were seen but belong to no segment: furniture looks like them until it has been
   /// observed well.
   bool seen_faces = true;
+  /// Sides of walls that other robots have mapped: they need no visit of this one.
+  std::span<const MappedSide> others_sides = {};
 };
 
 /// Remembers what was observed and what could not be reached, so that an exploration always ends. An opening that does
@@ -121,9 +124,10 @@ class Openings {
 /// Faces of walls that were not observed yet, except those that cannot be observed from any place.
 [[nodiscard]] std::vector<Opening> wall_face_openings(const OpeningsInput& input, const ViewpointParams& params);
 
-/// Possible extension of the wall beyond its virtual end: up to the next segment, or to floor that is known to be free.
+/// Possible extension of the wall beyond its virtual end: up to the next wall, or to floor that is known to be free.
 [[nodiscard]] double possible_extension_m(const nav::CostMap& map, const std::vector<MapSegment>& segments,
-                                          const MapSegment& segment, bool left, double max_m);
+                                          const MapSegment& segment, bool left, double max_m,
+                                          std::span<const MappedSide> others_sides = {});
 
 /// Whether a robot at the pose observes the opening well: near enough, not at too flat an angle, and with nothing in
 /// between.

@@ -62,6 +62,9 @@ StrategyStep PlaceStrategy::step(const StrategyInput& input) {
   if (out.activity.empty()) {
     out.activity = why_;
   }
+  if (state_ == State::kWait) {
+    out.phase = "wait";
+  }
   if (state_ == State::kDone) {
     out.done = true;
     out.unreachable = openings_.given_up();
@@ -83,8 +86,17 @@ Result<PlaceStrategy::Survey> PlaceStrategy::survey(const StrategyInput& input, 
     return tl::unexpected(costs.error());
   }
   Survey found{*floor, std::move(*costs), {}, false};
-  for (Opening& opening : openings_.find({**floor, found.costs, input.segments, input.floors.areas(), input.map_T_base,
-                                          input.now, chooser_->wants_wall_ends()})) {
+  OpeningsInput scene{**floor,
+                      found.costs,
+                      input.segments,
+                      input.floors.areas(),
+                      input.map_T_base,
+                      input.now,
+                      chooser_->wants_wall_ends()};
+  if (input.fleet != nullptr && input.fleet->sides != nullptr) {
+    scene.others_sides = *input.fleet->sides;
+  }
+  for (Opening& opening : openings_.find(scene)) {
     if (opening.resting) {
       found.resting = true;
     } else {

@@ -38,7 +38,7 @@ struct StrategyInput : nav::DriveInput {
 
 struct StrategyStep {
   Twist2 command;
-  std::string phase;                 ///< "explore", "wall", "drive", "turn"
+  std::string phase;                 ///< "explore", "wall", "drive", "turn", "wait"
   std::string activity;              ///< what the robot does and why, in one sentence
   std::vector<Point2> planned_path;  ///< frame `map`
   std::optional<ExploreDecision>

@@ -56,16 +56,18 @@ CellState state_across(const nav::CostMap& map, const Point2& p_map, const Point
 }  // namespace
 
 double possible_extension_m(const nav::CostMap& map, const std::vector<MapSegment>& segments, const MapSegment& segment,
-                            bool left, double max_m) {
+                            bool left, double max_m, std::span<const MappedSide> others_sides) {
   const WallEnd end = end_of(segment, left);
   const auto near = segments_near(segments, segment, end.p_map, max_m);
   const double step_m = map.frame().resolution_m;
   double extension_m = 0.0;
   for (double s = step_m; s <= max_m; s += step_m) {
     const Point2 p = end.p_map + s * end.outward_map;
-    const bool met = std::any_of(near.begin(), near.end(), [&](const MapSegment* other) {
-      return distance_to_segment_m(other->left(), other->right(), p) < kMeet_m;
-    });
+    const auto meets = [&](const Point2& a, const Point2& b) { return distance_to_segment_m(a, b, p) < kMeet_m; };
+    const bool met = std::any_of(near.begin(), near.end(),
+                                 [&](const MapSegment* other) { return meets(other->left(), other->right()); }) ||
+                     std::any_of(others_sides.begin(), others_sides.end(),
+                                 [&](const MappedSide& side) { return meets(side.left_map, side.right_map); });
     if (met || state_across(map, p, end.into_map) == CellState::kFree) {
       break;
     }
@@ -87,7 +89,8 @@ std::vector<Opening> wall_end_openings(const OpeningsInput& input, const Viewpoi
       opening.p_map = end.p_map;
       opening.outward_map = end.outward_map;
       opening.segment = segment.id;
-      opening.size_m = possible_extension_m(input.floor.cost, input.segments, segment, left, params.max_extension_m);
+      opening.size_m = possible_extension_m(input.floor.cost, input.segments, segment, left, params.max_extension_m,
+                                            input.others_sides);
       const Point2 extension = end.p_map + params.min_extension_m * end.outward_map;
       if (opening.size_m >= params.min_extension_m && input.areas.allows(extension) &&
           find_viewpoint(opening, {extension, end.into_map, kViewDistances_m}, input, params)) {

@@ -29,36 +29,45 @@ constexpr std::array<CellIndex, 4> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 Point2 direction(CellIndex step) { return {static_cast<double>(step.i), static_cast<double>(step.j)}; }
 
-/// The steps that lead into this wall, one bit each, as in kSteps.
-std::uint8_t steps_into(const MapSegment& segment) {
-  const double theta = segment.map_T_segment.theta_rad;
-  const Point2 into(-std::sin(theta), std::cos(theta));
+/// The steps that lead into a wall, one bit each, as in kSteps. `into_map`: unit vector from free space into it.
+std::uint8_t steps_into(const Point2& into_map) {
   unsigned bits = 0;
   for (std::size_t k = 0; k < kSteps.size(); ++k) {
-    bits |= direction(kSteps[k]).dot(into) > kAcross ? 1U << k : 0U;
+    bits |= direction(kSteps[k]).dot(into_map) > kAcross ? 1U << k : 0U;
   }
   return static_cast<std::uint8_t>(bits);
 }
 
-/// For every cell about mapped walls the steps from it that lead into one, from the side that is mapped.
-Grid<std::uint8_t> mapped_sides(const nav::CostMap& map, const std::vector<MapSegment>& segments) {
-  Grid<std::uint8_t> sides(map.frame(), map.width(), map.height(), 0);
-  const double step_m = 0.5 * map.frame().resolution_m;
-  for (const MapSegment& segment : segments) {
-    if (segment.length_m < kShortest_m) {
-      continue;
-    }
-    const std::uint8_t steps = steps_into(segment);
-    for (double x = -0.5 * segment.length_m; x <= 0.5 * segment.length_m; x += step_m) {
-      for (double y = -kBefore_m; y <= kBehind_m; y += step_m) {
-        const CellIndex cell = map.frame().cell_of(segment.map_T_segment * Point2(x, y));
-        if (sides.contains(cell)) {
-          sides[cell] = static_cast<std::uint8_t>(sides[cell] | steps);
-        }
+void mark_side(const MappedSide& side, const GridFrame& frame, Grid<std::uint8_t>& steps_at) {
+  const double length_m = (side.right_map - side.left_map).norm();
+  if (length_m < kShortest_m) {
+    return;
+  }
+  const Point2 along = (side.right_map - side.left_map) / length_m;
+  const Point2 into(-along.y(), along.x());
+  const std::uint8_t steps = steps_into(into);
+  const double step_m = 0.5 * frame.resolution_m;
+  for (double x = 0.0; x <= length_m; x += step_m) {
+    for (double y = -kBefore_m; y <= kBehind_m; y += step_m) {
+      const CellIndex cell = frame.cell_of(side.left_map + x * along + y * into);
+      if (steps_at.contains(cell)) {
+        steps_at[cell] = static_cast<std::uint8_t>(steps_at[cell] | steps);
       }
     }
   }
-  return sides;
+}
+
+/// For every cell about mapped walls the steps from it that lead into one, from the side that is mapped.
+Grid<std::uint8_t> mapped_steps(const OpeningsInput& input) {
+  const nav::CostMap& map = input.floor.cost;
+  Grid<std::uint8_t> steps_at(map.frame(), map.width(), map.height(), 0);
+  for (const MapSegment& segment : input.segments) {
+    mark_side({segment.left(), segment.right()}, map.frame(), steps_at);
+  }
+  for (const MappedSide& side : input.others_sides) {
+    mark_side(side, map.frame(), steps_at);
+  }
+  return steps_at;
 }
 
 /// Where borders are looked for. A map without any segment says nothing of which walls are mapped.
@@ -144,7 +153,7 @@ std::optional<Opening> opening_of(const std::vector<CellIndex>& edge, const Bord
 
 std::vector<Opening> wall_face_openings(const OpeningsInput& input, const ViewpointParams& params) {
   const nav::CostMap& map = input.floor.cost;
-  const Borders borders{map, mapped_sides(map, input.segments), input.seen_faces && !input.segments.empty()};
+  const Borders borders{map, mapped_steps(input), input.seen_faces && !input.segments.empty()};
   Grid<std::uint8_t> mark(map.frame(), map.width(), map.height(), 0);
   std::vector<CellIndex> edges;
   for (CellIndex cell{0, 0}; cell.j < map.height(); ++cell.j) {

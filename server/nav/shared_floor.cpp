@@ -1,6 +1,7 @@
 #include "server/nav/shared_floor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -54,6 +55,55 @@ void paste(const Grid<std::uint8_t>& from, CellIndex low, Grid<std::uint8_t>& to
   }
 }
 
+/// Below it a cell is rather free than occupied.
+constexpr std::uint8_t kEvenCell = kOccupiedCell / 2;
+constexpr std::array<CellIndex, 4> kBeside{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+bool is_free(std::uint8_t cell) { return cell < kEvenCell; }
+bool is_occupied(std::uint8_t cell) { return cell > kEvenCell && cell != kUnknownCell; }
+
+/// A grid within the common box.
+struct Source {
+  const Grid<std::uint8_t>& grid;
+  CellIndex first;  ///< its first cell in the common box
+
+  [[nodiscard]] std::uint8_t at(CellIndex cell) const {
+    const CellIndex mine{cell.i - first.i, cell.j - first.j};
+    return grid.contains(mine) ? grid[mine] : kUnknownCell;
+  }
+  /// The value of a cell that it saw occupied within kSameWall_m; unknown: there is none.
+  [[nodiscard]] std::uint8_t wall_near(CellIndex cell) const {
+    constexpr int kReach = static_cast<int>(kSameWall_m / kTileResolution_m + 0.5);
+    std::uint8_t most = kUnknownCell;
+    for (int dj = -kReach; dj <= kReach; ++dj) {
+      for (int di = -kReach; di <= kReach; ++di) {
+        const std::uint8_t value = at({cell.i + di, cell.j + dj});
+        most = is_occupied(value) && (most == kUnknownCell || value > most) ? value : most;
+      }
+    }
+    return most;
+  }
+};
+
+/// Unknown cells beside floor that only one of the two saw, where the other one saw a wall.
+void close_borders(const Source& own, const Source& other, Grid<std::uint8_t>& all) {
+  const Grid<std::uint8_t> open = all;
+  for (CellIndex cell{0, 0}; cell.j < open.height(); ++cell.j) {
+    for (cell.i = 0; cell.i < open.width(); ++cell.i) {
+      if (!is_free(open[cell])) {
+        continue;
+      }
+      const bool is_own = own.at(cell) != kUnknownCell;
+      for (const CellIndex step : kBeside) {
+        const CellIndex beyond{cell.i + step.i, cell.j + step.j};
+        if (open.contains(beyond) && open[beyond] == kUnknownCell && all[beyond] == kUnknownCell) {
+          all[beyond] = (is_own ? other : own).wall_near(beyond);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Grid<std::uint8_t> carried(const Grid<std::uint8_t>& floor, const Pose2& new_T_old) {
@@ -74,11 +124,14 @@ Grid<std::uint8_t> with_known(const Grid<std::uint8_t>& own, const Grid<std::uin
   SEEKER_ASSERT(own.frame().resolution_m == kTileResolution_m && other.frame().resolution_m == kTileResolution_m);
   const CellBox a = box_of(own);
   const CellBox b = box_of(other);
-  const CellBox both{{std::min(a.low.i, b.low.i), std::min(a.low.j, b.low.j)},
-                     {std::max(a.high.i, b.high.i), std::max(a.high.j, b.high.j)}};
+  // A cell more on all sides, for walls that end floor at the edge of a grid.
+  const CellBox both{{std::min(a.low.i, b.low.i) - 1, std::min(a.low.j, b.low.j) - 1},
+                     {std::max(a.high.i, b.high.i) + 1, std::max(a.high.j, b.high.j) + 1}};
   Grid<std::uint8_t> out = both.unknown();
   paste(own, both.low, out);
   paste(other, both.low, out);
+  const auto within = [&](const CellBox& box) { return CellIndex{box.low.i - both.low.i, box.low.j - both.low.j}; };
+  close_borders({own, within(a)}, {other, within(b)}, out);
   return out;
 }
 

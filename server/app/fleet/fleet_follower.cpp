@@ -109,7 +109,8 @@ Status FleetFollower::exchange_seen() {
                                                    .placed = own->placed,
                                                    .tiles = std::move(own->floor),
                                                    .detections = std::move(own->detections),
-                                                   .searched = std::move(own->searched)});
+                                                   .searched = std::move(own->searched),
+                                                   .sides = std::move(own->sides)});
   if (others) {
     others_.receive(std::move(*others));
     return {};

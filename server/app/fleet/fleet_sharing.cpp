@@ -49,7 +49,7 @@ Result<api::FleetSightings> FleetSharing::seen(const api::FleetSeen& seen) {
   const std::vector<OtherRobot> others = others_of(std::move(*received));
   const nav::SharedFloor floor = nav::carried(floors_of(others));
   return api::FleetSightings{floor ? api::within_limits(cut(*floor), p_map) : std::vector<OccupancyTile>(),
-                             findings_of(others), searched_by(others, now, params_.search_age)};
+                             findings_of(others), searched_by(others, now, params_.search_age), sides_by(others)};
 }
 
 Result<api::FleetScene> FleetSharing::scene() const {
@@ -78,6 +78,7 @@ bool FleetSharing::refresh_seen(WallTime now) {
   const std::vector<OtherRobot> others = others_of_main(now);
   others_floor_ = nav::carried(floors_of(others));
   others_searched_ = shared_search(searched_by(others, now, params_.search_age), others_searched_);
+  others_sides_ = shared_sides(sides_by(others), others_sides_);
   news_.report(findings_of(others), host_);
   host_.give_seen(seen_inbox_.reply());
   return found_more;
@@ -95,9 +96,9 @@ bool FleetSharing::refresh() {
     main_.receive(*own);
   }
   std::vector<RobotTopology> others = topologies_of(others_of_main(now));
-  host_.take_view(others.empty()
-                      ? std::nullopt
-                      : std::optional(FleetView{main_.id(), std::move(others), others_floor_, others_searched_}));
+  host_.take_view(others.empty() ? std::nullopt
+                                 : std::optional(FleetView{main_.id(), std::move(others), others_floor_,
+                                                           others_searched_, others_sides_}));
   return found_more;
 }
 

@@ -19,9 +19,9 @@ struct FleetSharingParams {
   Duration search_age = std::chrono::hours(1);      ///< see FleetSettings
 };
 
-/// Topologies, floor, finds and searched floor of all robots that are merged, carried into the frame of the robot that
-/// receives them. Any thread may call share(), seen() and scene(): they hold no state of this, the book and the main
-/// robot lock themselves. One thread at a time may call refresh(), whose state is guarded by no mutex.
+/// Topologies, floor, walls, finds and searched floor of all robots that are merged, carried into the frame of the
+/// robot that receives them. Any thread may call share(), seen() and scene(): they hold no state of this, the book and
+/// the main robot lock themselves. One thread at a time may call refresh(), whose state is guarded by no mutex.
 class FleetSharing {
  public:
   /// `book` and `main` must outlive this.
@@ -53,6 +53,7 @@ class FleetSharing {
   WallTime floor_at_;              ///< when what was seen is exchanged next
   nav::SharedFloor others_floor_;  ///< what the main robot received last
   SharedSearch others_searched_;   ///< what the main robot received last
+  SharedSides others_sides_;       ///< what the main robot received last
   FleetNews news_;
 };
 

@@ -5,6 +5,7 @@ namespace seeker::app {
 void KnownOthers::receive(api::FleetSightings sightings) {
   floor_ = floor_of(sightings.floor);
   searched_ = shared_search(std::move(sightings.searched), searched_);
+  sides_ = shared_sides(std::move(sightings.sides), sides_);
   news_.report(sightings.findings, host_);
 }
 
@@ -12,7 +13,7 @@ void KnownOthers::receive(const Result<api::FleetShared>& shared) {
   std::optional<FleetView> view = view_;
   const api::FleetState state = shared ? shared->state : api::FleetState::kWaiting;
   switch (state) {
-    case api::FleetState::kMerged: view = FleetView{robot_id_, shared->others, floor_, searched_}; break;
+    case api::FleetState::kMerged: view = FleetView{robot_id_, shared->others, floor_, searched_, sides_}; break;
     case api::FleetState::kWaiting:
     case api::FleetState::kInsufficientOverlap:
       for (std::size_t k = 0; view && k < view->others.size(); ++k) {
@@ -26,6 +27,7 @@ void KnownOthers::receive(const Result<api::FleetShared>& shared) {
       view.reset();
       floor_.reset();
       searched_.reset();
+      sides_.reset();
       break;
   }
   if (view != view_) {

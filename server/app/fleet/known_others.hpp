@@ -32,6 +32,7 @@ class KnownOthers {
   const FleetHost host_;
   nav::SharedFloor floor_;
   SharedSearch searched_;
+  SharedSides sides_;
   FleetNews news_;
   std::optional<FleetView> view_;  ///< what the robot got last
 };

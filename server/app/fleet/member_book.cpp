@@ -172,7 +172,7 @@ Result<ReportingRobot> MemberBook::receive(const api::FleetSeen& seen, WallTime 
     return has_to_announce(seen.robot_id);
   }
   member->seen = now;
-  if (seen.placed && member->report.receive_seen(seen.tiles, seen.detections, seen.searched, now)) {
+  if (seen.placed && member->report.receive_seen(seen.tiles, seen.sides, seen.detections, seen.searched, now)) {
     ask_for_record(seen.robot_id, *member);
   }
   return received(seen.robot_id, *member, now);

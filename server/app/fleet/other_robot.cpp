@@ -1,5 +1,8 @@
 #include "server/app/fleet/other_robot.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "server/fleet/topology_map.hpp"
 
 namespace seeker::app {
@@ -32,6 +35,19 @@ std::vector<std::pair<Pose2, nav::SharedFloor>> floors_of(const std::vector<Othe
     }
   }
   return floors;
+}
+
+std::vector<MappedSide> sides_by(const std::vector<OtherRobot>& others) {
+  std::vector<MappedSide> all;
+  for (const OtherRobot& other : others) {
+    if (other.report.sides) {
+      const std::vector<MappedSide> theirs = moved(*other.report.sides, other.map_T_theirs);
+      std::copy_if(theirs.begin(), theirs.end(), std::back_inserter(all), [](const MappedSide& side) {
+        return api::in_reach(side.left_map) && api::in_reach(side.right_map);
+      });
+    }
+  }
+  return all;
 }
 
 std::vector<api::FleetFinding> findings_of(const std::vector<OtherRobot>& others) {

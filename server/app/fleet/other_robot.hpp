@@ -26,6 +26,7 @@ struct OtherRobot {
 [[nodiscard]] std::vector<RobotTopology> topologies_of(const std::vector<OtherRobot>& others);
 /// Each with the pose of its frame.
 [[nodiscard]] std::vector<std::pair<Pose2, nav::SharedFloor>> floors_of(const std::vector<OtherRobot>& others);
+[[nodiscard]] std::vector<MappedSide> sides_by(const std::vector<OtherRobot>& others);
 [[nodiscard]] std::vector<api::FleetFinding> findings_of(const std::vector<OtherRobot>& others);
 /// Without floor that was last reported `max_age` ago or earlier: objects and people move, so that it proves nothing.
 [[nodiscard]] std::vector<SearchedFloor> searched_by(const std::vector<OtherRobot>& others, WallTime now,

@@ -16,4 +16,11 @@ SharedSearch shared_search(std::vector<SearchedFloor> searched, const SharedSear
   return std::make_shared<const std::vector<SearchedFloor>>(std::move(searched));
 }
 
+SharedSides shared_sides(std::vector<MappedSide> sides, const SharedSides& before) {
+  if (sides.empty() || (before && *before == sides)) {
+    return sides.empty() ? nullptr : before;
+  }
+  return std::make_shared<const std::vector<MappedSide>>(std::move(sides));
+}
+
 }  // namespace seeker::app

@@ -31,11 +31,15 @@ struct OwnSeen {
   std::vector<OccupancyTile> floor;
   std::vector<api::Detection> detections;  ///< that belong to the map as it is now
   std::optional<SearchedFloor> searched;
+  std::vector<MappedSide> sides = {};
 };
 /// Null where nothing has been seen.
 [[nodiscard]] nav::SharedFloor floor_of(const std::vector<OccupancyTile>& tiles);
 /// Null where nothing was searched; `before` where that says the same.
 [[nodiscard]] SharedSearch shared_search(std::vector<SearchedFloor> searched, const SharedSearch& before);
+
+/// Null where there are none; `before` where that says the same.
+[[nodiscard]] SharedSides shared_sides(std::vector<MappedSide> sides, const SharedSides& before);
 
 /// The robot as its fleet sees it. None is empty; all may be called from any thread. The first three answer on the
 /// loop's thread, or at once where the loop has ended.

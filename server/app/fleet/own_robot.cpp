@@ -64,7 +64,7 @@ bool OwnRobot::receive(const OwnSeen& seen, WallTime received_at) {
   if (!seen.placed || remembered_) {
     return false;
   }
-  const bool found_more = report_.receive_seen(seen.floor, seen.detections, seen.searched, received_at);
+  const bool found_more = report_.receive_seen(seen.floor, seen.sides, seen.detections, seen.searched, received_at);
   if (!seen.searched) {
     report_.search = {};  // its program is this one: it has forgotten nothing, but is in another map
   }

@@ -37,9 +37,11 @@ void RobotReport::receive_topology(const std::optional<RobotTopology>& reported)
   }
 }
 
-bool RobotReport::receive_seen(const std::vector<OccupancyTile>& tiles, const std::vector<api::Detection>& detections,
+bool RobotReport::receive_seen(const std::vector<OccupancyTile>& tiles, std::vector<MappedSide> seen_sides,
+                               const std::vector<api::Detection>& detections,
                                const std::optional<SearchedFloor>& searched, WallTime received_at) {
   floor = floor_of(tiles);
+  sides = shared_sides(std::move(seen_sides), sides);
   search.receive(searched, received_at);
   if (finds.now == detections) {
     return false;

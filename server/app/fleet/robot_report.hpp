@@ -36,14 +36,15 @@ struct RobotReport {
 
   std::optional<RobotTopology> topology;
   nav::SharedFloor floor;  ///< null: the robot has not reported any floor
+  SharedSides sides;       ///< null: nor any walls
   Finds finds;
   Search search;
 
   /// A robot that was restarted, or has lost its pose, knows fewer places than it reported before: those stay.
   void receive_topology(const std::optional<RobotTopology>& reported);
-  /// Takes the floor that was seen, the targets that were found and the floor that was searched. The answer is whether
-  /// the targets are others than before.
-  [[nodiscard]] bool receive_seen(const std::vector<OccupancyTile>& tiles,
+  /// Takes the floor and the walls that were seen, the targets that were found and the floor that was searched. The
+  /// answer is whether the targets are others than before.
+  [[nodiscard]] bool receive_seen(const std::vector<OccupancyTile>& tiles, std::vector<MappedSide> seen_sides,
                                   const std::vector<api::Detection>& detections,
                                   const std::optional<SearchedFloor>& searched, WallTime received_at);
   /// All finds in another frame, without those that lie out of reach there: their receiver would refuse all of them.

@@ -74,6 +74,9 @@ void Neighbours::map_moved(const Pose2& new_T_old) {
     return;
   }
   fleet_->floor.reset();  // the next view brings it anew
+  if (fleet_->sides) {
+    fleet_->sides = std::make_shared<const std::vector<MappedSide>>(moved(*fleet_->sides, new_T_old));
+  }
   if (fleet_->searched) {
     // What was proved stays proved until then: a search would else drive to floor that others have searched.
     std::vector<SearchedFloor> searched = *fleet_->searched;

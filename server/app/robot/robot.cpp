@@ -158,8 +158,7 @@ void Robot::give_own_topology(const api::Reply<OwnTopology>& reply) {
 void Robot::give_own_seen(const api::Reply<OwnSeen>& reply) {
   const bool posted = mailbox_.post([this, reply] {
     const std::optional<Pose2> place = known_place(loop_);
-    const bool told = place && !loop_.mission_control().map_waits_for_resume();
-    if (!told) {
+    if (!place || loop_.mission_control().map_waits_for_resume()) {
       reply(OwnSeen{});
       return;
     }
@@ -169,7 +168,8 @@ void Robot::give_own_seen(const api::Reply<OwnSeen>& reply) {
     reply(OwnSeen{.placed = true,
                   .floor = api::within_limits(loop_.robot_map().tiles_since(0).tiles, place->translation()),
                   .detections = api::within_limits(std::move(found)),
-                  .searched = loop_.missions().searched(pose)});
+                  .searched = loop_.missions().searched(pose),
+                  .sides = api::within_limits(sides_of(loop_.robot_map().segments()), place->translation())});
   });
   if (!posted) {
     reply(fail(Errc::kBusy, "the robot is overloaded or shutting down"));

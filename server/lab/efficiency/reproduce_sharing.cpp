@@ -144,7 +144,8 @@ Status reproduce_sharing(const ReproduceParams& params, Report& report) {
   std::filesystem::create_directories(params.out, error);
   std::vector<SharingRuns> worlds;
   for (const SharingWorld& world : sharing_worlds()) {
-    if (!params.takes_world(world.name) || (params.smallest && &world != &sharing_worlds().front())) {
+    const bool left_out = params.smallest && params.worlds.empty() && &world != &sharing_worlds().front();
+    if (!params.takes_world(world.name) || left_out) {
       continue;
     }
     SharingRuns& runs = worlds.emplace_back();

@@ -11,7 +11,7 @@
 namespace seeker::lab {
 namespace {
 
-constexpr Duration kFloorPeriod = std::chrono::seconds(5);
+constexpr Duration kSeenPeriod = std::chrono::seconds(5);
 constexpr Duration kSharePeriod = std::chrono::seconds(1);
 
 FleetDrawing drawing_of(const FleetMember& member, const Pose2& main_T_map) {
@@ -31,7 +31,7 @@ FleetExchange::FleetExchange(FleetMembers& members, const FleetSpec& spec, const
     : members_(members),
       period_(seconds(spec.merge_period_s)),
       inject_false_pair_(spec.inject_false_pair),
-      floors_(members.size()),
+      seen_(members.size()),
       merger_(merge) {
   for (std::size_t k = 0; spec.count_traffic && k < members_.size(); ++k) {
     traffic_.emplace_back(members_[k]->id);
@@ -48,9 +48,9 @@ void FleetExchange::between(RobotTime now) {
     next_merge_ = now + period_;
     merge(now);
   }
-  if (now >= next_floors_) {
-    next_floors_ = now + kFloorPeriod;
-    carry_floors();
+  if (now >= next_seen_) {
+    next_seen_ = now + kSeenPeriod;
+    carry_seen();
   }
   for (std::size_t k = 0; k < members_.size(); ++k) {
     deliver(k);
@@ -177,26 +177,33 @@ std::vector<FleetExchange::Partner> FleetExchange::partners_of(std::size_t to) c
 }
 
 void FleetExchange::deliver(std::size_t to) {
-  FleetView view{members_[to]->id, {}, floors_[to]};
+  FleetView view{members_[to]->id, {}, seen_[to].floor};
+  view.sides = seen_[to].sides;
   for (const Partner& partner : partners_of(to)) {
     view.others.push_back(seen_from(partner.to_T_from, *partner.from));
   }
   members_[to]->loop->neighbours().set_fleet(std::move(view), members_[to]->loop->now());
 }
 
-/// To each robot what the others that are merged with it have seen.
-void FleetExchange::carry_floors() {
+/// To each robot the floor and the walls that the others which are merged with it have seen.
+void FleetExchange::carry_seen() {
   for (std::size_t to = 0; to < members_.size(); ++to) {
     std::vector<std::pair<Pose2, nav::SharedFloor>> floors;
+    std::vector<MappedSide> sides;
     for (const Partner& partner : partners_of(to)) {
       if (auto seen = partner.from->loop->robot_map().occupancy().snapshot()) {
         floors.emplace_back(partner.to_T_from, std::make_shared<const Grid<std::uint8_t>>(*std::move(seen)));
       }
+      const std::vector<MappedSide> theirs =
+          moved(sides_of(partner.from->loop->robot_map().segments()), partner.to_T_from);
+      sides.insert(sides.end(), theirs.begin(), theirs.end());
     }
-    floors_[to] = nav::carried(floors);
+    seen_[to] = {nav::carried(floors), std::make_shared<const std::vector<MappedSide>>(std::move(sides))};
     if (!traffic_.empty()) {
-      const api::TileUpdate all = members_[to]->loop->robot_map().tiles_since(0);
-      traffic_[to].floor(api::within_limits(all.tiles, members_[to]->loop->status().pose.map_T_base.translation()));
+      const app::RobotMap& map = members_[to]->loop->robot_map();
+      const Point2 here_map = members_[to]->loop->status().pose.map_T_base.translation();
+      traffic_[to].seen(api::within_limits(map.tiles_since(0).tiles, here_map),
+                        api::within_limits(sides_of(map.segments()), here_map));
     }
   }
 }

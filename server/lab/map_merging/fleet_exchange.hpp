@@ -14,6 +14,7 @@
 #include "server/fleet/map_merger.hpp"
 #include "server/lab/map_merging/fleet_run.hpp"
 #include "server/lab/map_merging/fleet_traffic.hpp"
+#include "server/nav/shared_floor.hpp"
 #include "server/sim/simulation.hpp"
 
 namespace seeker::lab {
@@ -56,6 +57,12 @@ class FleetExchange {
     const FleetMember* from = nullptr;
   };
 
+  /// In the frame `map` of the member that receives it.
+  struct SeenByOthers {
+    nav::SharedFloor floor;
+    SharedSides sides;
+  };
+
   void merge(RobotTime now);
   void take_maps();
   [[nodiscard]] std::vector<Partner> partners_of(std::size_t to) const;
@@ -64,16 +71,16 @@ class FleetExchange {
   /// Errors of position and angle against where the robots truly began.
   [[nodiscard]] std::pair<double, double> error_of(const Relation& relation) const;
   void deliver(std::size_t to);
-  void carry_floors();
+  void carry_seen();
 
   FleetMembers& members_;
   Duration period_;
   bool inject_false_pair_ = false;
   RobotTime next_merge_;
-  RobotTime next_floors_;
+  RobotTime next_seen_;
   RobotTime next_share_;
-  std::vector<std::shared_ptr<const Grid<std::uint8_t>>> floors_;  ///< by member, in its frame `map`
-  std::vector<FleetTraffic> traffic_;                              ///< by member; empty where it is not counted
+  std::vector<SeenByOthers> seen_;     ///< by member
+  std::vector<FleetTraffic> traffic_;  ///< by member; empty where it is not counted
   fleet::MapMerger merger_;
   std::vector<Relation> relations_;
   int wrong_ = 0;

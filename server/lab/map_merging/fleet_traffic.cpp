@@ -30,8 +30,8 @@ void FleetTraffic::share(const RobotTopology& topology) {
   bytes_ += size_of<v1::FleetShare>(api::FleetShare{robot_id_, 1, api::within_limits(topology)});
 }
 
-void FleetTraffic::floor(const std::vector<OccupancyTile>& tiles) {
-  bytes_ += size_of<v1::FleetSeen>(api::FleetSeen{robot_id_, 1, true, tiles, {}, {}});
+void FleetTraffic::seen(const std::vector<OccupancyTile>& tiles, const std::vector<MappedSide>& sides) {
+  bytes_ += size_of<v1::FleetSeen>(api::FleetSeen{robot_id_, 1, true, tiles, {}, {}, sides});
 }
 
 }  // namespace seeker::lab

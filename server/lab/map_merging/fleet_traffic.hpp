@@ -23,7 +23,7 @@ class FleetTraffic {
   /// Counts the manifest and the pieces that were not sent yet. A map that cannot be packed sends nothing.
   void announce(const LineMap& map, const fleet::NodePictures& pictures = {});
   void share(const RobotTopology& topology);
-  void floor(const std::vector<OccupancyTile>& tiles);
+  void seen(const std::vector<OccupancyTile>& tiles, const std::vector<MappedSide>& sides);
 
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 

@@ -187,6 +187,13 @@ Check check_false_pairs(const std::vector<FleetResult>& runs) {
                       {"runs", std::to_string(runs.size())}}};
 }
 
+Check check_printed_false_pairs(const std::vector<FleetResult>& runs) {
+  Check check = check_false_pairs(runs);
+  check.id = "R8-PRINTED-FALSE";
+  check.finding = true;
+  return check;
+}
+
 namespace {
 
 /// Merges of one kind of robot.

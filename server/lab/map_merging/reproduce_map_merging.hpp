@@ -52,6 +52,8 @@ struct LoadSample {
 [[nodiscard]] Check check_printed_merges(const std::vector<FleetResult>& runs);
 /// Checks R8 where a false pair of nodes was injected: it is refused, and no merge comes of it.
 [[nodiscard]] Check check_false_pairs(const std::vector<FleetResult>& runs);
+/// The same of robots as printed: what they accept is a finding.
+[[nodiscard]] Check check_printed_false_pairs(const std::vector<FleetResult>& runs);
 /// Checks that pictures raise the share of right merges within kPosterTime_s of robot time where the laser sees equal
 /// places and the camera different posters, and that none is wrong. Where the laser alone merges all of them in time
 /// and pictures spoil nothing, it is a finding: there is nothing to raise.

@@ -157,6 +157,32 @@ TEST(ConvertFleet, WhatWasSearchedComesBackUnchangedAndIsNeverLargerThanItMayBe)
   EXPECT_EQ(refusal_with(nullptr), Errc::kInvalidArgument);
 }
 
+TEST(ConvertFleet, WallsComeBackUnchangedAndAreNeverMoreThanTheyMayBe) {
+  const api::FleetSeen seen{"r1", 77, true, {}, {}, {}, {{{0.5, 2.0}, {3.0, 2.25}}, {{-1.0, 0.0}, {-1.0, 4.0}}}};
+  EXPECT_EQ(through_bytes(seen).value(), seen);
+  const api::FleetSightings others{{}, {}, {}, seen.sides};
+  pb::FleetReply reply;
+  write(others, &reply);
+  EXPECT_EQ(from_message<api::FleetSightings>(reply).value(), others);
+  reply.add_sides(1.0F);
+  EXPECT_EQ(from_message<api::FleetSightings>(reply).error().code, Errc::kInvalidArgument) << "half a side";
+  const auto refusal_of_side = [](const MappedSide& side) {
+    return through_bytes({"r1", 77, true, {}, {}, {}, {side}}).error().code;
+  };
+  EXPECT_EQ(refusal_of_side({{2e4, 0.0}, {0.0, 0.0}}), Errc::kInvalidArgument);
+  EXPECT_EQ(refusal_of_side({{0.0, 0.0}, {0.0, std::nan("")}}), Errc::kInvalidArgument);
+  const std::vector<MappedSide> many(api::kMaxFleetSides + 1, seen.sides.front());
+  EXPECT_EQ(through_bytes({"r1", 77, true, {}, {}, {}, many}).error().code, Errc::kTooLarge);
+  std::vector<MappedSide> told = many;
+  told.front() = {{9.0, 9.0}, {9.0, 8.0}};
+  told[1] = {{2e4, 0.0}, {0.0, 0.0}};
+  told = api::within_limits(told, Point2(9.0, 9.0));
+  EXPECT_EQ(told.size(), api::kMaxFleetSides) << "one is out of reach";
+  EXPECT_TRUE(through_bytes({"r1", 77, true, {}, {}, {}, told}));
+  EXPECT_EQ(api::within_limits(std::vector<MappedSide>(api::kMaxFleetSides + 1, MappedSide{}), Point2::Zero()).size(),
+            api::kMaxFleetSides);
+}
+
 TEST(ConvertFleet, OfALargeFloorTheTilesNextToTheRobotAreTold) {
   std::vector<OccupancyTile> tiles;
   for (int i = -50; i < 50; ++i) {

@@ -258,6 +258,28 @@ TEST(Openings, AWallThatWasSeenButIsInNoSegmentIsLeft) {
   EXPECT_TRUE(wall_face_openings(scene.at(0.0), {}).empty());
 }
 
+TEST(Openings, AWallThatAnotherRobotHasMappedNeedsNoVisit) {
+  const Scene scene = room_with_three_walls_mapped();
+  const std::vector<MappedSide> others{{{3.75, 3.75}, {3.75, 0.25}}};
+  OpeningsInput input = scene.at(0.0);
+  ASSERT_FALSE(wall_face_openings(input, {}).empty());
+  input.others_sides = others;
+  EXPECT_TRUE(wall_face_openings(input, {}).empty());
+  const std::vector<MappedSide> from_behind{{{3.75, 0.25}, {3.75, 3.75}}};
+  input.others_sides = from_behind;
+  EXPECT_FALSE(wall_face_openings(input, {}).empty()) << "that is the side in the next room";
+}
+
+TEST(Openings, AWallGoesOnNoFurtherThanToWhatAnotherRobotHasMapped) {
+  Scene scene = scene_of(half_seen(), {1.0, 2.0, 0.0});
+  scene.segments = {wall_below(0.25, 3.0)};
+  OpeningsInput input = scene.at(0.0);
+  ASSERT_EQ(wall_end_openings(input, {}).size(), 1U);
+  const std::vector<MappedSide> others{{{5.0, 0.3}, {2.9, 0.3}}};
+  input.others_sides = others;
+  EXPECT_TRUE(wall_end_openings(input, {}).empty());
+}
+
 TEST(Openings, TheOtherSideOfAThinWallDoesNotCountAsMapped) {
   Scene scene = room_with_three_walls_mapped();
   scene.segments.push_back(wall_between({3.85, 0.25}, {3.85, 3.75}));  // seen from the right

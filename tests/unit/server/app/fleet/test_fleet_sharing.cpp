@@ -34,7 +34,8 @@ TEST(FleetSharing, GivesARobotTheTopologyOfTheMainOne) {
 }
 
 TEST(FleetSharing, GivesARobotWhatTheMainOneHasSeen) {
-  SharingParts parts(app::OwnSeen{true, floor_with({4.0, 0.5}), {found_at(7, {4.0, 0.5})}, searched_at({}, 3, 200)});
+  SharingParts parts(app::OwnSeen{
+      true, floor_with({4.0, 0.5}), {found_at(7, {4.0, 0.5})}, searched_at({}, 3, 200), {{{0.0, 2.0}, {3.0, 2.0}}}});
   static_cast<void>(parts.sharing.refresh());
   EXPECT_TRUE(parts.sharing.refresh()) << "the main robot has found something";
   EXPECT_FALSE(parts.sharing.refresh()) << "it has found nothing else since";
@@ -44,6 +45,8 @@ TEST(FleetSharing, GivesARobotWhatTheMainOneHasSeen) {
   ASSERT_EQ(others->findings.size(), 1U);
   EXPECT_THAT(*others->findings.front().detection.position, Point2Near(Point2(-6.0, 0.5), 1e-9));
   EXPECT_EQ(others->searched.size(), 1U);
+  ASSERT_EQ(others->sides.size(), 1U);
+  EXPECT_THAT(others->sides.front().left_map, Point2Near(Point2(-10.0, 2.0), 1e-9));
   EXPECT_EQ(parts.sharing.seen(seen_by("r2")).error().code, Errc::kNotFound);
 }
 
@@ -52,6 +55,7 @@ TEST(FleetSharing, GivesTheMainRobotItsViewOfTheOthers) {
   ASSERT_TRUE(parts.sharing.share({"r1", 1, at_place("r1", {1.0, 0.0})}));
   api::FleetSeen seen = seen_by("r1", {found_at(1, {2.0, 0.0})}, searched_at({}, 3, 200));
   seen.tiles = floor_with({2.0, 0.0});
+  seen.sides = {{{0.0, 2.0}, {3.0, 2.0}}};
   ASSERT_TRUE(parts.sharing.seen(seen));
   static_cast<void>(parts.sharing.refresh());
   const auto view = parts.host.view();
@@ -61,6 +65,8 @@ TEST(FleetSharing, GivesTheMainRobotItsViewOfTheOthers) {
   EXPECT_THAT(view->others.front().map_T_base.translation(), Point2Near(Point2(11.0, 0.0), 1e-9));
   EXPECT_TRUE(view->floor);
   EXPECT_TRUE(view->searched);
+  ASSERT_TRUE(view->sides);
+  EXPECT_THAT(view->sides->front().right_map, Point2Near(Point2(13.0, 2.0), 1e-9));
   ASSERT_EQ(parts.host.events().size(), 1U);
   EXPECT_EQ(parts.host.events().front().rfind("fleet-found", 0), 0U);
 }

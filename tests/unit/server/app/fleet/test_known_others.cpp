@@ -17,6 +17,7 @@ TEST(KnownOthers, AreGivenToTheRobotWithTheFloorThatTheyHaveSeen) {
   sightings.floor = floor_with({1.0, 1.0});
   sightings.findings = {{"main", found_at(1, {1.0, 1.0})}};
   sightings.searched = {searched_at({}, 3, 200)};
+  sightings.sides = {{{0.0, 2.0}, {3.0, 2.0}}};
   parts.others.receive(sightings);
   EXPECT_FALSE(parts.host.view()) << "it comes with the topologies";
   EXPECT_EQ(parts.host.events().size(), 1U);
@@ -26,6 +27,8 @@ TEST(KnownOthers, AreGivenToTheRobotWithTheFloorThatTheyHaveSeen) {
   EXPECT_EQ(parts.host.view()->others.size(), 1U);
   EXPECT_TRUE(parts.host.view()->floor);
   EXPECT_TRUE(parts.host.view()->searched);
+  ASSERT_TRUE(parts.host.view()->sides);
+  EXPECT_EQ(*parts.host.view()->sides, sightings.sides);
 }
 
 TEST(KnownOthers, KeepTheirPlacesButNotTheirGoalsWithoutALink) {
@@ -44,12 +47,14 @@ TEST(KnownOthers, AreForgottenWhereTheMapsAreDenied) {
     KnownParts parts;
     api::FleetSightings sightings;
     sightings.floor = floor_with({1.0, 1.0});
+    sightings.sides = {{{0.0, 2.0}, {3.0, 2.0}}};
     parts.others.receive(sightings);
     parts.others.receive(api::FleetShared{api::FleetState::kMerged, {at_place("main", {2.0, 1.0})}});
     parts.others.receive(api::FleetShared{state, {}});
     EXPECT_FALSE(parts.host.view());
     parts.others.receive(api::FleetShared{api::FleetState::kMerged, {}});
     EXPECT_FALSE(parts.host.view()->floor);
+    EXPECT_FALSE(parts.host.view()->sides);
   }
 }
 

@@ -9,8 +9,8 @@ namespace {
 app::OtherRobot reporting(const Pose2& map_T_theirs) {
   app::OtherRobot other{"r2", {}, map_T_theirs, false};
   other.report.topology = at_place("r2", {2.0, 1.0});
-  static_cast<void>(
-      other.report.receive_seen(floor_with({1.0, 1.0}), {found_at(1, {1.0, 0.0})}, searched_at({}, 3, 200), kStart));
+  static_cast<void>(other.report.receive_seen(floor_with({1.0, 1.0}), {{{0.0, 2.0}, {3.0, 2.0}}},
+                                              {found_at(1, {1.0, 0.0})}, searched_at({}, 3, 200), kStart));
   return other;
 }
 
@@ -23,6 +23,10 @@ TEST(OtherRobot, IsCarriedIntoTheFrameOfWhoReceivesIt) {
   ASSERT_EQ(app::findings_of(others).size(), 1U);
   EXPECT_EQ(app::findings_of(others).front().robot_id, "r2");
   EXPECT_THAT(*app::findings_of(others).front().detection.position, Point2Near(Point2(11.0, 0.0), 1e-9));
+  const std::vector<MappedSide> sides = app::sides_by(others);
+  ASSERT_EQ(sides.size(), 1U);
+  EXPECT_THAT(sides.front().left_map, Point2Near(Point2(10.0, 2.0), 1e-9));
+  EXPECT_THAT(sides.front().right_map, Point2Near(Point2(13.0, 2.0), 1e-9));
   const auto searched = app::searched_by(others, kStart, seconds(1));
   ASSERT_EQ(searched.size(), 1U);
   EXPECT_THAT(searched.front().map_T_grid, Pose2Near(Pose2{10.0, 0.0, 0.0}, 1e-9, 1e-9));
@@ -43,6 +47,7 @@ TEST(OtherRobot, IsLeftOutWhereItHasReportedNothingOrLiesOutOfReach) {
   const std::vector<app::OtherRobot> others{{"r1", {}, {}, false}, far};
   EXPECT_TRUE(app::topologies_of(others).empty());
   EXPECT_TRUE(app::findings_of(others).empty());
+  EXPECT_TRUE(app::sides_by(others).empty());
   EXPECT_TRUE(app::searched_by(others, kStart, seconds(1)).empty());
 }
 

@@ -47,22 +47,22 @@ TEST(RobotReport, ListsEveryFindOnceWithTheNewestReportOfIt) {
 TEST(RobotReport, SaysWhetherOtherTargetsWereFound) {
   RobotReport report;
   const std::vector<api::Detection> found{found_at(1, {1.0, 1.0})};
-  EXPECT_TRUE(report.receive_seen(floor_with({2.0, 2.0}), found, {}, kStart));
+  EXPECT_TRUE(report.receive_seen(floor_with({2.0, 2.0}), {}, found, {}, kStart));
   EXPECT_TRUE(report.floor);
-  EXPECT_FALSE(report.receive_seen({}, found, {}, kStart));
+  EXPECT_FALSE(report.receive_seen({}, {}, found, {}, kStart));
   EXPECT_FALSE(report.floor);
-  EXPECT_TRUE(report.receive_seen({}, {}, {}, kStart)) << "it takes one back";
+  EXPECT_TRUE(report.receive_seen({}, {}, {}, {}, kStart)) << "it takes one back";
 }
 
 TEST(RobotReport, DatesSearchedFloorByItsLastChangeAndForgetsNone) {
   RobotReport report;
   const SearchedFloor searched = searched_at({}, 3, 200);
-  static_cast<void>(report.receive_seen({}, {}, searched, kStart));
-  static_cast<void>(report.receive_seen({}, {}, searched, kStart + seconds(5)));
+  static_cast<void>(report.receive_seen({}, {}, {}, searched, kStart));
+  static_cast<void>(report.receive_seen({}, {}, {}, searched, kStart + seconds(5)));
   EXPECT_EQ(report.search.changed, kStart);
-  static_cast<void>(report.receive_seen({}, {}, {}, kStart + seconds(6)));
+  static_cast<void>(report.receive_seen({}, {}, {}, {}, kStart + seconds(6)));
   EXPECT_EQ(report.search.floor, searched);
-  static_cast<void>(report.receive_seen({}, {}, searched_at({}, 4, 200), kStart + seconds(7)));
+  static_cast<void>(report.receive_seen({}, {}, {}, searched_at({}, 4, 200), kStart + seconds(7)));
   EXPECT_EQ(report.search.changed, kStart + seconds(7));
 }
 

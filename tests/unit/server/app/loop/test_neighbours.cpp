@@ -1,6 +1,8 @@
 // Other robots: where they are now, how long a report holds, what follows the map.
 
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -42,10 +44,13 @@ TEST(Neighbours, AnOldReportSaysNothing) {
 
 TEST(Neighbours, AMapCorrectionMovesWhatIsKnownOfTheOthers) {
   Neighbours neighbours(FleetMotionParams{}, "r1");
-  neighbours.set_fleet(one_other(Pose2{3.0, 0.0, 0.0}, {}), kReportedAt);
+  FleetView view = one_other(Pose2{3.0, 0.0, 0.0}, {});
+  view.sides = std::make_shared<const std::vector<MappedSide>>(1, MappedSide{{0.0, 2.0}, {3.0, 2.0}});
+  neighbours.set_fleet(std::move(view), kReportedAt);
   neighbours.map_moved(Pose2{0.0, 1.0, 0.0});
   EXPECT_NEAR(neighbours.fleet()->others[0].map_T_base.y_m, 1.0, 1e-9);
   EXPECT_NEAR(neighbours.fleet()->others[0].map_T_base.x_m, 3.0, 1e-9);
+  EXPECT_EQ(neighbours.fleet()->sides->front(), (MappedSide{{0.0, 3.0}, {3.0, 3.0}}));
 }
 
 TEST(Neighbours, WithoutAnExplorationTheOwnReportIsInactive) {
