@@ -6,6 +6,8 @@
 #include "server/explore/exploration_impl.hpp"
 #include "server/explore/openings.hpp"
 #include "server/nav/frontiers.hpp"
+#include "server/nav/lookout.hpp"
+#include "server/nav/passage.hpp"
 
 namespace seeker::explore {
 namespace {
@@ -180,28 +182,41 @@ ExploreEnd Exploration::Impl::end_for(const Left& left, const StrategyStep& last
   return {EndKind::kComplete, known + "; " + what_remains(last.left_map), "", {}};
 }
 
-void Exploration::Impl::conclude(ExploreEnd end, RobotTime now, ExploreStep& out) {
+void Exploration::Impl::conclude(ExploreEnd end, RobotTime now, ExploreStep& out, std::optional<Point2> room_map) {
   if (end.kind == EndKind::kUnreachable) {
     out.events.push_back({"unreachable", end.cause});
   }
   if (end.kind == EndKind::kComplete) {
     progress_ = 1.0;
   }
-  if (!request_.return_to_start) {
+  if (!request_.return_to_start && !room_map) {
     end_ = std::move(end);
     return;
   }
-  out.events.push_back({"return", "driving back to the start: " + end.cause});
+  mode_ = request_.return_to_start ? Mode::kReturn : Mode::kMakeRoom;
+  name_last_drive(out);
+  out.events.push_back({mode_ == Mode::kReturn ? "return" : "make-room", out.activity + ": " + end.cause});
   pending_end_ = std::move(end);
-  mode_ = Mode::kReturn;
-  home_.go(*start_, now);
-  out.phase = "return";
-  out.activity = "driving back to the start";
+  last_drive_.go(mode_ == Mode::kReturn ? *start_ : *room_map, now);
+}
+
+std::optional<Point2> Exploration::Impl::room_for_others(const StrategyInput& input) {
+  const bool somebody_explores =
+      input.fleet != nullptr && std::any_of(input.fleet->others.begin(), input.fleet->others.end(),
+                                            [](const RobotTopology& other) { return other.active; });
+  const auto floor = floors_.view();
+  if (!somebody_explores || !floor) {
+    return std::nullopt;
+  }
+  const Point2 here = input.map_T_base.translation();
+  const auto costs = nav::DistanceField::build((*floor)->cost, here);
+  const bool in_the_way = costs && nav::blocks_passage((*floor)->cost, *costs, here, params_.viewpoints.min_cut_off_m2);
+  return in_the_way ? nav::place_aside(here, **floor, *costs) : std::nullopt;
 }
 
 void Exploration::Impl::measure_progress(const StrategyInput& input) {
   const RobotTime now = input.now;
-  if (mode_ == Mode::kReturn || (measured_at_ && to_seconds(now - *measured_at_) < kProgressPeriod_s)) {
+  if (pending_end_ || (measured_at_ && to_seconds(now - *measured_at_) < kProgressPeriod_s)) {
     return;
   }
   measured_at_ = now;

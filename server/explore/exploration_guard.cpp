@@ -35,8 +35,8 @@ void Exploration::Impl::check_battery(const ExploreInput& input, ExploreStep& ou
   battery_checked_ = false;
   const std::string cause = "the battery is down to its reserve (" + text(*input.battery_v) + " V)";
   out.events.push_back({"battery", cause});
-  if (mode_ == Mode::kReturn) {
-    return;  // it returns already
+  if (pending_end_) {
+    return;  // it ends already
   }
   conclude({EndKind::kBattery, cause, "charge the battery, then explore again: the map so far is kept", {}},
            input.now - paused_, out);
@@ -45,7 +45,7 @@ void Exploration::Impl::check_battery(const ExploreInput& input, ExploreStep& ou
 /// The robot is to be home when its time is up, wherever it must come back to its start.
 void Exploration::Impl::check_time(const ExploreInput& input, ExploreStep& out) {
   const bool due = !time_checked_at_ || to_seconds(input.now - *time_checked_at_) >= kTimeCheck_s;
-  if (!input.time_left_s || !request_.return_to_start || mode_ == Mode::kReturn || end_ || !due) {
+  if (!input.time_left_s || !request_.return_to_start || pending_end_ || end_ || !due) {
     return;
   }
   time_checked_at_ = input.now;
@@ -134,18 +134,24 @@ void Exploration::Impl::regain(const StrategyInput& input, double sigma_m, Explo
   }
 }
 
-void Exploration::Impl::go_home(const StrategyInput& input, ExploreStep& out) {
-  out.phase = "return";
-  out.activity = "driving back to the start";
-  const nav::DriveStep driven = home_.step(input);
+void Exploration::Impl::last_drive(const StrategyInput& input, ExploreStep& out) {
+  name_last_drive(out);
+  const nav::DriveStep driven = last_drive_.step(input);
   out.command = driven.command;
-  out.planned_path = home_.path();
+  out.planned_path = last_drive_.path();
   if (driven.state == nav::DriveState::kFailed) {
-    pending_end_->cause += "; the return path to the start is blocked: " + driven.reason;
+    const std::string path =
+        mode_ == Mode::kReturn ? "return path to the start" : "path out of the way of other robots";
+    pending_end_->cause += "; the " + path + " is blocked: " + driven.reason;
   }
   if (driven.state != nav::DriveState::kDriving) {
     end_ = std::move(pending_end_);
   }
+}
+
+void Exploration::Impl::name_last_drive(ExploreStep& out) const {
+  out.phase = mode_ == Mode::kReturn ? "return" : "drive";
+  out.activity = mode_ == Mode::kReturn ? "driving back to the start" : "driving out of the way of other robots";
 }
 
 }  // namespace seeker::explore

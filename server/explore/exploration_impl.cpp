@@ -16,7 +16,7 @@ Exploration::Impl::Impl(const ExploreRequest& request, const ExploreParams& para
       params_(params),
       strategy_(std::move(strategy)),
       floors_(params.cost, request.areas, params.floor_cell_m, params.map_period_s),
-      home_(params.driver, {}),
+      last_drive_(params.driver, {}),
       back_(params.driver, {.attempts = kBackAttempts}),
       lookout_(params.driver),
       wait_schedule_({.max_waits = params.viewpoints.max_waits, .max_for_nobody = params.viewpoints.max_failures}) {}
@@ -86,7 +86,7 @@ void Exploration::Impl::stand(const ExploreInput& input, const std::string& why,
   }
   if (pending_end_) {  // the exploration itself was over, and its own end is what counts
     end_ = std::move(pending_end_);
-    end_->cause += "; not back at the start: " + why;
+    end_->cause += (mode_ == Mode::kReturn ? "; not back at the start: " : "; in the way of other robots: ") + why;
   } else {
     end_ = ExploreEnd{EndKind::kUncertain,
                       why,
@@ -101,7 +101,7 @@ void Exploration::Impl::begin(const ExploreInput& input) {
   }
   if (std::exchange(standing_, false)) {
     strategy_->interrupted(input.now - paused_);
-    home_.interrupted();
+    last_drive_.interrupted();
     back_.interrupted();
     lookout_.stop();
   }
@@ -127,7 +127,8 @@ void Exploration::Impl::act(const ExploreInput& input, ExploreStep& out) {
       explore(now, out);
       break;
     case Mode::kRegain: regain(now, sigma_m, out); break;
-    case Mode::kReturn: go_home(now, out); break;
+    case Mode::kReturn:
+    case Mode::kMakeRoom: last_drive(now, out); break;
   }
 }
 
@@ -174,7 +175,7 @@ void Exploration::Impl::resume(RobotTime now) {
   last_now_ = now;
   battery_low_since_.reset();
   strategy_->interrupted(now - paused_);
-  home_.interrupted();
+  last_drive_.interrupted();
   back_.interrupted();
   lookout_.stop();
 }
@@ -186,7 +187,7 @@ void Exploration::Impl::transform(const MapMove& move) {
   trail_.transform(move);
   known_floor_.transform(move);
   wait_schedule_.transform(move);
-  home_.transform(move);
+  last_drive_.transform(move);
   back_.transform(move);
   lookout_.stop();
   if (start_) {

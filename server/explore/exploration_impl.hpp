@@ -36,7 +36,7 @@ class Exploration::Impl {
   [[nodiscard]] const ExploreStrategy& strategy() const { return *strategy_; }
 
  private:
-  enum class Mode : std::uint8_t { kExplore, kRegain, kReturn };
+  enum class Mode : std::uint8_t { kExplore, kRegain, kReturn, kMakeRoom };
 
   [[nodiscard]] StrategyInput strategy_input(const ExploreInput& input);
   [[nodiscard]] std::string cause_to_stand(const ExploreInput& input) const;
@@ -55,7 +55,9 @@ class Exploration::Impl {
   void check_certainty(const StrategyInput& input, double sigma_m, ExploreStep& out);
   void begin_regain(const StrategyInput& input, double sigma_m, ExploreStep& out);
   void regain(const StrategyInput& input, double sigma_m, ExploreStep& out);
-  void go_home(const StrategyInput& input, ExploreStep& out);
+  /// That of kReturn and kMakeRoom, after which the exploration ends.
+  void last_drive(const StrategyInput& input, ExploreStep& out);
+  void name_last_drive(ExploreStep& out) const;
 
   // exploration_wait.cpp
   void begin_wait(const nav::PlannedWait& planned, const StrategyInput& input, ExploreStep& out);
@@ -76,7 +78,11 @@ class Exploration::Impl {
   [[nodiscard]] bool was_reachable(const CutOffFloor& part, const GridFrame& frame) const;
   [[nodiscard]] Left what_is_left(const StrategyInput& input);
   [[nodiscard]] ExploreEnd end_for(const Left& left, const StrategyStep& last, const Point2& here_map) const;
-  void conclude(ExploreEnd end, RobotTime now, ExploreStep& out);
+  /// Ends, after a drive to the start where it is to come back, or else to `room_map` where there is such a place.
+  void conclude(ExploreEnd end, RobotTime now, ExploreStep& out, std::optional<Point2> room_map = std::nullopt);
+  /// Where the robot does not keep others of its fleet from floor that they still explore; nothing: that is so here, or
+  /// nobody explores.
+  [[nodiscard]] std::optional<Point2> room_for_others(const StrategyInput& input);
   void measure_progress(const StrategyInput& input);
 
   ExploreRequest request_;
@@ -87,9 +93,9 @@ class Exploration::Impl {
   Trail trail_;
   Mode mode_ = Mode::kExplore;
 
-  nav::RetryDrive home_;
+  nav::RetryDrive last_drive_;
   std::optional<Point2> start_;
-  std::optional<ExploreEnd> pending_end_;  ///< during kReturn: the end that is reported on arrival
+  std::optional<ExploreEnd> pending_end_;  ///< during the last drive: the end that is reported on arrival
   std::optional<ExploreEnd> end_;
 
   nav::RetryDrive back_;            ///< drive of kRegain

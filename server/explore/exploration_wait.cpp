@@ -72,7 +72,7 @@ void Exploration::Impl::strategy_done(const StrategyStep& last, const StrategyIn
     begin_wait(*planned, input, out);
     return;
   }
-  conclude(end_for(left, last, input.map_T_base.translation()), input.now, out);
+  conclude(end_for(left, last, input.map_T_base.translation()), input.now, out, room_for_others(input));
 }
 
 }  // namespace seeker::explore

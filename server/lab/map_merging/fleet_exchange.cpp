@@ -22,6 +22,11 @@ FleetDrawing drawing_of(const FleetMember& member, const Pose2& main_T_map) {
 RobotTopology seen_from(const Pose2& to_T_from, const FleetMember& from) {
   RobotTopology robot = fleet::moved(from.loop->neighbours().own(), to_T_from);
   robot.robot_id = from.id;
+  const std::optional<api::MissionStatus>& mission = from.loop->missions().last();
+  if (mission && mission->end) {
+    robot.velocity =
+        Twist2{};  // its loop has ended, and with it its reports: the last one may be of a robot that drove
+  }
   return robot;
 }
 

@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "common/core/occupancy_tile.hpp"
+#include "server/nav/shared_floor.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/unit/server/explore/explorations.hpp"
 
@@ -39,6 +42,47 @@ TEST(Exploration, ReturnsToTheStartAfterTheEnd) {
   EXPECT_EQ(run.end->kind, EndKind::kComplete);
   EXPECT_TRUE(has_event(run, "return"));
   EXPECT_THAT(run.pose.translation(), Point2Near(Point2(1.0, 1.0), 0.2));
+}
+
+/// What another robot has seen of two rooms of 5 x 5 m: free floor, and the wall with a door of 1 m between them.
+nav::SharedFloor floor_with_door() {
+  auto floor =
+      std::make_shared<Grid<std::uint8_t>>(GridFrame{{-1.0, -1.0}, kTileResolution_m}, 250, 140, std::uint8_t{0});
+  for (double y = 0.0; y < 5.0; y += kTileResolution_m) {
+    (*floor)[floor->frame().cell_of({5.1, y})] = y < 2.0 || y > 3.0 ? kOccupiedCell : std::uint8_t{0};
+  }
+  return floor;
+}
+
+/// The end of a robot in that door.
+ToyRun end_in_a_door(bool other_explores) {
+  auto exploration = exploration_of(request_of(Strategy::kFrontier));
+  ToyWorld world;
+  world.walls = joined(box(0, 0, 10.2, 5), {{{5.1, 0.0}, {5.1, 2.0}}, {{5.1, 3.0}, {5.1, 5.0}}});
+  ToyExplorer robot(world, {4.8, 2.5, 0.0}, 7);
+  RobotTopology other;
+  other.robot_id = "other";
+  other.map_T_base = {1.0, 4.0, 0.0};
+  other.active = other_explores;
+  const FleetView fleet{.robot_id = "self", .others = {other}, .floor = floor_with_door()};
+  ToyExplorer::Hooks hooks;
+  hooks.input = [&](double, ExploreInput& input) { input.fleet = &fleet; };
+  return robot.run(exploration, 300.0, hooks);
+}
+
+TEST(Exploration, DoesNotEndInADoorThroughWhichAnotherRobotMustPass) {
+  const ToyRun run = end_in_a_door(true);
+  print("make room", run);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_TRUE(has_event(run, "make-room"));
+  EXPECT_GT((run.pose.translation() - Point2(5.1, 2.5)).norm(), 1.0);
+  EXPECT_GT(run.least_clearance_m, 0.2);
+}
+
+TEST(Exploration, EndsInADoorWhereNobodyElseExplores) {
+  const ToyRun run = end_in_a_door(false);
+  ASSERT_TRUE(run.end.has_value());
+  EXPECT_FALSE(has_event(run, "make-room"));
 }
 
 TEST(Exploration, AnOpenDoorToTheOutsideOfTheBoundEndsAsBoundReached) {
