@@ -7,6 +7,7 @@
 
 #include "common/core/assert.hpp"
 #include "common/core/occupancy_tile.hpp"
+#include "server/nav/cost_map.hpp"
 
 namespace seeker::nav {
 namespace {
@@ -45,22 +46,24 @@ CellBox box_around(const Grid<std::uint8_t>& grid, const Pose2& new_T_old) {
   return {{cell(low.x()), cell(low.y())}, {cell(high.x()) + 1, cell(high.y()) + 1}};
 }
 
+// What a cell says to those who plan on it with default parameters.
+bool is_free(std::uint8_t cell) { return cell < CostMapParams{}.free_probability * kOccupiedCell; }
+bool is_occupied(std::uint8_t cell) {
+  return cell >= CostMapParams{}.occupied_probability * kOccupiedCell && cell != kUnknownCell;
+}
+bool says_nothing(std::uint8_t cell) { return !is_free(cell) && !is_occupied(cell); }
+
 void paste(const Grid<std::uint8_t>& from, CellIndex low, Grid<std::uint8_t>& to) {
   const CellIndex first = first_cell(from);
   for (CellIndex c{0, 0}; c.j < from.height(); ++c.j) {
     for (c.i = 0; c.i < from.width(); ++c.i) {
       std::uint8_t& cell = to[{first.i + c.i - low.i, first.j + c.j - low.j}];
-      cell = cell == kUnknownCell ? from[c] : cell;
+      cell = says_nothing(cell) && from[c] != kUnknownCell ? from[c] : cell;
     }
   }
 }
 
-/// Below it a cell is rather free than occupied.
-constexpr std::uint8_t kEvenCell = kOccupiedCell / 2;
 constexpr std::array<CellIndex, 4> kBeside{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-
-bool is_free(std::uint8_t cell) { return cell < kEvenCell; }
-bool is_occupied(std::uint8_t cell) { return cell > kEvenCell && cell != kUnknownCell; }
 
 /// A grid within the common box.
 struct Source {
@@ -93,11 +96,14 @@ void close_borders(const Source& own, const Source& other, Grid<std::uint8_t>& a
       if (!is_free(open[cell])) {
         continue;
       }
-      const bool is_own = own.at(cell) != kUnknownCell;
+      const bool is_own = !says_nothing(own.at(cell));
       for (const CellIndex step : kBeside) {
         const CellIndex beyond{cell.i + step.i, cell.j + step.j};
-        if (open.contains(beyond) && open[beyond] == kUnknownCell && all[beyond] == kUnknownCell) {
-          all[beyond] = (is_own ? other : own).wall_near(beyond);
+        if (!open.contains(beyond) || !says_nothing(all[beyond])) {
+          continue;
+        }
+        if (const std::uint8_t wall = (is_own ? other : own).wall_near(beyond); wall != kUnknownCell) {
+          all[beyond] = wall;
         }
       }
     }

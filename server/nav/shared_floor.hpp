@@ -20,10 +20,10 @@ namespace seeker::nav {
 /// Walls of two maps within this distance of each other may be the same.
 inline constexpr double kSameWall_m = 0.1;
 
-/// `own`, with the cells of `other` where `own` is unknown; the result covers both. Where free floor of the one ends
-/// within kSameWall_m of what the other saw occupied, it ends at that: two maps lie a cell or two beside each other,
-/// and a wall that was mapped would else leave a border of unknown floor. Both must have the resolution of tiles and
-/// cells that line up, as snapshots and carried() have.
+/// `own`, with the cells of `other` where `own` is unknown or undecided; the result covers both. Where free floor of
+/// the one ends within kSameWall_m of what the other saw occupied, it ends at that: two maps lie a cell or two beside
+/// each other, and a wall that was mapped would else leave a border of unknown floor. Both must have the resolution of
+/// tiles and cells that line up, as snapshots and carried() have.
 [[nodiscard]] Grid<std::uint8_t> with_known(const Grid<std::uint8_t>& own, const Grid<std::uint8_t>& other);
 
 /// Occupancy that several holders share without copying.

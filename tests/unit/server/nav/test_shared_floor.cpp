@@ -40,6 +40,16 @@ TEST(SharedFloor, OwnCellsWinAndOthersFillWhatIsUnknown) {
   EXPECT_EQ(at(both, {0.01, 0.06}), kOccupiedCell);
 }
 
+TEST(SharedFloor, WhereOwnCellsAreUndecidedTheOtherRobotIsHeard) {
+  constexpr std::uint8_t kUndecided = kOccupiedCell / 2;
+  Grid<std::uint8_t> own = patch({0, 0}, 3, 1, kUndecided);
+  own[{2, 0}] = kOccupiedCell;
+  const Grid<std::uint8_t> both = with_known(own, patch({0, 0}, 1, 1, kFreeCell));
+  EXPECT_EQ(at(both, {0.01, 0.01}), kFreeCell);
+  EXPECT_EQ(at(both, {0.11, 0.01}), kOccupiedCell) << "what is sure stays";
+  EXPECT_EQ(at(with_known(own, patch({0, 0}, 3, 1, kUnknownCell)), {0.06, 0.01}), kUndecided);
+}
+
 TEST(SharedFloor, FreeFloorEndsAtTheWallThatAnotherRobotSawThoughItsMapLiesACellAside) {
   constexpr CellIndex kBeyond{10, 3};  // the first cell that this robot has not seen
   const Grid<std::uint8_t> own = patch({0, 0}, kBeyond.i, 6, kFreeCell);
