@@ -76,10 +76,10 @@ struct Source {
   }
   /// The value of a cell that it saw occupied within kSameWall_m; unknown: there is none.
   [[nodiscard]] std::uint8_t wall_near(CellIndex cell) const {
-    constexpr int kReach = static_cast<int>(kSameWall_m / kTileResolution_m + 0.5);
+    const auto reach = static_cast<int>(std::lround(kSameWall_m / kTileResolution_m));
     std::uint8_t most = kUnknownCell;
-    for (int dj = -kReach; dj <= kReach; ++dj) {
-      for (int di = -kReach; di <= kReach; ++di) {
+    for (int dj = -reach; dj <= reach; ++dj) {
+      for (int di = -reach; di <= reach; ++di) {
         const std::uint8_t value = at({cell.i + di, cell.j + dj});
         most = is_occupied(value) && (most == kUnknownCell || value > most) ? value : most;
       }
