@@ -29,16 +29,21 @@ WallEnd end_of(const MapSegment& segment, bool left) {
   return {left ? segment.left() : segment.right(), left ? Point2(-along) : along, Point2(-along.y(), along.x())};
 }
 
-/// Segments that an object within `reach_m` of p may touch.
-std::vector<const MapSegment*> segments_near(const std::vector<MapSegment>& segments, const MapSegment& self,
-                                             const Point2& p_map, double reach_m) {
-  std::vector<const MapSegment*> near;
+/// Sides of other walls that an object within `reach_m` of p may touch.
+std::vector<MappedSide> sides_near(const std::vector<MapSegment>& segments, const MapSegment& self,
+                                   std::span<const MappedSide> others_sides, const Point2& p_map, double reach_m) {
+  std::vector<MappedSide> near;
+  const auto add = [&](const MappedSide& side) {
+    if (distance_to_segment_m(side.left_map, side.right_map, p_map) < reach_m + kMeet_m) {
+      near.push_back(side);
+    }
+  };
   for (const MapSegment& other : segments) {
-    const double limit_m = reach_m + 0.5 * other.length_m + kMeet_m;
-    if (other.id != self.id && (other.map_T_segment.translation() - p_map).squaredNorm() < limit_m * limit_m) {
-      near.push_back(&other);
+    if (other.id != self.id) {
+      add({other.left(), other.right()});
     }
   }
+  std::for_each(others_sides.begin(), others_sides.end(), add);
   return near;
 }
 
@@ -58,16 +63,14 @@ CellState state_across(const nav::CostMap& map, const Point2& p_map, const Point
 double possible_extension_m(const nav::CostMap& map, const std::vector<MapSegment>& segments, const MapSegment& segment,
                             bool left, double max_m, std::span<const MappedSide> others_sides) {
   const WallEnd end = end_of(segment, left);
-  const auto near = segments_near(segments, segment, end.p_map, max_m);
+  const std::vector<MappedSide> near = sides_near(segments, segment, others_sides, end.p_map, max_m);
   const double step_m = map.frame().resolution_m;
   double extension_m = 0.0;
   for (double s = step_m; s <= max_m; s += step_m) {
     const Point2 p = end.p_map + s * end.outward_map;
-    const auto meets = [&](const Point2& a, const Point2& b) { return distance_to_segment_m(a, b, p) < kMeet_m; };
-    const bool met = std::any_of(near.begin(), near.end(),
-                                 [&](const MapSegment* other) { return meets(other->left(), other->right()); }) ||
-                     std::any_of(others_sides.begin(), others_sides.end(),
-                                 [&](const MappedSide& side) { return meets(side.left_map, side.right_map); });
+    const bool met = std::any_of(near.begin(), near.end(), [&](const MappedSide& side) {
+      return distance_to_segment_m(side.left_map, side.right_map, p) < kMeet_m;
+    });
     if (met || state_across(map, p, end.into_map) == CellState::kFree) {
       break;
     }

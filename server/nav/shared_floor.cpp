@@ -90,16 +90,15 @@ struct Source {
 
 /// Unknown cells beside floor that only one of the two saw, where the other one saw a wall.
 void close_borders(const Source& own, const Source& other, Grid<std::uint8_t>& all) {
-  const Grid<std::uint8_t> open = all;
-  for (CellIndex cell{0, 0}; cell.j < open.height(); ++cell.j) {
-    for (cell.i = 0; cell.i < open.width(); ++cell.i) {
-      if (!is_free(open[cell])) {
+  for (CellIndex cell{0, 0}; cell.j < all.height(); ++cell.j) {
+    for (cell.i = 0; cell.i < all.width(); ++cell.i) {
+      if (!is_free(all[cell])) {
         continue;
       }
       const bool is_own = !says_nothing(own.at(cell));
       for (const CellIndex step : kBeside) {
         const CellIndex beyond{cell.i + step.i, cell.j + step.j};
-        if (!open.contains(beyond) || !says_nothing(all[beyond])) {
+        if (!all.contains(beyond) || !says_nothing(all[beyond])) {
           continue;
         }
         if (const std::uint8_t wall = (is_own ? other : own).wall_near(beyond); wall != kUnknownCell) {

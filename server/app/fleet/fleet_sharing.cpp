@@ -77,8 +77,8 @@ bool FleetSharing::refresh_seen(WallTime now) {
   const bool found_more = own && main_.receive(*own, now);
   const std::vector<OtherRobot> others = others_of_main(now);
   others_floor_ = nav::carried(floors_of(others));
-  others_searched_ = shared_search(searched_by(others, now, params_.search_age), others_searched_);
-  others_sides_ = shared_sides(sides_by(others), others_sides_);
+  others_searched_ = shared_list(searched_by(others, now, params_.search_age), others_searched_);
+  others_sides_ = shared_list(sides_by(others), others_sides_);
   news_.report(findings_of(others), host_);
   host_.give_seen(seen_inbox_.reply());
   return found_more;

@@ -4,8 +4,8 @@ namespace seeker::app {
 
 void KnownOthers::receive(api::FleetSightings sightings) {
   floor_ = floor_of(sightings.floor);
-  searched_ = shared_search(std::move(sightings.searched), searched_);
-  sides_ = shared_sides(std::move(sightings.sides), sides_);
+  searched_ = shared_list(std::move(sightings.searched), searched_);
+  sides_ = shared_list(std::move(sightings.sides), sides_);
   news_.report(sightings.findings, host_);
 }
 

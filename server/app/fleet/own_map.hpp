@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/api/robot_api.hpp"
@@ -35,11 +37,15 @@ struct OwnSeen {
 };
 /// Null where nothing has been seen.
 [[nodiscard]] nav::SharedFloor floor_of(const std::vector<OccupancyTile>& tiles);
-/// Null where nothing was searched; `before` where that says the same.
-[[nodiscard]] SharedSearch shared_search(std::vector<SearchedFloor> searched, const SharedSearch& before);
-
-/// Null where there are none; `before` where that says the same.
-[[nodiscard]] SharedSides shared_sides(std::vector<MappedSide> sides, const SharedSides& before);
+/// A list that several holders share without copying; null where it is empty, `before` where that says the same.
+template <class T>
+[[nodiscard]] std::shared_ptr<const std::vector<T>> shared_list(std::vector<T> list,
+                                                                const std::shared_ptr<const std::vector<T>>& before) {
+  if (list.empty() || (before && *before == list)) {
+    return list.empty() ? nullptr : before;
+  }
+  return std::make_shared<const std::vector<T>>(std::move(list));
+}
 
 /// The robot as its fleet sees it. None is empty; all may be called from any thread. The first three answer on the
 /// loop's thread, or at once where the loop has ended.

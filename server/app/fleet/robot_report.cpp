@@ -41,7 +41,7 @@ bool RobotReport::receive_seen(const std::vector<OccupancyTile>& tiles, std::vec
                                const std::vector<api::Detection>& detections,
                                const std::optional<SearchedFloor>& searched, WallTime received_at) {
   floor = floor_of(tiles);
-  sides = shared_sides(std::move(seen_sides), sides);
+  sides = shared_list(std::move(seen_sides), sides);
   search.receive(searched, received_at);
   if (finds.now == detections) {
     return false;

@@ -24,8 +24,8 @@ RobotTopology seen_from(const Pose2& to_T_from, const FleetMember& from) {
   robot.robot_id = from.id;
   const std::optional<api::MissionStatus>& mission = from.loop->missions().last();
   if (mission && mission->end) {
-    robot.velocity =
-        Twist2{};  // its loop has ended, and with it its reports: the last one may be of a robot that drove
+    // Its loop has ended, and with it its reports: the last one may be of a robot that drove.
+    robot.velocity = Twist2{};
   }
   return robot;
 }
@@ -182,8 +182,7 @@ std::vector<FleetExchange::Partner> FleetExchange::partners_of(std::size_t to) c
 }
 
 void FleetExchange::deliver(std::size_t to) {
-  FleetView view{members_[to]->id, {}, seen_[to].floor};
-  view.sides = seen_[to].sides;
+  FleetView view{.robot_id = members_[to]->id, .others = {}, .floor = seen_[to].floor, .sides = seen_[to].sides};
   for (const Partner& partner : partners_of(to)) {
     view.others.push_back(seen_from(partner.to_T_from, *partner.from));
   }

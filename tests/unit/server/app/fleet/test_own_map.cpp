@@ -10,13 +10,13 @@ TEST(FloorOf, IsNullWhereNothingWasSeen) {
   EXPECT_TRUE(app::floor_of(floor_with({1.0, 1.0})));
 }
 
-TEST(SharedSearch, StaysTheSameObjectWhileItSaysTheSame) {
-  EXPECT_FALSE(app::shared_search({}, nullptr));
-  const SharedSearch first = app::shared_search({searched_at({}, 3, 200)}, nullptr);
+TEST(SharedList, StaysTheSameObjectWhileItSaysTheSame) {
+  EXPECT_FALSE(app::shared_list<SearchedFloor>({}, nullptr));
+  const SharedSearch first = app::shared_list<SearchedFloor>({searched_at({}, 3, 200)}, nullptr);
   ASSERT_TRUE(first);
-  EXPECT_EQ(app::shared_search({searched_at({}, 3, 200)}, first), first);
-  EXPECT_NE(app::shared_search({searched_at({}, 4, 200)}, first), first);
-  EXPECT_FALSE(app::shared_search({}, first));
+  EXPECT_EQ(app::shared_list<SearchedFloor>({searched_at({}, 3, 200)}, first), first);
+  EXPECT_NE(app::shared_list<SearchedFloor>({searched_at({}, 4, 200)}, first), first);
+  EXPECT_FALSE(app::shared_list<SearchedFloor>({}, first));
 }
 
 }  // namespace
