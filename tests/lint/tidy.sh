@@ -1,18 +1,22 @@
 #!/usr/bin/env bash
 # clang-tidy over every source of the preset dev but the tests, which the compiler's warnings and their own runs check. A file
 # that was clean is not checked again until it, a header of ours that it includes, its compile command, a .proto or .clang-tidy
-# changes.
+# changes. With "deep" as argument the analyzer follows calls, and passing by value is judged, for which clang-tidy walks the whole
+# source once for each parameter: ten times as long.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tests/lint/sources.sh
 
 readonly database=build/dev/compile_commands.json
 readonly cache=build/lint-cache
-readonly batch_files=20
+readonly batch_files=60
 mkdir -p "$cache"
 [[ -e $database ]] || { echo "no $database: configure first (cmake --preset dev)" >&2; exit 2; }
 
-salt=$( (clang-tidy --version; cat .clang-tidy) | sha256sum)
+analyzer_mode=${1:-shallow}
+left_out=
+[[ $analyzer_mode == deep ]] || left_out=-performance-unnecessary-value-param
+salt=$( (clang-tidy --version; cat .clang-tidy; echo "$analyzer_mode $left_out") | sha256sum)
 mapfile -t protos < <(sources proto)
 
 mapfile -t code < <(sources cpp hpp)
@@ -64,11 +68,12 @@ tidy() {
   local flags other
   mapfile -t flags < <(for other in "${@:2}"; do flags_of "$other"; done |
     awk '$0 == "-isystem" {getline path; $0 = "-isystem" path} !seen[$0]++')
-  clang-tidy --quiet --config-file=.clang-tidy --extra-arg=-Wno-unknown-warning-option "$1" -- "${flags[@]}" 2>&1
+  clang-tidy --quiet --config-file=.clang-tidy --checks="$left_out" --extra-arg=-Wno-unknown-warning-option "$1" -- \
+    "${flags[@]}" -Xclang -analyzer-config -Xclang "mode=$analyzer_mode" 2>&1
 }
 
-# check_batch "FILE KEY" ...: most of the time of one file goes into the headers, so that files are checked twenty at a time,
-# and halved where that finds something: names may clash that never meet. What a file alone shows is what counts.
+# check_batch "FILE KEY" ...: most of the time of one file goes into the headers, so that files are checked many at a time, and
+# halved where that finds something: names may clash that never meet. What a file alone shows is what counts.
 check_batch() {
   local pair half=$(($# / 2)) failed=0 output
   if (($# == 1)); then
@@ -100,33 +105,7 @@ check_line() {
   check_batch "${pairs[@]}"
 }
 export -f flags_of tidy check_batch check_line
-export database cache
-
-# A line of tab-separated "FILE KEY" for each batch: files of one folder, or of small ones that lie beside each other in a
-# larger one, and apart from them those that are compiled alone for the names in them, which mostly clash with other files
-# than each other. The main files of programs are alone.
-batches() {
-  local alone
-  alone=$(grep -oE '(common|server|client)/[a-z0-9_/]+\.cpp' cmake/SeekerUnity.cmake | tr '\n' ' ')
-  awk -v alone=" $alone" '{
-    group = $1
-    if (group !~ /\/main[^\/]*\.cpp$/) {
-      sub(/\/[^\/]*$/, "", group)
-      sub(/^common\/.*/, "common", group)
-      if (group ~ /^[^\/]*\/[^\/]*\//) sub(/\/[^\/]*$/, "", group)
-      group = group (index(alone, " " $1 " ") ? "/2" : "/1")
-    }
-    print group, $0
-  }' "$work" | sort | awk -v most="$batch_files" '
-    {
-      if ($1 != last || count == most) {
-        if (line != "") print line
-        line = ""; count = 0; last = $1
-      }
-      line = line (count++ ? "\t" : "") $2 " " $3
-    }
-    END { if (line != "") print line }'
-}
+export database cache analyzer_mode left_out
 
 work=$(mktemp)
 trap 'rm -f "$work"' EXIT
@@ -141,4 +120,6 @@ while IFS=$'\t' read -r file headers; do
 done < <(closures)
 
 echo "clang-tidy: $(wc -l <"$work") of $total files to check"
-batches | xargs -r -d '\n' -n 1 -P "${JOBS:-2}" bash -c 'check_line "$1"' check
+alone=$(grep -oE '(common|server|client)/[a-z0-9_/]+\.cpp' cmake/SeekerUnity.cmake | tr '\n' ' ')
+sort "$work" | awk -v most="$batch_files" -v alone="$alone" -f tests/lint/batches.awk |
+  xargs -r -d '\n' -n 1 -P "${JOBS:-2}" bash -c 'check_line "$1"' check
