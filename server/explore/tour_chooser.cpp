@@ -22,6 +22,8 @@ constexpr double kFirstLeg_m = 0.3;
 constexpr std::size_t kKnownTurns = 8;
 /// More passages than this on one leg are no reason to go elsewhere first.
 constexpr int kMostPassages = 2;
+/// After so many changes of the first place another one is worth nothing that a tour could save.
+constexpr int kMostDoublings = 10;
 /// More than any route.
 constexpr double kNever_m = 1e5;
 
@@ -51,7 +53,8 @@ class TourChooser final : public PlaceChooser {
                                           const tour::Rooms& rooms) const;
   [[nodiscard]] double turn_cost(const PlaceInput& input, const TourPlace& place, bool look_at_path) const;
   [[nodiscard]] bool keep_own_share(const PlaceInput& input, Plan& plan);
-  [[nodiscard]] tour::Route plan_route(const Plan& plan, const Opening* goal) const;
+  [[nodiscard]] tour::Route plan_route(const Plan& plan, const Opening* goal);
+  [[nodiscard]] std::optional<std::size_t> heading_for(const Plan& plan, const Opening& goal) const;
   [[nodiscard]] tour::Route last_route(const Plan& plan) const;
   [[nodiscard]] tour::Route with_first(const Plan& plan, const tour::Route& route, std::size_t first) const;
   [[nodiscard]] const TourPlace* on_the_way(const PlaceInput& input, const std::vector<TourPlace>& passing,
@@ -62,6 +65,7 @@ class TourChooser final : public PlaceChooser {
   ExploreParams params_;
   std::vector<std::vector<std::uint64_t>> last_order_;  ///< ids of the openings of the last tour's places
   std::optional<RobotTime> without_share_since_;        ///< since when all that is left is the share of others
+  int changes_ = 0;                                     ///< of the first place since the robot last finished one
 };
 
 /// Cost of turning towards the place before the first leg.
@@ -174,7 +178,23 @@ tour::Route TourChooser::with_first(const Plan& plan, const tour::Route& route, 
   return tour::improved_route(costs, std::move(then));
 }
 
-tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) const {
+/// The place of the tour that the robot drives to; where it drives to an opening by the way, the one after that.
+std::optional<std::size_t> TourChooser::heading_for(const Plan& plan, const Opening& goal) const {
+  const auto with_id = [&](std::uint64_t id) {
+    return std::find_if(plan.places.begin(), plan.places.end(), [&](const TourPlace& place) {
+      return std::find(place.ids.begin(), place.ids.end(), id) != place.ids.end();
+    });
+  };
+  auto place = with_id(goal.id);
+  if (place == plan.places.end() && !last_order_.empty()) {
+    place = with_id(last_order_.front().front());
+  }
+  return place != plan.places.end() ? std::optional<std::size_t>(place - plan.places.begin()) : std::nullopt;
+}
+
+/// With more places than a tour takes, each end of a drive has another tour, and the robot would turn round between
+/// them without end: what a change of the first place must save doubles with each change, until a place is finished.
+tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) {
   const tour::RouteCosts& costs = plan.costs;
   const double hysteresis_m = params_.tour.hysteresis_m;
   tour::Route route = tour::improved_route(costs, tour::with_all_places(costs, last_route(plan)));
@@ -182,14 +202,16 @@ tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) const
   if (tour::route_cost(costs, fresh) < tour::route_cost(costs, route) - hysteresis_m) {
     route = std::move(fresh);
   }
-  for (std::size_t k = 0; goal != nullptr && k < plan.places.size(); ++k) {
-    const std::vector<std::uint64_t>& ids = plan.places[k].ids;
-    if (k != route.front() && std::find(ids.begin(), ids.end(), goal->id) != ids.end()) {
-      tour::Route same = with_first(plan, route, k);
-      if (tour::route_cost(costs, same) < tour::route_cost(costs, route) + hysteresis_m) {
-        return same;
-      }
+  const std::optional<std::size_t> heading = goal != nullptr ? heading_for(plan, *goal) : std::nullopt;
+  if (!heading) {
+    changes_ = 0;
+  } else if (*heading != route.front()) {
+    tour::Route same = with_first(plan, route, *heading);
+    const double worth_m = hysteresis_m * std::exp2(std::min(changes_, kMostDoublings));
+    if (tour::route_cost(costs, same) < tour::route_cost(costs, route) + worth_m) {
+      return same;
     }
+    ++changes_;
   }
   return route;
 }

@@ -1,6 +1,7 @@
 // The strategy that plans tours: how its explorations end, and what its decisions are.
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -277,6 +278,29 @@ TEST_F(TourDecision, DoesNotWaverBetweenEqualTours) {
   const PlaceChoice second = choose(*chooser, open, &goal);
   ASSERT_TRUE(second.opening.has_value());
   EXPECT_EQ(second.opening->id, goal.id);
+}
+
+/// A tour of three of four places: left of the middle the far left one is of it and the tour begins on the right, right
+/// of the middle it begins on the left.
+TEST_F(TourDecision, ReachesAPlaceThoughEachSideHasAnotherTour) {
+  ExploreParams params;
+  params.tour.max_places = 3;
+  const auto chooser = make_tour_chooser(params);
+  const std::vector<Opening> open{border_at({2.5, 5.0}, 1), border_at({6.5, 5.0}, 2), border_at({13.5, 5.0}, 3),
+                                  border_at({17.5, 5.0}, 4)};
+  robot_.x_m = 9.5;
+  std::optional<Opening> goal;
+  int turns = 0;
+  for (int decision = 0; decision < 50 && !(goal && std::abs(goal->p_map.x() - robot_.x_m) < 0.5); ++decision) {
+    const PlaceChoice choice = choose(*chooser, open, goal ? &*goal : nullptr);
+    ASSERT_TRUE(choice.opening.has_value());
+    turns += goal && goal->id != choice.opening->id ? 1 : 0;
+    goal = choice.opening;
+    const bool right = goal->p_map.x() > robot_.x_m;
+    robot_ = {robot_.x_m + (right ? 0.5 : -0.5), 5.0, right ? 0.0 : kPi};
+  }
+  EXPECT_NEAR(robot_.x_m, goal->p_map.x(), 0.5) << "after " << turns << " turns";
+  EXPECT_GT(turns, 0) << "the two sides do have other tours";
 }
 
 TEST_F(TourDecision, WhatIsTooLittleIsTakenOnTheWayOnly) {
