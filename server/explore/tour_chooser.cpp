@@ -22,7 +22,9 @@ constexpr double kFirstLeg_m = 0.3;
 constexpr std::size_t kKnownTurns = 8;
 /// More passages than this on one leg are no reason to go elsewhere first.
 constexpr int kMostPassages = 2;
-/// After so many changes of the first place another one is worth nothing that a tour could save.
+/// The first place of a tour may change so often before one is finished without becoming dearer,
+constexpr int kFreeChanges = 4;
+/// and after so many doublings no tour could save it.
 constexpr int kMostDoublings = 10;
 /// More than any route.
 constexpr double kNever_m = 1e5;
@@ -32,6 +34,12 @@ struct Plan {
   std::vector<TourPlace> places;
   tour::RouteCosts costs;
   tour::Route route;
+};
+
+/// The place of a tour that the robot drives to; `by_the_way`: next, after an opening that is none.
+struct Heading {
+  std::size_t place = 0;
+  bool by_the_way = false;
 };
 
 /// Plans a tour over all openings that matter and drives to the first of its places. The tour begins as the last one,
@@ -54,7 +62,7 @@ class TourChooser final : public PlaceChooser {
   [[nodiscard]] double turn_cost(const PlaceInput& input, const TourPlace& place, bool look_at_path) const;
   [[nodiscard]] bool keep_own_share(const PlaceInput& input, Plan& plan);
   [[nodiscard]] tour::Route plan_route(const Plan& plan, const Opening* goal);
-  [[nodiscard]] std::optional<std::size_t> heading_for(const Plan& plan, const Opening& goal) const;
+  [[nodiscard]] std::optional<Heading> heading_for(const Plan& plan, const Opening& goal) const;
   [[nodiscard]] tour::Route last_route(const Plan& plan) const;
   [[nodiscard]] tour::Route with_first(const Plan& plan, const tour::Route& route, std::size_t first) const;
   [[nodiscard]] const TourPlace* on_the_way(const PlaceInput& input, const std::vector<TourPlace>& passing,
@@ -178,22 +186,26 @@ tour::Route TourChooser::with_first(const Plan& plan, const tour::Route& route, 
   return tour::improved_route(costs, std::move(then));
 }
 
-/// The place of the tour that the robot drives to; where it drives to an opening by the way, the one after that.
-std::optional<std::size_t> TourChooser::heading_for(const Plan& plan, const Opening& goal) const {
+std::optional<Heading> TourChooser::heading_for(const Plan& plan, const Opening& goal) const {
   const auto with_id = [&](std::uint64_t id) {
     return std::find_if(plan.places.begin(), plan.places.end(), [&](const TourPlace& place) {
       return std::find(place.ids.begin(), place.ids.end(), id) != place.ids.end();
     });
   };
   auto place = with_id(goal.id);
-  if (place == plan.places.end() && !last_order_.empty()) {
+  const bool by_the_way = place == plan.places.end();
+  if (by_the_way && !last_order_.empty()) {
     place = with_id(last_order_.front().front());
   }
-  return place != plan.places.end() ? std::optional<std::size_t>(place - plan.places.begin()) : std::nullopt;
+  if (place == plan.places.end()) {
+    return std::nullopt;
+  }
+  return Heading{static_cast<std::size_t>(place - plan.places.begin()), by_the_way};
 }
 
 /// With more places than a tour takes, each end of a drive has another tour, and the robot would turn round between
-/// them without end: what a change of the first place must save doubles with each change, until a place is finished.
+/// them without end: after a few changes of the first place, what the next one must save doubles with each, until a
+/// place is finished.
 tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) {
   const tour::RouteCosts& costs = plan.costs;
   const double hysteresis_m = params_.tour.hysteresis_m;
@@ -202,12 +214,14 @@ tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) {
   if (tour::route_cost(costs, fresh) < tour::route_cost(costs, route) - hysteresis_m) {
     route = std::move(fresh);
   }
-  const std::optional<std::size_t> heading = goal != nullptr ? heading_for(plan, *goal) : std::nullopt;
+  const std::optional<Heading> heading = goal != nullptr ? heading_for(plan, *goal) : std::nullopt;
   if (!heading) {
     changes_ = 0;
-  } else if (*heading != route.front()) {
-    tour::Route same = with_first(plan, route, *heading);
-    const double worth_m = hysteresis_m * std::exp2(std::min(changes_, kMostDoublings));
+  } else if (heading->place != route.front()) {
+    const int too_many = changes_ - kFreeChanges;
+    const double usual_m = heading->by_the_way ? 0.0 : hysteresis_m;
+    const double worth_m = too_many <= 0 ? usual_m : hysteresis_m * std::exp2(std::min(too_many, kMostDoublings));
+    tour::Route same = with_first(plan, route, heading->place);
     if (tour::route_cost(costs, same) < tour::route_cost(costs, route) + worth_m) {
       return same;
     }

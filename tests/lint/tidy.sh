@@ -2,7 +2,7 @@
 # clang-tidy over every source of the preset dev but the tests, which the compiler's warnings and their own runs check. A file
 # that was clean is not checked again until it, a header of ours that it includes, its compile command, a .proto or .clang-tidy
 # changes. With "deep" as argument the analyzer follows calls, and passing by value is judged, for which clang-tidy walks the whole
-# source once for each parameter: ten times as long.
+# source once for each parameter: several times as long.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tests/lint/sources.sh
