@@ -17,6 +17,9 @@ constexpr double kStandingSpeed_m_s = 1e-4;
 /// Shares of the rotation speed that are tried where the whole of it leads to a contact, the largest first.
 constexpr std::array kReducedRotations{0.75, 0.5, 0.25, 0.0};
 
+/// Shares of the present rotation that are mixed with the wanted one where that leads to a contact, the smallest first.
+constexpr std::array kKeptRotations{0.25, 0.5, 0.75, 1.0};
+
 /// Places of the arc, evenly spread over the time that braking takes, at which the command may end.
 constexpr int kCutPlaces = 4;
 /// Shares of the wanted velocity that are tried, in equal steps down to none.
@@ -73,6 +76,26 @@ bool may_go_straight_on(double v_m_s, double omega_rad_s, const std::vector<Poin
   return true;
 }
 
+/// The first of `wanted_rad_s` and `others_rad_s` with which a base that rolls at `v_m_s` has room to brake; where none
+/// has, the one with the most room.
+template <std::size_t N>
+double rotation_with_room(double wanted_rad_s, const std::array<double, N>& others_rad_s, double v_m_s,
+                          const std::vector<Point2>& points_base, const ClearanceParams& params) {
+  const double braking_m = v_m_s * v_m_s / (2.0 * params.decel_m_s2) + params.slow_margin_m;
+  double best_rad_s = wanted_rad_s;
+  double best_m = free_arc_m({v_m_s, wanted_rad_s}, points_base, params);
+  for (const double omega_rad_s : others_rad_s) {
+    if (best_m >= braking_m) {
+      break;
+    }
+    if (const double distance_m = free_arc_m({v_m_s, omega_rad_s}, points_base, params); distance_m > best_m) {
+      best_rad_s = omega_rad_s;
+      best_m = distance_m;
+    }
+  }
+  return best_rad_s;
+}
+
 }  // namespace
 
 double free_arc_m(const Twist2& twist, const std::vector<Point2>& points_base, const ClearanceParams& params) {
@@ -117,22 +140,21 @@ Twist2 limit_rotation_while_rolling(const Twist2& allowed, const Twist2& present
   if (std::abs(present.v_m_s) <= std::abs(allowed.v_m_s)) {
     return allowed;
   }
-  const auto free_m = [&](double share) {
-    return free_arc_m({present.v_m_s, share * allowed.omega_rad_s}, points_base, params);
-  };
-  const double braking_m = present.v_m_s * present.v_m_s / (2.0 * params.decel_m_s2) + params.slow_margin_m;
-  double best = 1.0;
-  double best_m = free_m(best);
-  for (const double share : kReducedRotations) {
-    if (best_m >= braking_m) {
-      break;
-    }
-    if (const double distance_m = free_m(share); distance_m > best_m) {
-      best = share;
-      best_m = distance_m;
-    }
+  std::array<double, kReducedRotations.size()> reduced_rad_s{};
+  std::transform(kReducedRotations.begin(), kReducedRotations.end(), reduced_rad_s.begin(),
+                 [&](double share) { return share * allowed.omega_rad_s; });
+  return {allowed.v_m_s, rotation_with_room(allowed.omega_rad_s, reduced_rad_s, present.v_m_s, points_base, params)};
+}
+
+Twist2 keep_arc_while_braking(const Twist2& wanted, const Twist2& present, const std::vector<Point2>& points_base,
+                              const ClearanceParams& params) {
+  if (std::abs(present.v_m_s) <= std::abs(wanted.v_m_s)) {
+    return wanted;
   }
-  return {allowed.v_m_s, best * allowed.omega_rad_s};
+  std::array<double, kKeptRotations.size()> kept_rad_s{};
+  std::transform(kKeptRotations.begin(), kKeptRotations.end(), kept_rad_s.begin(),
+                 [&](double share) { return wanted.omega_rad_s + share * (present.omega_rad_s - wanted.omega_rad_s); });
+  return {wanted.v_m_s, rotation_with_room(wanted.omega_rad_s, kept_rad_s, present.v_m_s, points_base, params)};
 }
 
 Twist2 limit_for_sudden_stop(const Twist2& wanted, const Twist2& present, const std::vector<Point2>& points_base,

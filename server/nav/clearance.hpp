@@ -39,6 +39,12 @@ struct ClearanceParams {
                                                   const std::vector<Point2>& points_base,
                                                   const ClearanceParams& params);
 
+/// `wanted` for a base that still rolls at `present` and cannot become as slow at once. Where it would meet an obstacle
+/// on the wanted arc before it stands, its rotation is that between the wanted one and the present one, on whose arc it
+/// was free so far, which leaves it room enough or else the most room. v stays.
+[[nodiscard]] Twist2 keep_arc_while_braking(const Twist2& wanted, const Twist2& present,
+                                            const std::vector<Point2>& points_base, const ClearanceParams& params);
+
 /// `wanted`, slowed so far that the base comes to rest without contact whenever it is ordered to stand. Such a base
 /// gives up its rotation at once and rolls straight on while it brakes, so that an arc around an obstacle ends in it.
 /// The command may end after any part of the arc, and the base may still turn as at `present`, its velocity now. With

@@ -192,6 +192,27 @@ Twist2 PathFollower::smooth(const Twist2& wanted, double dt_s) const {
           approach(command_.omega_rad_s, wanted.omega_rad_s, params_.alpha_rad_s2 * dt_s)};
 }
 
+/// The base stands before a contact, and is slow where it will come near to one.
+Twist2 PathFollower::limit_for_room(const Twist2& wanted, const std::vector<Point2>& points_base) const {
+  const Twist2 clear = limit_for_clearance(wanted, points_base, params_.clearance);
+  ClearanceParams wide = params_.clearance;
+  wide.radius_m += params_.near_miss_m;
+  const double with_room_m_s = limit_for_clearance(wanted, points_base, wide).v_m_s;
+  const double v_m_s = std::min(clear.v_m_s, std::max(with_room_m_s, params_.near_miss_v_m_s));
+  return clear.v_m_s > 0.0 ? Twist2{v_m_s, clear.omega_rad_s * v_m_s / clear.v_m_s} : clear;
+}
+
+void PathFollower::roll(double ordered_m_s, double dt_s) {
+  rolling_m_s_ = std::max(ordered_m_s, rolling_m_s_ - params_.clearance.decel_m_s2 * dt_s);
+}
+
+/// Orders what comes nearest to the wanted velocity and touches nothing, though the base rolls on for a while.
+void PathFollower::command(const Twist2& wanted, const std::vector<Point2>& points_base, double dt_s) {
+  const Twist2 allowed = limit_for_room(smooth(wanted, dt_s), points_base);
+  roll(allowed.v_m_s, dt_s);
+  command_ = keep_arc_while_braking(allowed, {rolling_m_s_, command_.omega_rad_s}, points_base, params_.clearance);
+}
+
 bool PathFollower::path_blocked(const Pose2& map_T_base, const std::vector<Point2>& points_base, double along_m) const {
   const double end_m = std::min(along_m + params_.blocked_lookahead_m, arc_m_.back());
   std::vector<Point2> ahead{point_at(along_m)};
@@ -268,6 +289,7 @@ FollowStep PathFollower::step(const Pose2& map_T_base, const std::vector<Point2>
   last_step_ = now;
   if (path_.empty() || !is_finite(map_T_base)) {
     command_ = smooth({}, dt_s);
+    roll(command_.v_m_s, dt_s);
     const bool idle = path_.empty();
     return {command_, idle ? FollowState::kIdle : FollowState::kStuck, 0.0, idle ? "" : "the pose is not finite"};
   }
@@ -276,18 +298,21 @@ FollowStep PathFollower::step(const Pose2& map_T_base, const std::vector<Point2>
   if (at_goal_) {
     FollowStep done = finish(map_T_base, target, dt_s, now);
     command_ = limit_for_clearance(done.command, points_base, params_.clearance);
+    roll(command_.v_m_s, dt_s);
     done.command = command_;
     return done;
   }
   const Twist2 wanted = desired(map_T_base, target);
   const Twist2 before = command_;
-  command_ = limit_for_clearance(smooth(wanted, dt_s), points_base, params_.clearance);
+  const double rolling_before_m_s = rolling_m_s_;
+  command(wanted, points_base, dt_s);
   if (!rotating_ && command_.v_m_s <= 0.0) {
     follow_closely(map_T_base);
   }
   if (auto problem = watch(map_T_base, points_base, target, now)) {
     command_ = before;
-    command_ = limit_for_clearance(smooth({}, dt_s), points_base, params_.clearance);
+    rolling_m_s_ = rolling_before_m_s;
+    command({}, points_base, dt_s);
     problem->command = command_;
     return *problem;
   }

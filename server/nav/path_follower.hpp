@@ -46,6 +46,10 @@ struct FollowerParams {
   double progress_m = 0.05;  ///< smallest decrease of the remaining path length that counts as progress
   /// Smallest decrease of the heading error that counts as progress while rotating in place.
   double progress_rad = 0.1;
+  /// Obstacles that the footprint would pass at less than this are passed slowly, so that errors of the pose and of the
+  /// wheels end in no contact.
+  double near_miss_m = 0.05;
+  double near_miss_v_m_s = 0.2;  ///< speed at which they are passed
   ClearanceParams clearance;
 };
 
@@ -98,6 +102,9 @@ class PathFollower {
   [[nodiscard]] double corner_speed(double along_m) const;
   [[nodiscard]] Twist2 rotate_towards(double error_rad) const;
   [[nodiscard]] Twist2 smooth(const Twist2& wanted, double dt_s) const;
+  [[nodiscard]] Twist2 limit_for_room(const Twist2& wanted, const std::vector<Point2>& points_base) const;
+  void roll(double ordered_m_s, double dt_s);
+  void command(const Twist2& wanted, const std::vector<Point2>& points_base, double dt_s);
   [[nodiscard]] bool path_blocked(const Pose2& map_T_base, const std::vector<Point2>& points_base,
                                   double along_m) const;
   [[nodiscard]] std::optional<FollowStep> watch(const Pose2& map_T_base, const std::vector<Point2>& points_base,
@@ -114,6 +121,7 @@ class PathFollower {
   std::vector<double> arc_m_;  ///< arc length at each waypoint
   std::optional<double> final_heading_rad_;
   Twist2 command_;
+  double rolling_m_s_ = 0.0;  ///< speed of a base that was ordered `command_`: which brakes no harder than it can
   /// Farthest projection on the path so far, so that a path that crosses itself is followed completely.
   double reached_m_ = 0.0;
   /// Path length up to which the robot stays close to the path, because an obstacle had left no room to drive.

@@ -59,6 +59,10 @@ void describe(config::Fields& f, FollowerParams& params) {
   f.field("stuck_for_s", params.stuck_for_s);
   f.field("progress_m", params.progress_m);
   f.angle_deg("progress_deg", params.progress_rad);
+  f.field("near_miss_m", params.near_miss_m);
+  f.check("near_miss_m", params.near_miss_m >= 0.0, "must be 0 or more");
+  f.field("near_miss_v_m_s", params.near_miss_v_m_s);
+  f.check("near_miss_v_m_s", params.near_miss_v_m_s > 0.0, "must be above 0");
   f.section("clearance", params.clearance);
 }
 

@@ -130,6 +130,26 @@ TEST(PathFollower, StopsBeforeAnObstacleThatAppearsAndReportsIt) {
   EXPECT_GT(robot.nearest_m, kBody_m);
 }
 
+TEST(PathFollower, PassesSlowlyWhatItWillNearlyTouch) {
+  const auto speed_beside_m_s = [](double offset_m) {
+    const FollowerParams params;
+    Robot robot{ascii_map(std::vector<std::string>(20, std::string(60, '.')), 0.1), Pose2{0.5, 1.0, 0.0}};
+    PathFollower follower(params);
+    follower.set_path(Path{{{0.5, 1.0}, {5.5, 1.0}}, 5.0, 5.0}, robot.now);
+    double beside_m_s = 0.0;
+    while (robot.pose.x_m < 3.0) {
+      const Point2 post_base = inverse(robot.pose) * Point2(3.0, 1.0 + params.clearance.radius_m + offset_m);
+      beside_m_s = follower.step(robot.pose, {post_base}, robot.now).command.v_m_s;
+      EXPECT_GT(beside_m_s, 0.0) << "at " << robot.pose;
+      robot.move({beside_m_s, 0.0});
+    }
+    return beside_m_s;
+  };
+  const FollowerParams params;
+  EXPECT_NEAR(speed_beside_m_s(0.02), params.near_miss_v_m_s, 1e-6);
+  EXPECT_NEAR(speed_beside_m_s(params.near_miss_m + 0.02), params.max_v_m_s, 1e-6);
+}
+
 TEST(PathFollower, GoesOnAlongItsPathWhenTheMapMoves) {
   const Pose2 new_T_old{5.0, -3.0, 0.7};
   PathFollower still;
@@ -205,6 +225,25 @@ TEST(Clearance, StraightAheadTheFreeWayEndsAtTheFootprint) {
   EXPECT_DOUBLE_EQ(free_arc_m({0.4, 0.0}, {{1.0, 0.3}, {-1.0, 0.0}}, params), params.horizon_m);
   EXPECT_NEAR(free_arc_m({-0.4, 0.0}, {{-1.0, 0.0}}, params), 1.0 - params.radius_m, 1e-9);
   EXPECT_DOUBLE_EQ(free_arc_m({0.0, 1.0}, {{0.2, 0.0}}, params), params.horizon_m);
+}
+
+TEST(Clearance, ABaseThatBrakesStaysOnTheArcThatWasFree) {
+  // On its arc to the left it passes the wall ahead; ordered to stand and to turn right it would roll into it.
+  const ClearanceParams params;
+  const Twist2 present{0.35, 1.0};
+  std::vector<Point2> wall_base;
+  for (double y = -1.0; y <= 1.0; y += 0.02) {
+    wall_base.emplace_back(0.34, y);
+  }
+  const Twist2 wanted{0.0, 0.6};
+  const double wanted_room_m = free_arc_m({present.v_m_s, wanted.omega_rad_s}, wall_base, params);
+  const Twist2 kept = keep_arc_while_braking(wanted, present, wall_base, params);
+  EXPECT_EQ(kept.v_m_s, 0.0);
+  EXPECT_GT(kept.omega_rad_s, wanted.omega_rad_s);
+  EXPECT_LE(kept.omega_rad_s, present.omega_rad_s);
+  EXPECT_GT(free_arc_m({present.v_m_s, kept.omega_rad_s}, wall_base, params), wanted_room_m);
+  EXPECT_EQ(keep_arc_while_braking(wanted, present, {{3.0, 0.0}}, params), wanted) << "there is room";
+  EXPECT_EQ(keep_arc_while_braking(wanted, {}, wall_base, params), wanted) << "it does not roll";
 }
 
 TEST(Clearance, NoRoomStopsButMayTurnAndMayLeave) {
