@@ -1,13 +1,8 @@
 #include "server/explore/coarse_paths.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <optional>
-#include <queue>
-#include <utility>
 
 #include "server/tour/nearest_cell.hpp"
 
@@ -15,75 +10,103 @@ namespace seeker::explore {
 namespace {
 
 constexpr std::array<CellIndex, 8> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+constexpr std::size_t kSides = 4;
+constexpr float kFar = std::numeric_limits<float>::infinity();
 
-/// Dijkstra that ends when every cell of `targets` has its length.
-Grid<float> spread(const Grid<std::uint8_t>& floor, CellIndex start, const std::vector<CellIndex>& targets) {
-  constexpr float kFar = std::numeric_limits<float>::infinity();
-  Grid<float> lengths(floor.frame(), floor.width(), floor.height(), kFar);
-  Grid<std::uint8_t> wanted(floor.frame(), floor.width(), floor.height(), 0);
-  std::size_t left = 0;
-  for (const CellIndex target : targets) {
-    left += wanted[target] == 0 ? 1 : 0;
-    wanted[target] = 1;
+}  // namespace
+
+CoarsePaths::CoarsePaths(const Grid<std::uint8_t>& floor)
+    : floor_(&floor), nodes_(floor.frame(), floor.width(), floor.height(), kNone) {
+  Node count = 0;
+  for (std::size_t k = 0; k < floor.cells().size(); ++k) {
+    nodes_.cells()[k] = floor.cells()[k] != 0 ? count++ : kNone;
   }
-  using Entry = std::pair<float, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  lengths[start] = 0.0F;
-  open.emplace(0.0F, lengths.index(start));
-  while (!open.empty() && left > 0) {
-    const auto [length, index] = open.top();
-    open.pop();
-    const CellIndex cell = lengths.cell(index);
-    if (length > lengths[cell]) {
+  beside_.resize(count);
+  for (std::size_t k = 0; k < floor.cells().size(); ++k) {
+    if (nodes_.cells()[k] == kNone) {
       continue;
     }
-    left -= wanted[cell];
-    wanted[cell] = 0;
-    for (const CellIndex step : kSteps) {
-      const CellIndex next{cell.i + step.i, cell.j + step.j};
-      if (!floor.contains(next) || floor[next] == 0) {
+    const CellIndex cell = nodes_.cell(k);
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const CellIndex next{cell.i + kSteps[d].i, cell.j + kSteps[d].j};
+      beside_[nodes_.cells()[k]][d] = nodes_.contains(next) ? nodes_[next] : kNone;
+    }
+  }
+}
+
+/// Dijkstra whose queue are buckets one cell wide: no step is shorter, so that all of a bucket is final when the search
+/// comes to it, and none is longer than two, so that three buckets are enough.
+std::vector<float> CoarsePaths::spread(Node start, const std::vector<Node>& targets) const {
+  std::vector<float> lengths(beside_.size(), kFar);
+  std::vector<std::uint8_t> state(beside_.size(), 0);
+  constexpr std::uint8_t kTarget = 1;
+  constexpr std::uint8_t kSettled = 2;
+  std::size_t left = 0;
+  for (const Node target : targets) {
+    left += state[target] == 0 ? 1 : 0;
+    state[target] = kTarget;
+  }
+  std::array<std::vector<Node>, 3> buckets;
+  lengths[start] = 0.0F;
+  buckets[0].push_back(start);
+  for (std::size_t at = 0; left > 0; ++at) {
+    std::vector<Node>& now = buckets[at % buckets.size()];
+    for (const Node node : now) {
+      if (state[node] == kSettled) {
         continue;
       }
-      const float longer = length + (step.i != 0 && step.j != 0 ? std::numbers::sqrt2_v<float> : 1.0F);
-      if (longer < lengths[next]) {
-        lengths[next] = longer;
-        open.emplace(longer, lengths.index(next));
+      left -= state[node] == kTarget ? 1 : 0;
+      state[node] = kSettled;
+      for (std::size_t d = 0; d < kDirections; ++d) {
+        const Node next = beside_[node][d];
+        const float longer = lengths[node] + (d < kSides ? 1.0F : std::numbers::sqrt2_v<float>);
+        if (next != kNone && longer < lengths[next]) {
+          lengths[next] = longer;
+          buckets[static_cast<std::size_t>(longer) % buckets.size()].push_back(next);
+        }
       }
+    }
+    now.clear();
+    if (std::all_of(buckets.begin(), buckets.end(), [](const auto& bucket) { return bucket.empty(); })) {
+      break;
     }
   }
   return lengths;
 }
 
-}  // namespace
+std::optional<CoarsePaths::Node> CoarsePaths::node_at(const Point2& p_map) const {
+  const auto cell = tour::nearest_cell(*floor_, p_map);
+  return cell ? std::optional(nodes_[*cell]) : std::nullopt;
+}
 
-std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, const std::vector<Point2>& to_map) const {
+std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, std::span<const Point2> to_map) const {
   std::vector<double> lengths(to_map.size(), kNoPath);
-  const auto start = tour::nearest_cell(*floor_, from_map);
+  const auto start = node_at(from_map);
   if (!start) {
     return lengths;
   }
-  std::vector<std::optional<CellIndex>> cells;
-  std::vector<CellIndex> targets;
-  cells.reserve(to_map.size());
+  std::vector<std::optional<Node>> nodes;
+  std::vector<Node> targets;
+  nodes.reserve(to_map.size());
   targets.reserve(to_map.size());
   for (const Point2& p : to_map) {
-    cells.push_back(tour::nearest_cell(*floor_, p));
-    if (cells.back()) {
-      targets.push_back(*cells.back());
+    nodes.push_back(node_at(p));
+    if (nodes.back()) {
+      targets.push_back(*nodes.back());
     }
   }
-  const Grid<float> reached = spread(*floor_, *start, targets);
+  const std::vector<float> reached = spread(*start, targets);
   for (std::size_t k = 0; k < to_map.size(); ++k) {
-    if (cells[k]) {
+    if (nodes[k]) {
       // Two places in one cell are still apart.
-      const double path_m = floor_->frame().resolution_m * static_cast<double>(reached[*cells[k]]);
+      const double path_m = floor_->frame().resolution_m * static_cast<double>(reached[*nodes[k]]);
       lengths[k] = std::max(path_m, (to_map[k] - from_map).norm());
     }
   }
   return lengths;
 }
 
-std::vector<double> CoarsePaths::expected_m(const Point2& from_map, const std::vector<Point2>& to_map) const {
+std::vector<double> CoarsePaths::expected_m(const Point2& from_map, std::span<const Point2> to_map) const {
   constexpr double kDetour = 1.5;  ///< of the straight line
   std::vector<double> lengths = lengths_m(from_map, to_map);
   for (std::size_t k = 0; k < to_map.size(); ++k) {

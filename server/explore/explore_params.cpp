@@ -119,6 +119,7 @@ Status check_tour(const TourParams& p) {
   if (const Status costs = none_negative({{"tour.passage_m", p.passage_m},
                                           {"tour.rotation_m_rad", p.rotation_m_rad},
                                           {"tour.free_rotation_deg", p.free_rotation_rad},
+                                          {"tour.aside_rotation_deg", p.aside_rotation_rad},
                                           {"tour.beyond_m", p.beyond_m},
                                           {"tour.passing_m", p.passing_m},
                                           {"tour.passing_wall", p.passing_wall},
@@ -132,7 +133,8 @@ Status check_tour(const TourParams& p) {
       !costs) {
     return costs;
   }
-  return all_positive({{"tour.replan_period_s", p.replan_period_s},
+  return all_positive({{"tour.first_leg_weight", p.first_leg_weight},
+                       {"tour.replan_period_s", p.replan_period_s},
                        {"tour.max_v_m_s", p.max_v_m_s},
                        {"tour.rotate_in_place_deg", p.rotate_in_place_rad},
                        {"tour.rooms.door_half_m", p.rooms.door_half_m}});

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "common/core/angle.hpp"
@@ -26,8 +27,28 @@ constexpr int kMostPassages = 2;
 constexpr int kFreeChanges = 4;
 /// and after so many doublings no tour could save it.
 constexpr int kMostDoublings = 10;
+/// So many of the routes from nothing are improved: the time of a decision rises with them, the tour hardly shortens.
+constexpr std::size_t kMostImproved = 12;
 /// More than any route.
 constexpr double kNever_m = 1e5;
+
+/// Rotation towards the place before the first leg.
+double first_rotation_rad(const PlaceInput& input, const TourPlace& place, bool look_at_path) {
+  const Pose2& map_T_base = input.robot.map_T_base;
+  Point2 towards = place.opening.map_T_view.translation();
+  if (look_at_path && !input.floor.cost.segment_is_clear(map_T_base.translation(), towards)) {
+    if (const auto path = input.costs.path_to(input.floor.cost, towards)) {
+      const auto first = std::find_if(path->waypoints.begin(), path->waypoints.end(), [&](const Point2& p) {
+        return (p - map_T_base.translation()).norm() > kFirstLeg_m;
+      });
+      towards = first != path->waypoints.end() ? *first : towards;
+    }
+  }
+  if ((towards - map_T_base.translation()).norm() < kFirstLeg_m) {
+    towards = place.opening.p_map;
+  }
+  return std::abs(bearing_to(map_T_base, towards));
+}
 
 /// The tour of one decision.
 struct Plan {
@@ -59,7 +80,10 @@ class TourChooser final : public PlaceChooser {
  private:
   [[nodiscard]] tour::RouteCosts costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
                                           const tour::Rooms& rooms) const;
-  [[nodiscard]] double turn_cost(const PlaceInput& input, const TourPlace& place, bool look_at_path) const;
+  [[nodiscard]] double rotation_m(double rotation_rad, double free_rad) const;
+  [[nodiscard]] double detour_rotation_m(double rotation_rad) const {
+    return rotation_m(rotation_rad, params_.tour.free_rotation_rad);
+  }
   [[nodiscard]] bool keep_own_share(const PlaceInput& input, Plan& plan);
   [[nodiscard]] tour::Route plan_route(const Plan& plan, const Opening* goal);
   [[nodiscard]] std::optional<Heading> heading_for(const Plan& plan, const Opening& goal) const;
@@ -76,23 +100,9 @@ class TourChooser final : public PlaceChooser {
   int changes_ = 0;                                     ///< of the first place since the robot last finished one
 };
 
-/// Cost of turning towards the place before the first leg.
-double TourChooser::turn_cost(const PlaceInput& input, const TourPlace& place, bool look_at_path) const {
-  const Pose2& map_T_base = input.robot.map_T_base;
-  Point2 towards = place.opening.map_T_view.translation();
-  if (look_at_path && !input.floor.cost.segment_is_clear(map_T_base.translation(), towards)) {
-    if (const auto path = input.costs.path_to(input.floor.cost, towards)) {
-      const auto first = std::find_if(path->waypoints.begin(), path->waypoints.end(), [&](const Point2& p) {
-        return (p - map_T_base.translation()).norm() > kFirstLeg_m;
-      });
-      towards = first != path->waypoints.end() ? *first : towards;
-    }
-  }
-  if ((towards - map_T_base.translation()).norm() < kFirstLeg_m) {
-    towards = place.opening.p_map;
-  }
-  const double turn_rad = std::abs(bearing_to(map_T_base, towards));
-  return params_.tour.rotation_m_rad * std::max(0.0, turn_rad - params_.tour.free_rotation_rad);
+/// Cost of a rotation of which `free_rad` cost nothing.
+double TourChooser::rotation_m(double rotation_rad, double free_rad) const {
+  return params_.tour.rotation_m_rad * std::max(0.0, rotation_rad - free_rad);
 }
 
 tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
@@ -117,10 +127,10 @@ tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vecto
   const std::vector<int> passages_here = rooms.passages_from(rooms.at(here));
   for (std::size_t a = 0; a < places.size(); ++a) {
     const double first_m = std::isfinite(from_here[a]) ? from_here[a] : places[a].opening.cost;
-    costs.from_start.push_back(leg(first_m, passages_here, places[a]) + beyond_m[a] +
-                               turn_cost(input, places[a], a < kKnownTurns));
-    const std::vector<Point2> others(views.begin() + static_cast<std::ptrdiff_t>(a), views.end());
-    const std::vector<double> lengths = paths.expected_m(views[a], others);
+    const double rotation_rad = first_rotation_rad(input, places[a], a < kKnownTurns);
+    costs.from_start.push_back(params_.tour.first_leg_weight * leg(first_m, passages_here, places[a]) + beyond_m[a] +
+                               rotation_m(rotation_rad, params_.tour.aside_rotation_rad));
+    const std::vector<double> lengths = paths.expected_m(views[a], std::span<const Point2>(views).subspan(a));
     const std::vector<int> passages = rooms.passages_from(places[a].room);
     for (std::size_t b = a + 1; b < places.size(); ++b) {
       const double cost = leg(lengths[b - a], passages, places[b]) + beyond_m[a] + beyond_m[b];
@@ -183,7 +193,7 @@ tour::Route TourChooser::with_first(const Plan& plan, const tour::Route& route, 
   }
   tour::Route then{first};
   std::copy_if(route.begin(), route.end(), std::back_inserter(then), [&](std::size_t k) { return k != first; });
-  return tour::improved_route(costs, std::move(then));
+  return tour::improved_route(costs, then);
 }
 
 std::optional<Heading> TourChooser::heading_for(const Plan& plan, const Opening& goal) const {
@@ -210,7 +220,7 @@ tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) {
   const tour::RouteCosts& costs = plan.costs;
   const double hysteresis_m = params_.tour.hysteresis_m;
   tour::Route route = tour::improved_route(costs, tour::with_all_places(costs, last_route(plan)));
-  tour::Route fresh = tour::short_route(costs);
+  tour::Route fresh = tour::short_route(costs, kMostImproved);
   if (tour::route_cost(costs, fresh) < tour::route_cost(costs, route) - hysteresis_m) {
     route = std::move(fresh);
   }
@@ -248,10 +258,13 @@ const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vec
   const CoarsePaths paths(input.floor.reachable);
   const std::vector<double> from_here = paths.lengths_m(input.robot.map_T_base.translation(), places);
   const std::vector<double> to_next = paths.lengths_m(places.front(), places);
+  const double direct_m = from_here.front() + detour_rotation_m(first_rotation_rad(input, next, true));
   const TourPlace* best = nullptr;
   double best_m = 0.0;
   for (std::size_t k = 0; k < near.size(); ++k) {
-    const double detour_m = from_here[k + 1] + to_next[k + 1] - from_here.front() + turn_cost(input, *near[k], true);
+    const double there_m = from_here[k + 1] + detour_rotation_m(first_rotation_rad(input, *near[k], true));
+    const double rotation_on_rad = std::abs(bearing_to(near[k]->opening.map_T_view, places.front()));
+    const double detour_m = there_m + to_next[k + 1] + detour_rotation_m(rotation_on_rad) - direct_m;
     const double wall_m = near[k]->opening.kind == OpeningKind::kWallFace ? near[k]->opening.size_m : 0.0;
     const bool under_way = input.goal != nullptr && input.goal->id == near[k]->opening.id;
     const double kept_m = under_way ? params_.tour.hysteresis_m : 0.0;  // else it turns to and fro between two goals

@@ -6,21 +6,26 @@
 
 namespace seeker::explore {
 
-/// Most places of a tour. A route is improved from every first place, and each improvement compares all pairs of
-/// places, so that the time of a decision rises with their third power and more, while the robot drives on.
-inline constexpr int kMostTourPlaces = 64;
+/// Most places of a tour. The time of a decision rises with the square of their number, while the robot drives on.
+inline constexpr int kMostTourPlaces = 256;
 
 /// What takes time without being path counts as the path that the robot would drive meanwhile.
 struct TourParams {
   double passage_m = 1.5;          ///< cost of a passage from room to room: a room is left when it is finished
-  double rotation_m_rad = 0.5;     ///< cost of turning by a radian before the first leg
-  double free_rotation_rad = 0.6;  ///< turns up to this blend into the drive
-  double beyond_m = 2.5;           ///< no border is expected to lead farther than this into the unknown
-  double passing_m = 0.3;          ///< longest detour for an opening that does not matter by itself
-  double passing_wall = 0.6;       ///< so much longer it may be for every metre of a wall's unseen side
-  double passing_near_m = 4.0;     ///< such openings count only this near to the robot
-  double hysteresis_m = 1.0;       ///< another goal while driving, and another order, must save this much
-  double replan_period_s = 1.0;    ///< the tour is planned again this often while the robot drives
+  double rotation_m_rad = 1.0;     ///< cost of rotating by a radian
+  double free_rotation_rad = 0.6;  ///< rotations up to this blend into the drive
+  /// The robot leaves its path for a place beside it whenever it goes there: only what the first rotation exceeds this
+  /// by speaks against going there now. Otherwise it passes all rooms of a corridor and comes back for them.
+  double aside_rotation_rad = 1.57;
+  /// So many times its length the first leg counts: what is near comes first where that makes no longer tour, since
+  /// what is expected of the rest may change.
+  double first_leg_weight = 1.3;
+  double beyond_m = 2.5;         ///< no border is expected to lead farther than this into the unknown
+  double passing_m = 0.1;        ///< longest detour for an opening that does not matter by itself
+  double passing_wall = 0.6;     ///< so much longer it may be for every metre of a wall's unseen side
+  double passing_near_m = 4.0;   ///< such openings count only this near to the robot
+  double hysteresis_m = 1.0;     ///< another goal while driving, and another order, must save this much
+  double replan_period_s = 1.0;  ///< the tour is planned again this often while the robot drives
   /// Speed in place of the driver's: obstacles, corners and the end of the path slow the robot as they must.
   double max_v_m_s = 0.75;
   /// The robot turns on the spot beyond this heading error only: smaller turns are driven as arcs.

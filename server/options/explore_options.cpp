@@ -100,6 +100,8 @@ void describe(config::Fields& f, TourParams& params) {
   f.field("passage_m", params.passage_m);
   f.field("rotation_m_rad", params.rotation_m_rad);
   f.angle_deg("free_rotation_deg", params.free_rotation_rad);
+  f.angle_deg("aside_rotation_deg", params.aside_rotation_rad);
+  f.field("first_leg_weight", params.first_leg_weight);
   f.field("beyond_m", params.beyond_m);
   f.field("passing_m", params.passing_m);
   f.field("passing_wall", params.passing_wall);

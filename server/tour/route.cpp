@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "common/core/assert.hpp"
 
@@ -12,82 +14,88 @@ namespace {
 constexpr double kLeastGain_m = 1e-6;
 constexpr std::size_t kLongestStretch = 3;
 
-/// A route under improvement. Position 0 is the start and the last position the end, so that every place has two
+/// A route under improvement, between a start and an end that are nodes as the places are, so that every place has two
 /// neighbours.
 class Improver {
  public:
-  Improver(const RouteCosts& costs, Route route) : costs_(costs), route_(std::move(route)) {}
+  Improver(const RouteCosts& costs, const Route& route)
+      : nodes_(costs.places() + 2), start_(costs.places()), legs_m_(nodes_ * nodes_, 0.0) {
+    const std::size_t end = start_ + 1;
+    for (std::size_t a = 0; a < costs.places(); ++a) {
+      for (std::size_t b = 0; b < costs.places(); ++b) {
+        legs_m_[a * nodes_ + b] = costs.between(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+      }
+      legs_m_[start_ * nodes_ + a] = costs.from_start[a];
+      legs_m_[a * nodes_ + end] = costs.to_end.empty() ? 0.0 : costs.to_end[a];
+    }
+    stops_.push_back(start_);
+    stops_.insert(stops_.end(), route.begin(), route.end());
+    stops_.push_back(end);
+  }
 
   [[nodiscard]] Route run() {
-    while (reverse_any() || move_any()) {
+    for (bool better = true; better;) {
+      better = reverse_stretches();
+      better = move_stretches() || better;
     }
-    return std::move(route_);
+    return {stops_.begin() + 1, stops_.end() - 1};
   }
 
  private:
-  static constexpr std::size_t kOutside = std::numeric_limits<std::size_t>::max();
+  [[nodiscard]] double leg_m(std::size_t from, std::size_t to) const { return legs_m_[from * nodes_ + to]; }
+  [[nodiscard]] std::size_t last() const { return stops_.size() - 2; }  ///< position of the last place
 
-  /// The place before a position, or kOutside for the start.
-  [[nodiscard]] std::size_t before(std::size_t at) const { return at == 0 ? kOutside : route_[at - 1]; }
-  [[nodiscard]] std::size_t after(std::size_t at) const { return at + 1 < route_.size() ? route_[at + 1] : kOutside; }
-  [[nodiscard]] double leg(std::size_t a, std::size_t b) const {
-    if (a == kOutside) {
-      return b == kOutside ? 0.0 : costs_.from_start[b];
-    }
-    if (b == kOutside) {
-      return costs_.to_end.empty() ? 0.0 : costs_.to_end[a];
-    }
-    return costs_.between(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
-  }
-
-  /// 2-opt: the first reversal of a stretch that gains.
-  bool reverse_any() {
-    for (std::size_t i = 0; i < route_.size(); ++i) {
-      for (std::size_t j = i + 1; j < route_.size(); ++j) {
-        const double now = leg(before(i), route_[i]) + leg(route_[j], after(j));
-        const double then = leg(before(i), route_[j]) + leg(route_[i], after(j));
+  /// 2-opt: every reversal of a stretch that gains.
+  bool reverse_stretches() {
+    bool better = false;
+    for (std::size_t i = 1; i <= last(); ++i) {
+      for (std::size_t j = i + 1; j <= last(); ++j) {
+        const double now = leg_m(stops_[i - 1], stops_[i]) + leg_m(stops_[j], stops_[j + 1]);
+        const double then = leg_m(stops_[i - 1], stops_[j]) + leg_m(stops_[i], stops_[j + 1]);
         if (then < now - kLeastGain_m) {
           std::reverse(at(i), at(j + 1));
-          return true;
+          better = true;
         }
       }
     }
-    return false;
+    return better;
   }
 
-  /// Or-opt: the first move of a short stretch that gains.
-  bool move_any() {
-    for (std::size_t length = 1; length <= kLongestStretch && length < route_.size(); ++length) {
-      for (std::size_t i = 0; i + length <= route_.size(); ++i) {
-        if (move_stretch(i, length)) {
-          return true;
-        }
+  /// Or-opt: every move of a short stretch that gains.
+  bool move_stretches() {
+    bool better = false;
+    for (std::size_t length = 1; length <= kLongestStretch && length < last(); ++length) {
+      for (std::size_t i = 1; i + length - 1 <= last(); ++i) {
+        better = move_stretch(i, length) || better;
       }
     }
-    return false;
+    return better;
   }
 
+  /// Moves the stretch to the first gap where that gains.
   bool move_stretch(std::size_t i, std::size_t length) {
-    const std::size_t first = route_[i];
-    const std::size_t last = route_[i + length - 1];
-    const std::size_t from = before(i);
-    const std::size_t to = after(i + length - 1);
-    const double freed = leg(from, first) + leg(last, to) - leg(from, to);
-    // Gaps of the route without the stretch: before its position `gap`.
-    Route rest = route_;
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i), rest.begin() + static_cast<std::ptrdiff_t>(i + length));
-    for (std::size_t gap = 0; gap <= rest.size(); ++gap) {
-      const std::size_t a = gap == 0 ? kOutside : rest[gap - 1];
-      const std::size_t b = gap == rest.size() ? kOutside : rest[gap];
-      const double forward = leg(a, first) + leg(last, b) - leg(a, b);
-      const double backward = leg(a, last) + leg(first, b) - leg(a, b);
-      if (std::min(forward, backward) < freed - kLeastGain_m) {
-        Route stretch(at(i), at(i + length));
+    const std::size_t first = stops_[i];
+    const std::size_t final = stops_[i + length - 1];
+    const std::size_t before = stops_[i - 1];
+    const std::size_t after = stops_[i + length];
+    const double freed = leg_m(before, first) + leg_m(final, after) - leg_m(before, after) - kLeastGain_m;
+    for (std::size_t gap = 1; gap <= last() + 1; ++gap) {  // before the stop there
+      if (gap >= i && gap <= i + length) {
+        continue;
+      }
+      const std::size_t a = stops_[gap - 1];
+      const std::size_t b = stops_[gap];
+      const double forward = leg_m(a, first) + leg_m(final, b) - leg_m(a, b);
+      const double backward = leg_m(a, final) + leg_m(first, b) - leg_m(a, b);
+      if (std::min(forward, backward) < freed) {
         if (backward < forward) {
-          std::reverse(stretch.begin(), stretch.end());
+          std::reverse(at(i), at(i + length));
         }
-        rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(gap), stretch.begin(), stretch.end());
-        route_ = std::move(rest);
+        if (gap < i) {
+          std::rotate(at(gap), at(i), at(i + length));
+        } else {
+          std::rotate(at(i), at(i + length), at(gap));
+        }
         return true;
       }
     }
@@ -95,11 +103,13 @@ class Improver {
   }
 
   [[nodiscard]] Route::iterator at(std::size_t position) {
-    return route_.begin() + static_cast<std::ptrdiff_t>(position);
+    return stops_.begin() + static_cast<std::ptrdiff_t>(position);
   }
 
-  const RouteCosts& costs_;
-  Route route_;
+  std::size_t nodes_;
+  std::size_t start_;           ///< the node before the first place; the next one is the end
+  std::vector<double> legs_m_;  ///< from node to node, by rows
+  Route stops_;                 ///< start, places, end
 };
 
 /// From a first place always to the nearest that is left.
@@ -161,17 +171,25 @@ Route with_all_places(const RouteCosts& costs, Route route) {
   return route;
 }
 
-Route improved_route(const RouteCosts& costs, Route route) {
+Route improved_route(const RouteCosts& costs, const Route& route) {
   SEEKER_ASSERT(costs.between.rows() == costs.between.cols());
   SEEKER_ASSERT(static_cast<std::size_t>(costs.between.rows()) == costs.places());
-  return Improver(costs, std::move(route)).run();
+  return Improver(costs, route).run();
 }
 
-Route short_route(const RouteCosts& costs) {
+Route short_route(const RouteCosts& costs, std::size_t most_improved) {
+  std::vector<std::pair<double, Route>> routes;
+  for (std::size_t first = 0; first < costs.places(); ++first) {
+    Route route = nearest_neighbours(costs, first);
+    const double cost = route_cost(costs, route);
+    routes.emplace_back(cost, std::move(route));
+  }
+  std::stable_sort(routes.begin(), routes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  routes.resize(std::min(routes.size(), most_improved));
   Route best;
   double best_cost = std::numeric_limits<double>::infinity();
-  for (std::size_t first = 0; first < costs.places(); ++first) {
-    Route route = improved_route(costs, nearest_neighbours(costs, first));
+  for (const auto& [unimproved, begun] : routes) {
+    Route route = improved_route(costs, begun);
     if (const double cost = route_cost(costs, route); best.empty() || cost < best_cost - kLeastGain_m) {
       best_cost = cost;
       best = std::move(route);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,10 +31,11 @@ using Route = std::vector<std::size_t>;
 
 /// The route that 2-opt and or-opt (stretches of up to three places, in either direction) lead to from `route`: no
 /// single one of these changes makes it shorter. A route that is best already stays as it is.
-[[nodiscard]] Route improved_route(const RouteCosts& costs, Route route);
+[[nodiscard]] Route improved_route(const RouteCosts& costs, const Route& route);
 
-/// A short route from nothing: nearest neighbours from every first place, then improved. It depends on its inputs
-/// alone.
-[[nodiscard]] Route short_route(const RouteCosts& costs);
+/// A short route from nothing: nearest neighbours from every first place, of which the shortest `most_improved` are
+/// improved. It depends on its inputs alone.
+[[nodiscard]] Route short_route(const RouteCosts& costs,
+                                std::size_t most_improved = std::numeric_limits<std::size_t>::max());
 
 }  // namespace seeker::tour

@@ -184,6 +184,14 @@ class TourDecision : public ::testing::Test {
     return opening;
   }
 
+  /// It is seen from 0.3 m beside it, looking along +x.
+  static Opening wall_end_at(const Point2& p_map, std::uint64_t id) {
+    Opening end = border_at(p_map, id);
+    end.kind = OpeningKind::kWallEnd;
+    end.map_T_view = {p_map.x(), p_map.y() - 0.3, 0.0};
+    return end;
+  }
+
   Grid<std::uint8_t> occupancy_;
   Pose2 robot_;
   Matrix3 covariance_ = Matrix3::Identity() * 1e-6;
@@ -267,6 +275,30 @@ TEST_F(TourDecision, TurningRoundCostsPath) {
   EXPECT_EQ(choice.opening->id, 2U) << choice.decision.why;
 }
 
+TEST_F(TourDecision, WhatLiesBesideTheWayIsNotLeftForTheWayBack) {
+  // There and back again: the near place beside the robot can be visited first or last.
+  const auto chooser = make_tour_chooser({});
+  const PlaceChoice choice =
+      choose(*chooser, {border_at({10.0, 8.0}, 1), border_at({18.0, 5.0}, 2)}, nullptr, Point2(10.0, 5.0));
+  ASSERT_TRUE(choice.opening.has_value());
+  EXPECT_EQ(choice.opening->id, 1U) << choice.decision.why;
+}
+
+TEST_F(TourDecision, ADetourPaysForItsRotations) {
+  // Both ends of walls are as near to the way; to see the second one the robot has to look back.
+  const Opening ahead = wall_end_at({13.0, 5.3}, 7);
+  Opening behind = ahead;
+  behind.id = 8;
+  behind.map_T_view = {13.0, 5.0, kPi};
+  const std::vector<Opening> border{border_at({19.0, 5.0}, 2)};
+  const auto id_with = [&](const Opening& end) {
+    const PlaceChoice choice = choose(*make_tour_chooser({}), {end, border.front()});
+    return choice.opening ? choice.opening->id : 0U;
+  };
+  EXPECT_EQ(id_with(ahead), 7U);
+  EXPECT_EQ(id_with(behind), 2U);
+}
+
 TEST_F(TourDecision, DoesNotWaverBetweenEqualTours) {
   const auto chooser = make_tour_chooser({});
   robot_.theta_rad = kPi / 2.0;
@@ -305,9 +337,7 @@ TEST_F(TourDecision, ReachesAPlaceThoughEachSideHasAnotherTour) {
 
 TEST_F(TourDecision, WhatIsTooLittleIsTakenOnTheWayOnly) {
   ExploreParams params;
-  Opening end = border_at({15.0, 5.3}, 7);
-  end.kind = OpeningKind::kWallEnd;
-  end.map_T_view = {15.0, 5.0, 0.0};
+  const Opening end = wall_end_at({15.0, 5.3}, 7);
   const auto chooser = make_tour_chooser(params);
   const PlaceChoice by_the_way = choose(*chooser, {end, border_at({19.0, 5.0}, 2)});
   EXPECT_FALSE(by_the_way.opening && by_the_way.opening->id == 7U) << "it is beyond passing_near_m";
@@ -323,9 +353,7 @@ TEST_F(TourDecision, WhatIsTooLittleIsTakenOnTheWayOnly) {
 }
 
 TEST_F(TourDecision, WhatIsTakenOnTheWayIsNotGivenUpForATurn) {
-  Opening end = border_at({15.0, 5.3}, 7);
-  end.kind = OpeningKind::kWallEnd;
-  end.map_T_view = {15.0, 5.0, 0.0};
+  const Opening end = wall_end_at({15.0, 5.3}, 7);
   const std::vector<Opening> open{end, border_at({19.0, 5.0}, 2)};
   robot_ = {14.9, 4.6, 0.0};
   const PlaceChoice fresh = choose(*make_tour_chooser({}), open);

@@ -81,6 +81,30 @@ TEST(Route, ABestRouteStaysAsItIs) {
   EXPECT_EQ(improved_route(costs, best), best);
 }
 
+TEST(Route, ImprovementKeepsEveryPlaceAndLeavesNothingToImprove) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    RouteCosts costs = straight_lines({0.0, 0.0}, scattered(3 + seed, seed));
+    if (seed % 2 == 0) {
+      costs.to_end = costs.from_start;
+    }
+    Route begun(costs.places());
+    std::iota(begun.begin(), begun.end(), std::size_t{0});
+    const Route route = improved_route(costs, begun);
+    EXPECT_LT(route_cost(costs, route), route_cost(costs, begun)) << "seed " << seed;
+    EXPECT_EQ(improved_route(costs, route), route) << "seed " << seed;
+    EXPECT_TRUE(std::is_permutation(route.begin(), route.end(), begun.begin(), begun.end())) << "seed " << seed;
+  }
+}
+
+TEST(Route, ImprovingAFewOfThemIsNearlyAsShort) {
+  constexpr double kNearly = 1.05;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const RouteCosts costs = straight_lines({0.0, 0.0}, scattered(60, seed));
+    EXPECT_LE(route_cost(costs, short_route(costs, 12)), kNearly * route_cost(costs, short_route(costs)))
+        << "seed " << seed;
+  }
+}
+
 TEST(Route, MissingPlacesComeWhereTheyCostLeast) {
   const RouteCosts costs = straight_lines({0.0, 0.0}, {{1.0, 0.0}, {2.0, 0.1}, {3.0, 0.0}});
   EXPECT_EQ(with_all_places(costs, {0, 2}), (Route{0, 1, 2}));
