@@ -16,12 +16,12 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 }  // namespace
 
 CoarsePaths::CoarsePaths(const Grid<std::uint8_t>& floor)
-    : floor_(&floor), nodes_(floor.frame(), floor.width(), floor.height(), kNone) {
-  Node count = 0;
+    : nodes_(floor.frame(), floor.width(), floor.height(), kNone) {
+  Node last = kNone;
   for (std::size_t k = 0; k < floor.cells().size(); ++k) {
-    nodes_.cells()[k] = floor.cells()[k] != 0 ? count++ : kNone;
+    nodes_.cells()[k] = floor.cells()[k] != 0 ? ++last : kNone;
   }
-  beside_.resize(count);
+  beside_.resize(last + std::size_t{1});
   for (std::size_t k = 0; k < floor.cells().size(); ++k) {
     if (nodes_.cells()[k] == kNone) {
       continue;
@@ -75,7 +75,7 @@ std::vector<float> CoarsePaths::spread(Node start, const std::vector<Node>& targ
 }
 
 std::optional<CoarsePaths::Node> CoarsePaths::node_at(const Point2& p_map) const {
-  const auto cell = tour::nearest_cell(*floor_, p_map);
+  const auto cell = tour::nearest_cell(nodes_, p_map);
   return cell ? std::optional(nodes_[*cell]) : std::nullopt;
 }
 
@@ -99,7 +99,7 @@ std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, std::span<con
   for (std::size_t k = 0; k < to_map.size(); ++k) {
     if (nodes[k]) {
       // Two places in one cell are still apart.
-      const double path_m = floor_->frame().resolution_m * static_cast<double>(reached[*nodes[k]]);
+      const double path_m = nodes_.frame().resolution_m * static_cast<double>(reached[*nodes[k]]);
       lengths[k] = std::max(path_m, (to_map[k] - from_map).norm());
     }
   }

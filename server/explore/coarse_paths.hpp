@@ -14,7 +14,7 @@
 
 namespace seeker::explore {
 
-/// Path lengths on the coarse cells of FloorView::reachable; the grid must outlive this object.
+/// Path lengths on the coarse cells of FloorView::reachable.
 class CoarsePaths {
  public:
   explicit CoarsePaths(const Grid<std::uint8_t>& floor);
@@ -29,16 +29,15 @@ class CoarsePaths {
   static constexpr double kNoPath = std::numeric_limits<double>::infinity();
 
  private:
-  using Node = std::uint32_t;  ///< number of a cell of the floor
+  using Node = std::uint32_t;  ///< number of a cell of the floor, from 1 on
 
   /// Lengths in cells from one node to all; right for `targets` alone, since the search ends when it has reached them.
   [[nodiscard]] std::vector<float> spread(Node start, const std::vector<Node>& targets) const;
   [[nodiscard]] std::optional<Node> node_at(const Point2& p_map) const;
 
   static constexpr std::size_t kDirections = 8;  ///< the sides first, then the corners
-  static constexpr Node kNone = std::numeric_limits<Node>::max();
+  static constexpr Node kNone = 0;
 
-  const Grid<std::uint8_t>* floor_;
   Grid<Node> nodes_;                                   ///< kNone where there is no floor
   std::vector<std::array<Node, kDirections>> beside_;  ///< neighbours, by node
 };

@@ -78,20 +78,21 @@ class TourChooser final : public PlaceChooser {
   }
 
  private:
-  [[nodiscard]] tour::RouteCosts costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
-                                          const tour::Rooms& rooms) const;
+  [[nodiscard]] tour::RouteCosts costs_of(const PlaceInput& input, const CoarsePaths& paths,
+                                          const std::vector<TourPlace>& places, const tour::Rooms& rooms) const;
   [[nodiscard]] double rotation_m(double rotation_rad, double free_rad) const;
   [[nodiscard]] double detour_rotation_m(double rotation_rad) const {
     return rotation_m(rotation_rad, params_.tour.free_rotation_rad);
   }
-  [[nodiscard]] bool keep_own_share(const PlaceInput& input, Plan& plan);
+  [[nodiscard]] bool keep_own_share(const PlaceInput& input, const CoarsePaths& paths, Plan& plan);
   [[nodiscard]] tour::Route plan_route(const Plan& plan, const Opening* goal);
   [[nodiscard]] std::optional<Heading> heading_for(const Plan& plan, const Opening& goal) const;
   [[nodiscard]] tour::Route last_route(const Plan& plan) const;
   [[nodiscard]] tour::Route with_first(const Plan& plan, const tour::Route& route, std::size_t first) const;
-  [[nodiscard]] const TourPlace* on_the_way(const PlaceInput& input, const std::vector<TourPlace>& passing,
-                                            const TourPlace& next) const;
-  [[nodiscard]] std::optional<Point2> certain_place_before(const PlaceInput& input, const Opening& goal) const;
+  [[nodiscard]] const TourPlace* on_the_way(const PlaceInput& input, const CoarsePaths& paths,
+                                            const std::vector<TourPlace>& passing, const TourPlace& next) const;
+  [[nodiscard]] std::optional<Point2> certain_place_before(const PlaceInput& input, const CoarsePaths& paths,
+                                                           const Opening& goal) const;
   [[nodiscard]] ExploreDecision publish(const Plan& plan, const TourPlace& chosen, bool by_the_way) const;
 
   ExploreParams params_;
@@ -105,15 +106,14 @@ double TourChooser::rotation_m(double rotation_rad, double free_rad) const {
   return params_.tour.rotation_m_rad * std::max(0.0, rotation_rad - free_rad);
 }
 
-tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vector<TourPlace>& places,
-                                       const tour::Rooms& rooms) const {
+tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const CoarsePaths& paths,
+                                       const std::vector<TourPlace>& places, const tour::Rooms& rooms) const {
   std::vector<Point2> views;
   std::vector<double> beyond_m;
   for (const TourPlace& place : places) {
     views.push_back(place.seen_from_map);
     beyond_m.push_back(std::min(params_.tour.beyond_m, std::sqrt(place.gain_m2)));
   }
-  const CoarsePaths paths(input.floor.reachable);
   const auto leg = [&](double length_m, const std::vector<int>& passages, const TourPlace& to) {
     const int crossed = passages[to.room];
     const double doors = crossed == tour::Rooms::kUnreached ? 0 : std::min(crossed, kMostPassages);
@@ -148,8 +148,8 @@ tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const std::vecto
 }
 
 /// Leaves what other robots see to out of the plan. False: that is all of it, and the robot waits.
-bool TourChooser::keep_own_share(const PlaceInput& input, Plan& plan) {
-  const std::vector<std::size_t> own = own_share(input, plan.places, plan.costs.between);
+bool TourChooser::keep_own_share(const PlaceInput& input, const CoarsePaths& paths, Plan& plan) {
+  const std::vector<std::size_t> own = own_share(input, paths, plan.places, plan.costs.between);
   if (own.empty()) {
     without_share_since_ = without_share_since_.value_or(input.robot.now);
     const std::vector<RobotTopology>& others = input.robot.fleet->others;
@@ -242,8 +242,8 @@ tour::Route TourChooser::plan_route(const Plan& plan, const Opening* goal) {
 
 /// Of the openings that do not matter by themselves the one whose detour is the shortest for what it shows, if it is
 /// short enough.
-const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vector<TourPlace>& passing,
-                                         const TourPlace& next) const {
+const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const CoarsePaths& paths,
+                                         const std::vector<TourPlace>& passing, const TourPlace& next) const {
   std::vector<const TourPlace*> near;
   std::vector<Point2> places{next.opening.map_T_view.translation()};
   for (const TourPlace& place : passing) {
@@ -255,7 +255,6 @@ const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vec
   if (near.empty()) {
     return nullptr;
   }
-  const CoarsePaths paths(input.floor.reachable);
   const std::vector<double> from_here = paths.lengths_m(input.robot.map_T_base.translation(), places);
   const std::vector<double> to_next = paths.lengths_m(places.front(), places);
   const double direct_m = from_here.front() + detour_rotation_m(first_rotation_rad(input, next, true));
@@ -279,7 +278,8 @@ const TourPlace* TourChooser::on_the_way(const PlaceInput& input, const std::vec
 
 /// Where to pass on the way so that the position stays certain enough; nothing: the leg is certain enough by itself, or
 /// no place would help.
-std::optional<Point2> TourChooser::certain_place_before(const PlaceInput& input, const Opening& goal) const {
+std::optional<Point2> TourChooser::certain_place_before(const PlaceInput& input, const CoarsePaths& paths,
+                                                        const Opening& goal) const {
   const StrategyInput& robot = input.robot;
   const OneStepParams& one_step = params_.one_step;
   const double limit_m = params_.guard.max_position_sigma_m;
@@ -292,7 +292,6 @@ std::optional<Point2> TourChooser::certain_place_before(const PlaceInput& input,
     return std::nullopt;
   }
   const std::vector<Point2> certain = robot.trail->certain_places(params_.guard.regain_position_sigma_m);
-  const CoarsePaths paths(input.floor.reachable);
   const std::vector<double> there = paths.lengths_m(robot.map_T_base.translation(), certain);
   const std::vector<double> on = paths.lengths_m(goal.map_T_view.translation(), certain);
   std::optional<std::size_t> best;
@@ -317,8 +316,9 @@ PlaceChoice TourChooser::choose(const PlaceInput& input) {
   }
   Plan plan;
   plan.places = std::move(found.worth_it);
-  plan.costs = costs_of(input, plan.places, rooms);
-  if (!keep_own_share(input, plan)) {
+  const CoarsePaths paths(input.floor.reachable);
+  plan.costs = costs_of(input, paths, plan.places, rooms);
+  if (!keep_own_share(input, paths, plan)) {
     last_order_.clear();
     choice.others_busy = true;
     choice.decision.rule = "tour";
@@ -331,10 +331,10 @@ PlaceChoice TourChooser::choose(const PlaceInput& input) {
     last_order_.push_back(plan.places[k].ids);
   }
   const TourPlace& next = plan.places[plan.route.front()];
-  const TourPlace* by_the_way = on_the_way(input, found.passing, next);
+  const TourPlace* by_the_way = on_the_way(input, paths, found.passing, next);
   const TourPlace& chosen = by_the_way != nullptr ? *by_the_way : next;
   choice.opening = chosen.opening;
-  choice.via_map = certain_place_before(input, chosen.opening);
+  choice.via_map = certain_place_before(input, paths, chosen.opening);
   choice.decision = publish(plan, chosen, by_the_way != nullptr);
   if (choice.via_map) {
     choice.decision.why += ", by " + text(*choice.via_map) + ", where the position is certain";

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <string>
 
-#include "server/explore/coarse_paths.hpp"
 #include "server/tour/shares.hpp"
 
 namespace seeker::explore {
@@ -74,11 +73,10 @@ void keep_nearest(std::vector<Sharer>& robots) {
 
 }  // namespace
 
-std::vector<std::size_t> own_share(const PlaceInput& input, const std::vector<TourPlace>& places,
-                                   const Eigen::MatrixXd& between) {
+std::vector<std::size_t> own_share(const PlaceInput& input, const CoarsePaths& paths,
+                                   const std::vector<TourPlace>& places, const Eigen::MatrixXd& between) {
   std::vector<Sharer> robots;
   if (input.robot.fleet != nullptr) {
-    const CoarsePaths paths(input.floor.reachable);
     robots.push_back(self_of(input, paths, places));
     for (const RobotTopology& robot : input.robot.fleet->others) {
       if (robot.active) {

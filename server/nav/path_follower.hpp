@@ -121,7 +121,7 @@ class PathFollower {
   std::vector<double> arc_m_;  ///< arc length at each waypoint
   std::optional<double> final_heading_rad_;
   Twist2 command_;
-  double rolling_m_s_ = 0.0;  ///< speed of a base that was ordered `command_`: which brakes no harder than it can
+  double rolling_m_s_ = 0.0;  ///< speed of a base that is ordered `command_` and brakes as it can
   /// Farthest projection on the path so far, so that a path that crosses itself is followed completely.
   double reached_m_ = 0.0;
   /// Path length up to which the robot stays close to the path, because an obstacle had left no room to drive.
