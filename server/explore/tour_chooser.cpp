@@ -50,6 +50,13 @@ double first_rotation_rad(const PlaceInput& input, const TourPlace& place, bool 
   return std::abs(bearing_to(map_T_base, towards));
 }
 
+PlaceChoice nothing_left() {
+  PlaceChoice choice;
+  choice.decision.rule = "tour";
+  choice.decision.why = "what is left is too little to drive to";
+  return choice;
+}
+
 /// The tour of one decision.
 struct Plan {
   std::vector<TourPlace> places;
@@ -86,6 +93,7 @@ class TourChooser final : public PlaceChooser {
   }
   [[nodiscard]] bool keep_own_share(const PlaceInput& input, const CoarsePaths& paths, Plan& plan);
   [[nodiscard]] tour::Route plan_route(const Plan& plan, const Opening* goal);
+  [[nodiscard]] double worth_m(const TourPlace& place) const;
   [[nodiscard]] std::optional<Heading> heading_for(const Plan& plan, const Opening& goal) const;
   [[nodiscard]] tour::Route last_route(const Plan& plan) const;
   [[nodiscard]] tour::Route with_first(const Plan& plan, const tour::Route& route, std::size_t first) const;
@@ -140,6 +148,7 @@ tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const CoarsePath
   }
   if (input.robot.end_map) {
     costs.to_end = paths.expected_m(*input.robot.end_map, views);
+    costs.without_places_m = paths.expected_m(*input.robot.end_map, {&here, 1}).front();
     for (std::size_t k = 0; k < costs.to_end.size(); ++k) {
       costs.to_end[k] += beyond_m[k];
     }
@@ -304,15 +313,19 @@ std::optional<Point2> TourChooser::certain_place_before(const PlaceInput& input,
   return elsewhere ? std::optional(certain[*best]) : std::nullopt;
 }
 
+/// The detour that a place is worth. Behind a wide opening may lie more than the sensor shows of it, so that it is
+/// worth any.
+double TourChooser::worth_m(const TourPlace& place) const {
+  return place.gain_m2 < params_.tour.room_m2 ? params_.tour.detour_m_m2 * place.gain_m2 : kNever_m;
+}
+
 PlaceChoice TourChooser::choose(const PlaceInput& input) {
   const tour::Rooms rooms = rooms_of(input.floor, params_.tour.rooms);
   TourPlaces found = tour_places(input, rooms, params_);
   PlaceChoice choice;
   if (found.worth_it.empty()) {
     last_order_.clear();
-    choice.decision.rule = "tour";
-    choice.decision.why = "what is left is too little to drive to";
-    return choice;
+    return nothing_left();
   }
   Plan plan;
   plan.places = std::move(found.worth_it);
@@ -325,8 +338,14 @@ PlaceChoice TourChooser::choose(const PlaceInput& input) {
     choice.decision.why = "what is left is the share of other robots";
     return choice;
   }
-  plan.route = plan_route(plan, input.goal);
+  std::vector<double> worths_m;
+  std::transform(plan.places.begin(), plan.places.end(), std::back_inserter(worths_m),
+                 [this](const TourPlace& place) { return worth_m(place); });
+  plan.route = tour::profitable_route(plan.costs, plan_route(plan, input.goal), worths_m);
   last_order_.clear();
+  if (plan.route.empty()) {
+    return nothing_left();
+  }
   for (const std::size_t k : plan.route) {
     last_order_.push_back(plan.places[k].ids);
   }

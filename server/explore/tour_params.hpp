@@ -20,7 +20,12 @@ struct TourParams {
   /// So many times its length the first leg counts: what is near comes first where that makes no longer tour, since
   /// what is expected of the rest may change.
   double first_leg_weight = 1.3;
-  double beyond_m = 2.5;         ///< no border is expected to lead farther than this into the unknown
+  double beyond_m = 2.5;  ///< no border is expected to lead farther than this into the unknown
+  /// Walls are expected to go on so far beyond what was seen of them; less than a door is wide.
+  double expected_wall_m = 0.6;
+  /// Longest detour for every square metre of floor that a place is expected to show.
+  double detour_m_m2 = 10.0;
+  double room_m2 = 2.0;          ///< a place that is expected to show this much is worth any detour
   double passing_m = 0.1;        ///< longest detour for an opening that does not matter by itself
   double passing_wall = 0.6;     ///< so much longer it may be for every metre of a wall's unseen side
   double passing_near_m = 4.0;   ///< such openings count only this near to the robot

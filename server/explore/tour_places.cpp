@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "server/explore/expected_walls.hpp"
 #include "server/explore/view_gain.hpp"
 
 namespace seeker::explore {
@@ -45,11 +46,13 @@ TourPlaces tour_places(const PlaceInput& input, const tour::Rooms& rooms, const 
   const StrategyInput& robot = input.robot;
   const OpeningsInput scene{input.floor,          input.costs,      robot.segments,
                             robot.floors.areas(), robot.map_T_base, robot.now};
+  const Grid<std::uint8_t> walls = expected_walls(input.floor.cost, robot.segments, params.tour.expected_wall_m);
   TourPlaces places;
   for (const Opening& found : input.openings) {
     const bool border = found.kind == OpeningKind::kFrontier;
     const std::uint16_t room = rooms.at(found.p_map);
-    const double gain_m2 = border ? view_gain(input.floor.cost, found.p_map, params.one_step.sensor).area_m2 : 0.0;
+    const double gain_m2 =
+        border ? view_gain(input.floor.cost, found.p_map, params.one_step.sensor, &walls).area_m2 : 0.0;
     const bool worth_it = gain_m2 > params.viewpoints.min_gain_m2;
     std::vector<TourPlace>& list = worth_it ? places.worth_it : places.passing;
     const auto beside = std::find_if(list.begin(), list.end(), [&](const TourPlace& place) {

@@ -120,6 +120,7 @@ tour::RouteCosts costs_among(const tour::RouteCosts& costs, const std::vector<st
                                          static_cast<Eigen::Index>(places[static_cast<std::size_t>(b)]));
     }
   }
+  some.without_places_m = costs.without_places_m;
   return some;
 }
 

@@ -2,6 +2,9 @@
 /// Area of unknown floor that a place would show: the gain of a next best view.
 #pragma once
 
+#include <cstdint>
+
+#include "common/core/grid.hpp"
 #include "server/explore/one_step_params.hpp"
 #include "server/nav/cost_map.hpp"
 
@@ -13,8 +16,10 @@ struct ViewGain {
 };
 
 /// Casts rays over the occupancy, each ended by an obstacle or by the sensor's range. Behind a few metres of unknown
-/// floor a wall is expected, so that no further area counts. The sensor observes within its half angle around the
-/// heading, and the best heading is searched.
-[[nodiscard]] ViewGain view_gain(const nav::CostMap& map, const Point2& from_map, const SensorModel& sensor);
+/// floor a wall is expected, so that no further area counts; nor does what lies behind `walls`, cells on the grid of
+/// `map` (expected_walls.hpp). The sensor observes within its half angle around the heading, and the best heading is
+/// searched.
+[[nodiscard]] ViewGain view_gain(const nav::CostMap& map, const Point2& from_map, const SensorModel& sensor,
+                                 const Grid<std::uint8_t>* walls = nullptr);
 
 }  // namespace seeker::explore

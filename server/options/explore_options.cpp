@@ -103,6 +103,9 @@ void describe(config::Fields& f, TourParams& params) {
   f.angle_deg("aside_rotation_deg", params.aside_rotation_rad);
   f.field("first_leg_weight", params.first_leg_weight);
   f.field("beyond_m", params.beyond_m);
+  f.field("expected_wall_m", params.expected_wall_m);
+  f.field("detour_m_m2", params.detour_m_m2);
+  f.field("room_m2", params.room_m2);
   f.field("passing_m", params.passing_m);
   f.field("passing_wall", params.passing_wall);
   f.field("passing_near_m", params.passing_near_m);

@@ -137,13 +137,34 @@ Route nearest_neighbours(const RouteCosts& costs, std::size_t first) {
 
 double route_cost(const RouteCosts& costs, const Route& route) {
   if (route.empty()) {
-    return 0.0;
+    return costs.without_places_m;
   }
   double sum = costs.from_start[route.front()] + (costs.to_end.empty() ? 0.0 : costs.to_end[route.back()]);
   for (std::size_t k = 1; k < route.size(); ++k) {
     sum += costs.between(static_cast<Eigen::Index>(route[k - 1]), static_cast<Eigen::Index>(route[k]));
   }
   return sum;
+}
+
+Route profitable_route(const RouteCosts& costs, Route route, const std::vector<double>& worths_m) {
+  SEEKER_ASSERT(worths_m.size() == costs.places());
+  const auto excess_m = [&](std::size_t position) {
+    Route without = route;
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(position));
+    return route_cost(costs, route) - route_cost(costs, without) - worths_m[route[position]];
+  };
+  while (!route.empty()) {
+    std::vector<double> excesses_m;
+    for (std::size_t k = 0; k < route.size(); ++k) {
+      excesses_m.push_back(excess_m(k));
+    }
+    const auto worst = std::max_element(excesses_m.begin(), excesses_m.end());
+    if (*worst <= 0.0) {
+      break;
+    }
+    route.erase(route.begin() + (worst - excesses_m.begin()));
+  }
+  return route;
 }
 
 Route with_all_places(const RouteCosts& costs, Route route) {

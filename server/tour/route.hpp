@@ -17,6 +17,8 @@ struct RouteCosts {
   Eigen::MatrixXd between;         ///< leg from place to place: square, symmetric
   std::vector<double> to_end;      ///< last leg, by place; empty: the route ends at its last place
 
+  double without_places_m = 0.0;  ///< from the start to the end where there is no place in between
+
   [[nodiscard]] std::size_t places() const { return from_start.size(); }
 };
 
@@ -32,6 +34,10 @@ using Route = std::vector<std::size_t>;
 /// The route that 2-opt and or-opt (stretches of up to three places, in either direction) lead to from `route`: no
 /// single one of these changes makes it shorter. A route that is best already stays as it is.
 [[nodiscard]] Route improved_route(const RouteCosts& costs, const Route& route);
+
+/// The route without the places whose detour costs more than they are worth, left out one by one, the worst first;
+/// `worths_m` by place.
+[[nodiscard]] Route profitable_route(const RouteCosts& costs, Route route, const std::vector<double>& worths_m);
 
 /// A short route from nothing: nearest neighbours from every first place, of which the shortest `most_improved` are
 /// improved. It depends on its inputs alone.

@@ -352,6 +352,20 @@ TEST_F(TourDecision, WhatIsTooLittleIsTakenOnTheWayOnly) {
   EXPECT_EQ(passed.opening->id, 7U) << passed.decision.why;
 }
 
+TEST_F(TourDecision, ALittleFloorIsNotWorthALongDrive) {
+  ExploreParams params;
+  params.tour.room_m2 = 1000.0;
+  params.tour.detour_m_m2 = 0.1;
+  const std::vector<Opening> on_one_side{border_at({13.0, 5.0}, 1), border_at({15.0, 5.0}, 2)};
+  const PlaceChoice none = choose(*make_tour_chooser(params), on_one_side);
+  EXPECT_FALSE(none.opening.has_value()) << none.decision.why;
+  EXPECT_FALSE(none.others_busy);
+  params.tour.room_m2 = 1.0;  // what may be a room is worth any drive
+  const PlaceChoice room = choose(*make_tour_chooser(params), on_one_side);
+  ASSERT_TRUE(room.opening.has_value());
+  EXPECT_EQ(room.opening->id, 1U);
+}
+
 TEST_F(TourDecision, WhatIsTakenOnTheWayIsNotGivenUpForATurn) {
   const Opening end = wall_end_at({15.0, 5.3}, 7);
   const std::vector<Opening> open{end, border_at({19.0, 5.0}, 2)};

@@ -111,6 +111,39 @@ TEST(Route, MissingPlacesComeWhereTheyCostLeast) {
   EXPECT_EQ(with_all_places(costs, {}).size(), 3U);
 }
 
+TEST(Route, WhatCostsMoreThanItIsWorthIsLeftOut) {
+  // On the way, three metres beside it, and at its end.
+  const RouteCosts costs = straight_lines({0.0, 0.0}, {{5.0, 0.0}, {6.0, 3.0}, {10.0, 0.0}});
+  EXPECT_EQ(profitable_route(costs, {0, 1, 2}, {2.0, 2.0, 20.0}), (Route{0, 2}));
+  EXPECT_EQ(profitable_route(costs, {0, 1, 2}, {2.0, 4.0, 20.0}), (Route{0, 1, 2}));
+  EXPECT_EQ(profitable_route(costs, {0, 1, 2}, {2.0, 2.0, 3.0}), Route{}) << "without its end the rest is not worth it";
+}
+
+TEST(Route, TowardsItsEndOnlyTheDetourCounts) {
+  RouteCosts costs = straight_lines({0.0, 0.0}, {{1.0, 0.0}});
+  costs.to_end = {9.0};
+  costs.without_places_m = 10.0;
+  EXPECT_EQ(profitable_route(costs, {0}, {0.5}), Route{0});
+  EXPECT_DOUBLE_EQ(route_cost(costs, {}), 10.0);
+}
+
+TEST(Route, EveryPlaceThatIsKeptIsWorthItsDetour) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const RouteCosts costs = straight_lines({0.0, 0.0}, scattered(20, seed));
+    Rng rng(seed);
+    std::vector<double> worths_m;
+    for (std::size_t k = 0; k < costs.places(); ++k) {
+      worths_m.push_back(rng.uniform(0.0, 4.0));
+    }
+    const Route kept = profitable_route(costs, short_route(costs), worths_m);
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      Route without = kept;
+      without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
+      EXPECT_LE(route_cost(costs, kept) - route_cost(costs, without), worths_m[kept[k]] + 1e-9) << "seed " << seed;
+    }
+  }
+}
+
 TEST(Route, OfNothingIsEmpty) {
   const RouteCosts none = straight_lines({0.0, 0.0}, {});
   EXPECT_TRUE(short_route(none).empty());
