@@ -1,10 +1,14 @@
 /// \file
-/// Time of one decision of the one-step rule (spec S1.11) with N segments in the map: rooms of 4 x 4 m in rows, all of
-/// them in one filter. What is in view stays the same, so that the growth with N is what a larger building costs.
+/// Time of one decision with N segments in the map, rooms of 4 x 4 m in rows. Of the one-step rule (spec S1.11): all of
+/// them are in one filter; what is in view stays the same, so that the growth with N is what a larger building costs.
+/// Of the tour: every second room was looked at from its middle, so that the tour leads to half of the rooms.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <benchmark/benchmark.h>
 
+#include "server/explore/make_strategy.hpp"
 #include "server/explore/one_step.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/slam/sp_map.hpp"
@@ -82,6 +86,63 @@ nav::OccupancyMap floor_of_first_room() {
   return map;
 }
 
+/// Distance from p to the wall along the direction; infinite where it passes the wall.
+double distance_along_m(const MapSegment& wall, const Point2& p, const Point2& direction) {
+  const Point2 left = wall.left();
+  const Point2 along = wall.right() - left;
+  const double cross = direction.x() * along.y() - direction.y() * along.x();
+  const Point2 to = left - p;
+  const double range_m = (to.x() * along.y() - to.y() * along.x()) / cross;
+  const double share = (to.x() * direction.y() - to.y() * direction.x()) / cross;
+  const bool hit = std::abs(cross) > 1e-9 && range_m > 0.0 && share >= 0.0 && share <= 1.0;
+  return hit ? range_m : std::numeric_limits<double>::infinity();
+}
+
+/// The floor that a robot knows that has looked round in the middle of every second room.
+nav::OccupancyMap floor_of_every_second_room(const std::vector<MapSegment>& walls) {
+  nav::OccupancyMap map;
+  for (std::size_t room = 0; room * kPerRoom < walls.size(); ++room) {
+    const Pose2 pose{kRoom_m * static_cast<double>(room % kPerRow), kRoom_m * static_cast<double>(room / kPerRow), 0.0};
+    if ((room % kPerRow + room / kPerRow) % 2 != 0) {
+      continue;
+    }
+    LaserScan scan;
+    scan.angle_min_rad = -kPi;
+    scan.angle_step_rad = deg_to_rad(0.5);
+    scan.range_max_m = 8.0;
+    for (std::size_t k = 0; k < 720; ++k) {
+      const Point2 direction(std::cos(scan.angle_rad(k)), std::sin(scan.angle_rad(k)));
+      double range_m = std::numeric_limits<double>::infinity();
+      for (const MapSegment& wall : walls) {
+        range_m = std::min(range_m, distance_along_m(wall, pose.translation(), direction));
+      }
+      scan.ranges_m.push_back(range_m <= scan.range_max_m ? static_cast<float>(range_m) : kNoReturn);
+    }
+    for (int k = 0; k < 5; ++k) {
+      (void)map.integrate(scan, pose);
+    }
+  }
+  return map;
+}
+
+/// The first decision of an exploration: floor, openings and tour from nothing.
+void decide_tour(benchmark::State& state) {
+  const std::vector<MapSegment> segments = rooms(static_cast<std::size_t>(state.range(0)));
+  const nav::OccupancyMap map = floor_of_every_second_room(segments);
+  const Pose2 pose{0.3, 0.2, 0.4};
+  double places = 0.0;
+  for (auto _ : state) {
+    nav::FloorSource floors({}, {}, 0.2, 1.0);
+    floors.attend(map, pose, {});
+    const explore::StrategyInput input{
+        {{}, pose, nullptr, nullptr, floors}, {}, 1e-6 * Matrix3::Identity(), segments, 1, {}};
+    const auto strategy = explore::make_strategy(explore::Strategy::kTour, {});
+    const explore::StrategyStep step = strategy->step(input);
+    places = step.decision ? static_cast<double>(step.decision->candidates.size()) : 0.0;
+  }
+  state.counters["places"] = places;
+}
+
 void decide(benchmark::State& state) {
   const std::vector<MapSegment> segments = rooms(static_cast<std::size_t>(state.range(0)));
   const slam::SpMap filter = filter_of(segments);
@@ -99,6 +160,8 @@ void decide(benchmark::State& state) {
 }
 
 BENCHMARK(decide)->ArgsProduct({{50, 200, 800}, {0, 1}})->ArgNames({"N", "floor"})->Unit(benchmark::kMillisecond);
+
+BENCHMARK(decide_tour)->Arg(50)->Arg(200)->Arg(800)->ArgName("N")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
