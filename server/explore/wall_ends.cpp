@@ -39,7 +39,9 @@ std::vector<MappedSide> sides_near(const std::vector<MapSegment>& segments, cons
     }
   };
   for (const MapSegment& other : segments) {
-    if (other.id != self.id) {
+    // Most are so far away that their ends need not be known.
+    const double middle_m = (other.map_T_segment.translation() - p_map).norm();
+    if (other.id != self.id && middle_m < 0.5 * other.length_m + reach_m + kMeet_m) {
       add({other.left(), other.right()});
     }
   }

@@ -34,13 +34,18 @@ MapSegment piece(std::size_t id, const Pose2& map_T_wall, double from_m, double 
   return segment;
 }
 
+Pose2 middle_of(std::size_t room) {
+  const std::size_t column = room % kPerRow;
+  const std::size_t row = room / kPerRow;
+  return {kRoom_m * static_cast<double>(column), kRoom_m * static_cast<double>(row), 0.0};
+}
+
 std::vector<MapSegment> rooms(std::size_t count) {
   std::vector<MapSegment> segments;
   segments.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t room = k / kPerRoom;
-    const Pose2 middle{kRoom_m * static_cast<double>(room % kPerRow), kRoom_m * static_cast<double>(room / kPerRow),
-                       0.5 * kPi * static_cast<double>((k % kPerRoom) / 2)};
+    const std::size_t side = (k % kPerRoom) / 2;
+    const Pose2 middle = middle_of(k / kPerRoom) * Pose2{0.0, 0.0, 0.5 * kPi * static_cast<double>(side)};
     const Pose2 wall = middle * Pose2{0.0, 0.5 * kRoom_m - 0.05, 0.0};
     segments.push_back(k % 2 == 0 ? piece(k + 1, wall, -1.9, -0.5, true) : piece(k + 1, wall, 0.5, 1.9, false));
   }
@@ -102,7 +107,7 @@ double distance_along_m(const MapSegment& wall, const Point2& p, const Point2& d
 nav::OccupancyMap floor_of_every_second_room(const std::vector<MapSegment>& walls) {
   nav::OccupancyMap map;
   for (std::size_t room = 0; room * kPerRoom < walls.size(); ++room) {
-    const Pose2 pose{kRoom_m * static_cast<double>(room % kPerRow), kRoom_m * static_cast<double>(room / kPerRow), 0.0};
+    const Pose2 pose = middle_of(room);
     if ((room % kPerRow + room / kPerRow) % 2 != 0) {
       continue;
     }
