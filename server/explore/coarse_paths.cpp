@@ -9,36 +9,33 @@
 namespace seeker::explore {
 namespace {
 
-constexpr std::array<CellIndex, 8> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 constexpr std::size_t kSides = 4;
 constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kNoFloor = -1.0F;  ///< shorter than any path, so that no search enters
 
 }  // namespace
 
 CoarsePaths::CoarsePaths(const Grid<std::uint8_t>& floor)
-    : nodes_(floor.frame(), floor.width(), floor.height(), kNone) {
-  Node last = kNone;
+    : floor_(floor),
+      unreached_(static_cast<std::size_t>(floor.width() + 2) * static_cast<std::size_t>(floor.height() + 2), kNoFloor) {
   for (std::size_t k = 0; k < floor.cells().size(); ++k) {
-    nodes_.cells()[k] = floor.cells()[k] != 0 ? ++last : kNone;
-  }
-  beside_.resize(last + std::size_t{1});
-  for (std::size_t k = 0; k < floor.cells().size(); ++k) {
-    if (nodes_.cells()[k] == kNone) {
-      continue;
-    }
-    const CellIndex cell = nodes_.cell(k);
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      const CellIndex next{cell.i + kSteps[d].i, cell.j + kSteps[d].j};
-      beside_[nodes_.cells()[k]][d] = nodes_.contains(next) ? nodes_[next] : kNone;
+    if (floor.cells()[k] != 0) {
+      unreached_[node_of(floor.cell(k))] = kFar;
     }
   }
+  const int row = floor.width() + 2;
+  beside_ = {1, -1, row, -row, row + 1, row - 1, 1 - row, -row - 1};
+}
+
+CoarsePaths::Node CoarsePaths::node_of(CellIndex cell) const {
+  return static_cast<Node>(cell.j + 1) * static_cast<Node>(floor_.width() + 2) + static_cast<Node>(cell.i + 1);
 }
 
 /// Dijkstra whose queue are buckets one cell wide: no step is shorter, so that all of a bucket is final when the search
 /// comes to it, and none is longer than two, so that three buckets are enough.
 std::vector<float> CoarsePaths::spread(Node start, const std::vector<Node>& targets) const {
-  std::vector<float> lengths(beside_.size(), kFar);
-  std::vector<std::uint8_t> state(beside_.size(), 0);
+  std::vector<float> lengths = unreached_;
+  std::vector<std::uint8_t> state(lengths.size(), 0);
   constexpr std::uint8_t kTarget = 1;
   constexpr std::uint8_t kSettled = 2;
   std::size_t left = 0;
@@ -58,9 +55,9 @@ std::vector<float> CoarsePaths::spread(Node start, const std::vector<Node>& targ
       left -= state[node] == kTarget ? 1 : 0;
       state[node] = kSettled;
       for (std::size_t d = 0; d < kDirections; ++d) {
-        const Node next = beside_[node][d];
+        const Node next = node + static_cast<Node>(beside_[d]);
         const float longer = lengths[node] + (d < kSides ? 1.0F : std::numbers::sqrt2_v<float>);
-        if (next != kNone && longer < lengths[next]) {
+        if (longer < lengths[next]) {
           lengths[next] = longer;
           buckets[static_cast<std::size_t>(longer) % buckets.size()].push_back(next);
         }
@@ -75,8 +72,8 @@ std::vector<float> CoarsePaths::spread(Node start, const std::vector<Node>& targ
 }
 
 std::optional<CoarsePaths::Node> CoarsePaths::node_at(const Point2& p_map) const {
-  const auto cell = tour::nearest_cell(nodes_, p_map);
-  return cell ? std::optional(nodes_[*cell]) : std::nullopt;
+  const auto cell = tour::nearest_cell(floor_, p_map);
+  return cell ? std::optional(node_of(*cell)) : std::nullopt;
 }
 
 std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, std::span<const Point2> to_map) const {
@@ -99,7 +96,7 @@ std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, std::span<con
   for (std::size_t k = 0; k < to_map.size(); ++k) {
     if (nodes[k]) {
       // Two places in one cell are still apart.
-      const double path_m = nodes_.frame().resolution_m * static_cast<double>(reached[*nodes[k]]);
+      const double path_m = floor_.frame().resolution_m * static_cast<double>(reached[*nodes[k]]);
       lengths[k] = std::max(path_m, (to_map[k] - from_map).norm());
     }
   }

@@ -29,17 +29,18 @@ class CoarsePaths {
   static constexpr double kNoPath = std::numeric_limits<double>::infinity();
 
  private:
-  using Node = std::uint32_t;  ///< number of a cell of the floor, from 1 on
+  using Node = std::uint32_t;  ///< number of a cell of the floor with a margin of one cell around it
 
   /// Lengths in cells from one node to all; right for `targets` alone, since the search ends when it has reached them.
   [[nodiscard]] std::vector<float> spread(Node start, const std::vector<Node>& targets) const;
+  [[nodiscard]] Node node_of(CellIndex cell) const;
   [[nodiscard]] std::optional<Node> node_at(const Point2& p_map) const;
 
   static constexpr std::size_t kDirections = 8;  ///< the sides first, then the corners
-  static constexpr Node kNone = 0;
 
-  Grid<Node> nodes_;                                   ///< kNone where there is no floor
-  std::vector<std::array<Node, kDirections>> beside_;  ///< neighbours, by node
+  Grid<std::uint8_t> floor_;
+  std::vector<float> unreached_;              ///< the lengths, by node, before a search
+  std::array<int, kDirections> beside_ = {};  ///< from a node to its neighbours
 };
 
 }  // namespace seeker::explore
