@@ -148,15 +148,13 @@ double route_cost(const RouteCosts& costs, const Route& route) {
 
 Route profitable_route(const RouteCosts& costs, Route route, const std::vector<double>& worths_m) {
   SEEKER_ASSERT(worths_m.size() == costs.places());
-  const auto excess_m = [&](std::size_t position) {
-    Route without = route;
-    without.erase(without.begin() + static_cast<std::ptrdiff_t>(position));
-    return route_cost(costs, route) - route_cost(costs, without) - worths_m[route[position]];
-  };
   while (!route.empty()) {
+    const double all_m = route_cost(costs, route);
     std::vector<double> excesses_m;
     for (std::size_t k = 0; k < route.size(); ++k) {
-      excesses_m.push_back(excess_m(k));
+      Route without = route;
+      without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
+      excesses_m.push_back(all_m - route_cost(costs, without) - worths_m[route[k]]);
     }
     const auto worst = std::max_element(excesses_m.begin(), excesses_m.end());
     if (*worst <= 0.0) {
