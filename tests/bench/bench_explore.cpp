@@ -4,7 +4,7 @@
 /// Of the tour: every second room was looked at from its middle, so that the tour leads to half of the rooms.
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 
 #include <benchmark/benchmark.h>
 
@@ -12,6 +12,7 @@
 #include "server/explore/one_step.hpp"
 #include "server/nav/occupancy_map.hpp"
 #include "server/slam/sp_map.hpp"
+#include "tests/support/toy_world.hpp"
 
 namespace {
 
@@ -91,22 +92,14 @@ nav::OccupancyMap floor_of_first_room() {
   return map;
 }
 
-/// Distance from p to the wall along the direction; infinite where it passes the wall.
-double distance_along_m(const MapSegment& wall, const Point2& p, const Point2& direction) {
-  const Point2 left = wall.left();
-  const Point2 along = wall.right() - left;
-  const double cross = direction.x() * along.y() - direction.y() * along.x();
-  const Point2 to = left - p;
-  const double range_m = (to.x() * along.y() - to.y() * along.x()) / cross;
-  const double share = (to.x() * direction.y() - to.y() * direction.x()) / cross;
-  const bool hit = std::abs(cross) > 1e-9 && range_m > 0.0 && share >= 0.0 && share <= 1.0;
-  return hit ? range_m : std::numeric_limits<double>::infinity();
-}
-
 /// The floor that a robot knows that has looked round in the middle of every second room.
-nav::OccupancyMap floor_of_every_second_room(const std::vector<MapSegment>& walls) {
+nav::OccupancyMap floor_of_every_second_room(const std::vector<MapSegment>& segments) {
+  std::vector<testing::Wall> walls;
+  std::transform(segments.begin(), segments.end(), std::back_inserter(walls), [](const MapSegment& segment) {
+    return testing::Wall{segment.left(), segment.right()};
+  });
   nav::OccupancyMap map;
-  for (std::size_t room = 0; room * kPerRoom < walls.size(); ++room) {
+  for (std::size_t room = 0; room * kPerRoom < segments.size(); ++room) {
     const Pose2 pose = middle_of(room);
     if ((room % kPerRow + room / kPerRow) % 2 != 0) {
       continue;
@@ -117,11 +110,8 @@ nav::OccupancyMap floor_of_every_second_room(const std::vector<MapSegment>& wall
     scan.range_max_m = 8.0;
     for (std::size_t k = 0; k < 720; ++k) {
       const Point2 direction(std::cos(scan.angle_rad(k)), std::sin(scan.angle_rad(k)));
-      double range_m = std::numeric_limits<double>::infinity();
-      for (const MapSegment& wall : walls) {
-        range_m = std::min(range_m, distance_along_m(wall, pose.translation(), direction));
-      }
-      scan.ranges_m.push_back(range_m <= scan.range_max_m ? static_cast<float>(range_m) : kNoReturn);
+      const double range_m = testing::ray_to_walls(walls, pose.translation(), direction, scan.range_max_m);
+      scan.ranges_m.push_back(range_m < scan.range_max_m ? static_cast<float>(range_m) : kNoReturn);
     }
     for (int k = 0; k < 5; ++k) {
       (void)map.integrate(scan, pose);
