@@ -93,9 +93,7 @@ Result<PlaceStrategy::Survey> PlaceStrategy::survey(const StrategyInput& input, 
                       input.map_T_base,
                       input.now,
                       chooser_->wants_wall_ends()};
-  if (input.fleet != nullptr && input.fleet->sides != nullptr) {
-    scene.others_sides = *input.fleet->sides;
-  }
+  scene.others_sides = input.others_sides();
   for (Opening& opening : openings_.find(scene)) {
     if (opening.resting) {
       found.resting = true;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ struct StrategyInput : nav::DriveInput {
   /// Where the robot drives once nothing is left to explore, frame `map`; nothing: it stays where it is then.
   std::optional<Point2> end_map = std::nullopt;
   const Trail* trail = nullptr;  ///< where the robot was during this exploration, and how certain; null: not recorded
+
+  /// Sides of walls that other robots have mapped, frame `map`.
+  [[nodiscard]] std::span<const MappedSide> others_sides() const {
+    return fleet != nullptr && fleet->sides != nullptr ? std::span<const MappedSide>(*fleet->sides)
+                                                       : std::span<const MappedSide>();
+  }
 };
 
 struct StrategyStep {

@@ -46,7 +46,8 @@ TourPlaces tour_places(const PlaceInput& input, const tour::Rooms& rooms, const 
   const StrategyInput& robot = input.robot;
   const OpeningsInput scene{input.floor,          input.costs,      robot.segments,
                             robot.floors.areas(), robot.map_T_base, robot.now};
-  const Grid<std::uint8_t> walls = expected_walls(input.floor.cost, robot.segments, params.tour.expected_wall_m);
+  const Grid<std::uint8_t> walls =
+      expected_walls(input.floor.cost, robot.segments, params.tour.expected_wall_m, robot.others_sides());
   TourPlaces places;
   for (const Opening& found : input.openings) {
     const bool border = found.kind == OpeningKind::kFrontier;

@@ -51,6 +51,17 @@ TEST(ExpectedWalls, EndAtCornersAndAtFreeFloor) {
   EXPECT_FALSE(is_wall(into_floor, {3.7, 1.55}));
 }
 
+TEST(ExpectedWalls, AreAlsoThoseOfOtherRobots) {
+  const nav::CostMap map = floor_with_unknown_around();
+  const std::vector<MappedSide> theirs{
+      {{1.0, 3.05}, {3.0, 3.05}}, {{4.5, 1.55}, {4.2, 1.55}}, {{2.0, 4.0}, {2.0, 4.0}}};
+  const auto walls = expected_walls(map, {}, kLongest_m, theirs);
+  EXPECT_TRUE(is_wall(walls, {2.0, 3.05}));
+  EXPECT_TRUE(is_wall(walls, {3.5, 3.05}));
+  EXPECT_FALSE(is_wall(walls, {3.7, 1.55})) << "free floor";
+  EXPECT_FALSE(is_wall(walls, {2.0, 4.0})) << "a side without length";
+}
+
 TEST(ExpectedWalls, OutsideOfTheMapAreNone) {
   const nav::CostMap map = floor_with_unknown_around();
   const auto walls = expected_walls(map, {test::wall({-3.0, -1.0}, {9.0, -1.0})}, kLongest_m);
