@@ -33,27 +33,17 @@ CoarsePaths::Node CoarsePaths::node_of(CellIndex cell) const {
 
 /// Dijkstra whose queue are buckets one cell wide: no step is shorter, so that all of a bucket is final when the search
 /// comes to it, and none is longer than two, so that three buckets are enough.
-std::vector<float> CoarsePaths::spread(Node start, const std::vector<Node>& targets) const {
+std::vector<float> CoarsePaths::spread(Node start, std::vector<Node> targets) const {
   std::vector<float> lengths = unreached_;
-  std::vector<std::uint8_t> state(lengths.size(), 0);
-  constexpr std::uint8_t kTarget = 1;
-  constexpr std::uint8_t kSettled = 2;
-  std::size_t left = 0;
-  for (const Node target : targets) {
-    left += state[target] == 0 ? 1 : 0;
-    state[target] = kTarget;
-  }
   std::array<std::vector<Node>, 3> buckets;
   lengths[start] = 0.0F;
   buckets[0].push_back(start);
-  for (std::size_t at = 0; left > 0; ++at) {
+  for (std::size_t at = 0; !targets.empty(); ++at) {
     std::vector<Node>& now = buckets[at % buckets.size()];
     for (const Node node : now) {
-      if (state[node] == kSettled) {
-        continue;
+      if (static_cast<std::size_t>(lengths[node]) != at) {
+        continue;  // a shorter path was found after this entry was queued
       }
-      left -= state[node] == kTarget ? 1 : 0;
-      state[node] = kSettled;
       for (std::size_t d = 0; d < kDirections; ++d) {
         const Node next = node + static_cast<Node>(beside_[d]);
         const float longer = lengths[node] + (d < kSides ? 1.0F : std::numbers::sqrt2_v<float>);
@@ -64,6 +54,7 @@ std::vector<float> CoarsePaths::spread(Node start, const std::vector<Node>& targ
       }
     }
     now.clear();
+    std::erase_if(targets, [&](Node target) { return lengths[target] < static_cast<float>(at + 1); });
     if (std::all_of(buckets.begin(), buckets.end(), [](const auto& bucket) { return bucket.empty(); })) {
       break;
     }
@@ -92,7 +83,7 @@ std::vector<double> CoarsePaths::lengths_m(const Point2& from_map, std::span<con
       targets.push_back(*nodes.back());
     }
   }
-  const std::vector<float> reached = spread(*start, targets);
+  const std::vector<float> reached = spread(*start, std::move(targets));
   for (std::size_t k = 0; k < to_map.size(); ++k) {
     if (nodes[k]) {
       // Two places in one cell are still apart.

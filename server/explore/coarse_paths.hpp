@@ -32,7 +32,7 @@ class CoarsePaths {
   using Node = std::uint32_t;  ///< number of a cell of the floor with a margin of one cell around it
 
   /// Lengths in cells from one node to all; right for `targets` alone, since the search ends when it has reached them.
-  [[nodiscard]] std::vector<float> spread(Node start, const std::vector<Node>& targets) const;
+  [[nodiscard]] std::vector<float> spread(Node start, std::vector<Node> targets) const;
   [[nodiscard]] Node node_of(CellIndex cell) const;
   [[nodiscard]] std::optional<Node> node_at(const Point2& p_map) const;
 

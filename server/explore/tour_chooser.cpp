@@ -138,10 +138,11 @@ tour::RouteCosts TourChooser::costs_of(const PlaceInput& input, const CoarsePath
     const double rotation_rad = first_rotation_rad(input, places[a], a < kKnownTurns);
     costs.from_start.push_back(params_.tour.first_leg_weight * leg(first_m, passages_here, places[a]) + beyond_m[a] +
                                rotation_m(rotation_rad, params_.tour.aside_rotation_rad));
-    const std::vector<double> lengths = paths.expected_m(views[a], std::span<const Point2>(views).subspan(a));
+    // The places before it are nearer to the robot, so that the search for them ends soon.
+    const std::vector<double> lengths = paths.expected_m(views[a], std::span<const Point2>(views).first(a));
     const std::vector<int> passages = rooms.passages_from(places[a].room);
-    for (std::size_t b = a + 1; b < places.size(); ++b) {
-      const double cost = leg(lengths[b - a], passages, places[b]) + beyond_m[a] + beyond_m[b];
+    for (std::size_t b = 0; b < a; ++b) {
+      const double cost = leg(lengths[b], passages, places[b]) + beyond_m[a] + beyond_m[b];
       costs.between(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = cost;
       costs.between(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)) = cost;
     }

@@ -25,6 +25,8 @@ struct Direction {
   float length;  ///< in cells
 };
 constexpr float kDiagonal = std::numbers::sqrt2_v<float>;
+constexpr std::size_t kSides = 4;
+/// The sides first, then the corners, each between the side of its number and the next one.
 constexpr std::array<Direction, 8> kDirections{{{1, 0, 1.0F},
                                                 {0, 1, 1.0F},
                                                 {-1, 0, 1.0F},
@@ -89,42 +91,47 @@ struct Search {
         goal_(goal),
         open_(map.frame().resolution_m) {
     costs[start] = 0.0F;
-    push(start);
+    push(costs.index(start));
     while (const auto entry = open_.pop()) {
-      const CellIndex cell = costs.cell(entry->second);
-      if (entry->first > costs[cell] + heuristic(cell)) {
+      if (entry->first > costs.cells()[entry->second] + heuristic(entry->second)) {
         continue;  // a cheaper way was found after this entry was queued
       }
       if (goal_ && costs[*goal_] < open_.taken_below()) {
         return;
       }
-      expand(cell);
+      expand(costs.cell(entry->second));
     }
   }
 
  private:
-  [[nodiscard]] float heuristic(CellIndex cell) const {
-    return goal_ ? octile_m(cell, *goal_, map_.frame().resolution_m) : 0.0F;
+  [[nodiscard]] float heuristic(std::size_t index) const {
+    return goal_ ? octile_m(costs.cell(index), *goal_, map_.frame().resolution_m) : 0.0F;
   }
-  void push(CellIndex cell) { open_.push(costs[cell] + heuristic(cell), costs.index(cell)); }
+  void push(std::size_t index) { open_.push(costs.cells()[index] + heuristic(index), index); }
 
+  /// A diagonal step is left out where it would cut the corner of a cell that cannot be entered.
   void expand(CellIndex cell) {
+    const std::size_t index = costs.index(cell);
     const float here = map_.cost(cell);
     const auto half_cell_m = static_cast<float>(map_.frame().resolution_m / 2.0);
+    std::array<float, kSides> beside{};
     for (std::size_t d = 0; d < kDirections.size(); ++d) {
       const auto& [di, dj, length] = kDirections[d];
-      const CellIndex next{cell.i + di, cell.j + dj};
-      const float there = map_.cost(next);
-      const bool cuts_corner =
-          di != 0 && dj != 0 &&
-          !(map_.traversable(CellIndex{cell.i + di, cell.j}) && map_.traversable(CellIndex{cell.i, cell.j + dj}));
-      if (there <= 0.0F || cuts_corner) {
+      if (d >= kSides && (beside[d - kSides] <= 0.0F || beside[(d + 1) % kSides] <= 0.0F)) {
         continue;
       }
-      const float cost = costs[cell] + half_cell_m * length * (here + there);
-      if (cost < costs[next]) {
-        costs[next] = cost;
-        parent[next] = static_cast<std::uint8_t>(d);
+      const float there = map_.cost({cell.i + di, cell.j + dj});
+      if (d < kSides) {
+        beside[d] = there;
+      }
+      if (there <= 0.0F) {
+        continue;
+      }
+      const std::size_t next = index + static_cast<std::size_t>(dj * costs.width() + di);
+      const float cost = costs.cells()[index] + half_cell_m * length * (here + there);
+      if (cost < costs.cells()[next]) {
+        costs.cells()[next] = cost;
+        parent.cells()[next] = static_cast<std::uint8_t>(d);
         push(next);
       }
     }
