@@ -68,6 +68,8 @@ Status check_matching(const LocaliserParams& p) {
                    {"relocalise.gate_chi2", p.relocalise.gate_chi2, kLeast},
                    {"relocalise.height_tolerance_m", p.relocalise.height_tolerance_m, 0.0},
                    {"relocalise.min_inliers", static_cast<double>(p.relocalise.min_inliers), 3.0},
+                   {"relocalise.guess_inliers", static_cast<double>(p.relocalise.guess_inliers), 3.0},
+                   {"relocalise.guess_share", p.relocalise.guess_share, 0.0},
                    {"relocalise.min_likeness", p.relocalise.min_likeness, 0.0},
                    {"relocalise.many_inliers", static_cast<double>(p.relocalise.many_inliers), 3.0},
                    {"relocalise.many_share", p.relocalise.many_share, 0.0},

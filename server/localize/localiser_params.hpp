@@ -58,7 +58,11 @@ struct RelocaliseParams {
   double rival_m = 0.5;                 ///< poses farther apart than this are different
   double rival_rad = deg_to_rad(10.0);  ///< and poses with a larger difference in heading
   double max_sigma_m = 0.25;  ///< largest standard deviation of a pose, with all matches and without any single one
-  double confirm_m = 0.3;     ///< largest difference from the pose that a second frame finds independently
+  /// So many matches that agree, if no other place has nearly as many, are a guess: too few to believe, but the next
+  /// frame may prove it by showing this share of the landmarks that are expected there.
+  int guess_inliers = 5;
+  double guess_share = 0.25;
+  double confirm_m = 0.3;  ///< largest difference from the pose that a second frame finds independently
   double confirm_rad = deg_to_rad(4.0);
 
   friend bool operator==(const RelocaliseParams&, const RelocaliseParams&) = default;

@@ -23,7 +23,7 @@ enum class RelocaliseVerdict : std::uint8_t {
 struct RelocaliseAnswer {
   RelocaliseVerdict verdict = RelocaliseVerdict::kNothing;
   std::string reason;            ///< one sentence with the evidence
-  EyeBelief belief;              ///< best pose; only valid for kFound
+  EyeBelief belief;              ///< best pose, of the inliers; to be believed for kFound alone
   std::vector<Pairing> inliers;  ///< points are indices of the lifted features
   int candidates = 0;            ///< number of matches that voted
   double likeness = 0.0;         ///< sum over the inliers, RelocaliseParams::min_likeness

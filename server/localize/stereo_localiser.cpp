@@ -34,9 +34,20 @@ Status check_database(const StereoGeometry& geometry, const LandmarkDatabase& da
   return {};
 }
 
+bool is_guess(const RelocaliseAnswer& answer, const RelocaliseParams& params) {
+  const auto inliers = static_cast<int>(answer.inliers.size());
+  return inliers >= params.guess_inliers && inliers >= params.min_lead * answer.rival_inliers;
+}
+
 }  // namespace
 
 struct StereoLocaliser::State {
+  /// A place that the whole database was asked for.
+  struct FoundPlace {
+    EyeBelief at;
+    bool guessed = false;  ///< by too few matches to believe it
+  };
+
   StereoGeometry geometry;
   LocaliserParams params;
   LandmarkMap map;
@@ -44,7 +55,7 @@ struct StereoLocaliser::State {
   EyeBelief belief;
   bool somewhere = false;                       ///< the belief is valid: LOCALISED, DEGRADED or just LOST
   EyeBelief moved;                              ///< by odometry since the last frame, in the frame of the eye then
-  std::optional<EyeBelief> found;               ///< by relocalisation, to be confirmed by another frame
+  std::optional<FoundPlace> found;              ///< to be confirmed by another frame
   std::unordered_map<LandmarkId, int> repeats;  ///< updates that each landmark took part in
   LocaliserStep step;
 
@@ -165,15 +176,17 @@ void StereoLocaliser::State::track(std::span<const vision::StereoFeature> featur
 }
 
 /// Whether the frame shows what it should from the place that an earlier one found: that asks for much less than to
-/// find it once more. A frame that shows plenty, and not that, speaks against the place; one that shows little says
-/// nothing.
+/// find it once more. Of a guess it asks for a share of all that is expected, since some of it is met anywhere. A frame
+/// that shows plenty, and not that, speaks against the place; one that shows little says nothing.
 bool StereoLocaliser::State::confirm(std::span<const vision::StereoFeature> features,
                                      std::span<const EyeFeature> lifted) {
-  const EyeBelief aside = std::exchange(belief, *found);
+  const EyeBelief aside = std::exchange(belief, found->at);
   const auto repeats_aside = std::exchange(repeats, {});
   look(features, lifted);
   const auto seen = static_cast<int>(step.inliers.size());
-  if (step.corrected && seen >= params.confidence.min_inliers) {
+  const double needed =
+      found->guessed ? params.relocalise.guess_share * static_cast<double>(step.expected.size()) : 0.0;
+  if (step.corrected && seen >= params.confidence.min_inliers && seen >= needed) {
     begin(EyeBelief(belief));
     step.relocalised = true;
     judge({true, {}, step.in_range, 0, seen, step.nis});
@@ -196,7 +209,7 @@ bool StereoLocaliser::State::confirm(std::span<const vision::StereoFeature> feat
 /// Asks the whole database; a place that two frames agree on is where the robot is.
 void StereoLocaliser::State::search(std::span<const vision::StereoFeature> features, std::span<const EyeFeature> lifted,
                                     Rng& rng) {
-  if (found && largest_sigma(found->covariance.topLeftCorner<2, 2>()) > params.confidence.lost_sigma_m) {
+  if (found && largest_sigma(found->at.covariance.topLeftCorner<2, 2>()) > params.confidence.lost_sigma_m) {
     found.reset();
   }
   if (found && confirm(features, lifted)) {
@@ -204,15 +217,18 @@ void StereoLocaliser::State::search(std::span<const vision::StereoFeature> featu
   }
   const RelocaliseAnswer answer = relocalise(geometry, map, features, lifted, params, rng);
   if (answer.verdict != RelocaliseVerdict::kFound) {
+    if (!found && is_guess(answer, params.relocalise)) {
+      found = FoundPlace{answer.belief, true};
+    }
     step.cause = step.cause.empty() ? answer.reason : step.cause + "; " + answer.reason;
     return;
   }
   const Pose2& now = answer.belief.map_T_eye;
   const bool confirmed =
-      found && distance_m(found->map_T_eye, now) <= params.relocalise.confirm_m &&
-      std::abs(wrap_angle(found->map_T_eye.theta_rad - now.theta_rad)) <= params.relocalise.confirm_rad;
+      found && distance_m(found->at.map_T_eye, now) <= params.relocalise.confirm_m &&
+      std::abs(wrap_angle(found->at.map_T_eye.theta_rad - now.theta_rad)) <= params.relocalise.confirm_rad;
   if (!confirmed) {
-    found = answer.belief;
+    found = FoundPlace{answer.belief, false};
     step.cause = "a place was found, another frame must confirm it";
     return;
   }
@@ -300,7 +316,7 @@ void StereoLocaliser::predict(const Twist2& velocity, double tau_s) {
     localize::predict(s.belief, velocity, tau_s, s.params.arm, s.params.motion, exact);
   }
   if (s.found) {
-    localize::predict(*s.found, velocity, tau_s, s.params.arm, s.params.motion, exact);
+    localize::predict(s.found->at, velocity, tau_s, s.params.arm, s.params.motion, exact);
   }
 }
 

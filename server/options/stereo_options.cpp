@@ -159,6 +159,8 @@ void describe(config::Fields& f, RelocaliseParams& params) {
   f.field("rival_m", params.rival_m);
   f.angle_deg("rival_deg", params.rival_rad);
   f.field("max_sigma_m", params.max_sigma_m);
+  f.field("guess_inliers", params.guess_inliers);
+  f.field("guess_share", params.guess_share);
   f.field("confirm_m", params.confirm_m);
   f.angle_deg("confirm_deg", params.confirm_rad);
 }

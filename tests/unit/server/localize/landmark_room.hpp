@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "common/core/rng.hpp"
@@ -147,6 +148,12 @@ inline LandmarkDatabase survey(const LandmarkRoom& room, const StereoGeometry& g
     EXPECT_TRUE(builder.add(sighting).has_value());
   }
   return builder.salient();
+}
+
+inline std::shared_ptr<const LandmarkDatabase> surveyed(const LandmarkRoom& room, std::uint64_t seed,
+                                                        const DatabaseParams& params = {},
+                                                        const ViewNoise& noise = {}) {
+  return std::make_shared<LandmarkDatabase>(survey(room, {}, params, seed, noise));
 }
 
 }  // namespace seeker::localize::testing
