@@ -1,5 +1,8 @@
 #include "server/localize/stereo_localiser.hpp"
 
+#include <memory>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

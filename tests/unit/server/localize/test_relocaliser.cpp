@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "server/localize/landmark_map.hpp"
@@ -12,6 +15,7 @@
 namespace seeker::localize {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::LandmarkRoom;
 using testing::surveyed;
 using testing::ViewNoise;
