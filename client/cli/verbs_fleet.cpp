@@ -42,6 +42,9 @@ Json json_of(const api::FleetMember& member) {
   if (member.main_T_map) {
     json.update(*member.main_T_map);
   }
+  if (member.merged_with) {
+    json["merged_with"] = {{"through", member.merged_with->through}, {"pictures", member.merged_with->pictures}};
+  }
   Json& hypotheses = json["hypotheses"] = Json::array();
   for (const api::FleetHypothesis& hypothesis : member.hypotheses) {
     hypotheses.push_back(json_of(hypothesis));
@@ -62,7 +65,11 @@ void print(const Context& context, const api::FleetMember& member) {
   }
   out << '\n';
   if (!member.reason.empty()) {
-    out << "    " << member.reason << '\n';
+    out << "    " << member.reason;
+    if (member.merged_with && member.merged_with->pictures > 0) {
+      out << "; pictures of " << count_of(member.merged_with->pictures, "place") << " confirm it";
+    }
+    out << '\n';
   }
   for (std::size_t k = 0; k < member.hypotheses.size(); ++k) {
     const api::FleetHypothesis& hypothesis = member.hypotheses[k];

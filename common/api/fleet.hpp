@@ -113,6 +113,13 @@ struct FleetHypothesis {
   friend bool operator==(const FleetHypothesis&, const FleetHypothesis&) = default;
 };
 
+/// The merge of two maps by which a robot belongs to the joint map.
+struct FleetMergedWith {
+  std::string through;         ///< id of the robot with whose map its own is merged; empty: with the main one's
+  std::uint32_t pictures = 0;  ///< number of places whose pictures show the same in both maps
+  friend bool operator==(const FleetMergedWith&, const FleetMergedWith&) = default;
+};
+
 struct FleetMember {
   std::string robot_id;
   FleetState state = FleetState::kWaiting;
@@ -122,12 +129,13 @@ struct FleetMember {
   bool linked = false;  ///< true: it has announced itself lately
   std::uint32_t nodes = 0;
   std::uint32_t pieces_missing = 0;
-  std::uint32_t pictures = 0;               ///< of nodes of its topology, announced
-  std::vector<FleetHypothesis> hypotheses;  ///< best first
-  std::optional<Pose2> main_T_map;          ///< pose of its map; empty where it is not merged
-  std::optional<Pose2> main_T_base;         ///< pose of the robot; empty where it is not merged or not localised
-  std::vector<Point2> places;               ///< positions of its local maps, in its own frame `map`
-  std::vector<Detection> detections;        ///< if it is merged: its detections, in the frame `map` of the main robot
+  std::uint32_t pictures = 0;                  ///< of nodes of its topology, announced
+  std::vector<FleetHypothesis> hypotheses;     ///< for its map in the main one, best first
+  std::optional<FleetMergedWith> merged_with;  ///< empty where it is not merged, and for the main robot
+  std::optional<Pose2> main_T_map;             ///< pose of its map; empty where it is not merged
+  std::optional<Pose2> main_T_base;            ///< pose of the robot; empty where it is not merged or not localised
+  std::vector<Point2> places;                  ///< positions of its local maps, in its own frame `map`
+  std::vector<Detection> detections;  ///< if it is merged: its detections, in the frame `map` of the main robot
   friend bool operator==(const FleetMember&, const FleetMember&) = default;
 };
 

@@ -79,6 +79,16 @@ void read_pose(bool present, const pb::Pose2& from, std::optional<Pose2>& to, Ch
   }
 }
 
+void write_merge(const api::FleetMergedWith& from, pb::FleetMergedWith* to) {
+  to->set_through(from.through);
+  to->set_pictures(from.pictures);
+}
+
+void read_merge(const pb::FleetMergedWith& from, api::FleetMergedWith& to, Check& check) {
+  to.through = from.through().empty() ? std::string() : read_robot_id(from.through(), check);
+  to.pictures = from.pictures();
+}
+
 void write_member(const api::FleetMember& from, pb::FleetMember* to) {
   to->set_robot_id(from.robot_id);
   to->set_state(static_cast<pb::FleetState>(wire_enum(from.state)));
@@ -91,6 +101,9 @@ void write_member(const api::FleetMember& from, pb::FleetMember* to) {
   to->set_pictures(from.pictures);
   for (const api::FleetHypothesis& hypothesis : from.hypotheses) {
     write_hypothesis(hypothesis, to->add_hypotheses());
+  }
+  if (from.merged_with) {
+    write_merge(*from.merged_with, to->mutable_merged_with());
   }
   write_pose(
       from.main_T_map, [](pb::FleetMember& m) { return m.mutable_main_t_map(); }, *to);
@@ -118,6 +131,9 @@ void read_member(const pb::FleetMember& from, api::FleetMember& to, Check& check
   to.pictures = from.pictures();
   for (const pb::FleetHypothesis& one : from.hypotheses()) {
     read_hypothesis(one, to.hypotheses.emplace_back(), check);
+  }
+  if (from.has_merged_with()) {
+    read_merge(from.merged_with(), to.merged_with.emplace(), check);
   }
   read_pose(from.has_main_t_map(), from.main_t_map(), to.main_T_map, check);
   read_pose(from.has_main_t_base(), from.main_t_base(), to.main_T_base, check);

@@ -1,6 +1,7 @@
 #include "server/app/fleet/member_standing.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "server/app/fleet/fleet_slots.hpp"
@@ -28,6 +29,15 @@ api::FleetHypothesis as_api(const fleet::MergeHypothesis& from) {
           static_cast<std::uint32_t>(from.pictures.alike)};
 }
 
+/// What was found for two robots; null where they were not compared.
+const fleet::MergeAnswer* answer_of(const std::vector<fleet::PairAnswer>& pairs, std::uint8_t one, std::uint8_t other) {
+  const auto [a, b] = std::minmax(one, other);
+  const auto pair = std::find_if(pairs.begin(), pairs.end(), [a = a, b = b](const fleet::PairAnswer& each) {
+    return each.slot_a == a && each.slot_b == b;
+  });
+  return pair == pairs.end() ? nullptr : &pair->answer;
+}
+
 }  // namespace
 
 MemberStanding::MemberStanding(bool split, const std::optional<Pose2>& accepted) : accepted_(accepted), split_(split) {
@@ -43,6 +53,7 @@ void MemberStanding::begin_new_map() {
   main_T_map_.reset();  // reports in the new map must not be carried as if they were in the old one
   hypotheses_.clear();
   confidence_ = 0.0;
+  merged_with_.reset();
   if (!split_) {
     state_ = api::FleetState::kWaiting;
     reason_ = "it has begun a new map, which has not been looked at yet";
@@ -88,21 +99,20 @@ void MemberStanding::apply_acceptance(fleet::MergeAnswer& answer) {
 bool MemberStanding::settle(std::uint8_t slot, const JoinOutcome& outcome,
                             const std::map<std::uint8_t, std::string>& names) {
   confidence_ = 0.0;
+  merged_with_.reset();
   if (split_) {
     return set_state(api::FleetState::kSplit, kSplitReason);
   }
   hypotheses_.clear();
-  const auto pair = std::find_if(outcome.pairs.begin(), outcome.pairs.end(), [slot](const fleet::PairAnswer& one) {
-    return one.slot_a == kMainSlot && one.slot_b == slot;
-  });
-  if (!trouble_.empty() || pair == outcome.pairs.end()) {
+  const fleet::MergeAnswer* with_main = answer_of(outcome.pairs, kMainSlot, slot);
+  if (!trouble_.empty() || with_main == nullptr) {
     return set_state(api::FleetState::kWaiting, trouble_.empty() ? reason_ : trouble_);
   }
-  hypotheses_ = pair->answer.hypotheses;
-  confidence_ = pair->answer.confidence();
+  hypotheses_ = with_main->hypotheses;
+  confidence_ = with_main->confidence();
   const auto link = outcome.links.find(slot);
   if (link == outcome.links.end()) {
-    return set_state(state_of(pair->answer.verdict), pair->answer.reason);
+    return set_state(state_of(with_main->verdict), with_main->reason);
   }
   if (!outcome.main_T_maps) {
     return set_state(api::FleetState::kAmbiguous, outcome.trouble);
@@ -113,11 +123,19 @@ bool MemberStanding::settle(std::uint8_t slot, const JoinOutcome& outcome,
   }
   main_T_map_ = joined->second;
   confidence_ = link->second.confidence;
-  const std::uint8_t through = link->second.through;
+  return set_merged(link->second.through, outcome.pairs, slot, names);
+}
+
+bool MemberStanding::set_merged(std::uint8_t through, const std::vector<fleet::PairAnswer>& pairs, std::uint8_t slot,
+                                const std::map<std::uint8_t, std::string>& names) {
+  const fleet::MergeAnswer* merge = answer_of(pairs, through, slot);
+  assert(merge != nullptr && merge->merged() && "links are made of merged pairs");
+  const auto alike = static_cast<std::uint32_t>(merge->hypotheses.front().pictures.alike);
+  merged_with_ = {through == kMainSlot ? "" : names.at(through), alike};
   return set_state(api::FleetState::kMerged, through == kMainSlot
-                                                 ? pair->answer.reason
-                                                 : "merged with the map of robot '" + names.at(through) +
-                                                       "', not with that of the main one: " + pair->answer.reason);
+                                                 ? merge->reason
+                                                 : "merged with the map of robot '" + merged_with_->through +
+                                                       "', which leads to the main one's: " + merge->reason);
 }
 
 bool MemberStanding::set_state(api::FleetState state, std::string reason) {
@@ -139,6 +157,7 @@ void MemberStanding::describe(api::FleetMember& out) const {
     out.hypotheses.push_back(as_api(hypothesis));
   }
   out.confidence = confidence_;
+  out.merged_with = merged_with_;
   out.main_T_map = main_T_map();
 }
 

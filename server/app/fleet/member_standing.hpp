@@ -55,12 +55,15 @@ class MemberStanding {
 
  private:
   bool set_state(api::FleetState state, std::string reason);
+  bool set_merged(std::uint8_t through, const std::vector<fleet::PairAnswer>& pairs, std::uint8_t slot,
+                  const std::map<std::uint8_t, std::string>& names);
 
   api::FleetState state_ = api::FleetState::kWaiting;
   std::string reason_ = "its map has not been looked at yet";
   double confidence_ = 0.0;
   std::vector<fleet::MergeHypothesis> hypotheses_;  ///< for the map join with the main robot
-  std::optional<Pose2> main_T_map_;                 ///< of the last map join that it took part in
+  std::optional<api::FleetMergedWith> merged_with_;
+  std::optional<Pose2> main_T_map_;  ///< of the last map join that it took part in
   std::optional<Pose2> accepted_;
   std::string trouble_;
   bool split_ = false;

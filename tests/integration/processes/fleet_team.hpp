@@ -172,7 +172,7 @@ class Team {
     for (const api::FleetMember& member : last ? last->members : std::vector<api::FleetMember>{}) {
       ADD_FAILURE() << member.robot_id << " " << api::to_string(member.state) << ": " << member.reason << "; "
                     << member.pieces_missing << " pieces missing, " << member.pictures << " pictures, of which "
-                    << (member.hypotheses.empty() ? 0U : member.hypotheses.front().pictures) << " confirm the merge";
+                    << (member.merged_with ? member.merged_with->pictures : 0U) << " confirm the merge";
     }
     EXPECT_TRUE(last) << last.error().message;
     return last ? *last : api::FleetStatus{};

@@ -33,12 +33,16 @@ TEST(FleetPictures, TravelByPiecesAndSpeakForTheMerge) {
   }
   const api::FleetStatus fleet = team.until([](const api::FleetMember& member) {
     return member.state == api::FleetState::kMerged && member.main_T_map && member.pieces_missing == 0 &&
-           !member.hypotheses.empty() && member.hypotheses.front().pictures > 0;
+           member.merged_with && member.merged_with->pictures > 0;
   });
   team.expect_near_truth(fleet, 0.2, 2.0);
+  std::string shown;
+  const std::string main = "127.0.0.1:" + std::to_string(team.fleet_port());
+  EXPECT_EQ(seeker(team.robot(0), {"fleet", "status", "--main", main}, &shown), 0) << shown;
+  EXPECT_NE(shown.find("confirm it"), std::string::npos) << shown;
   for (std::size_t k = 1; k < fleet.members.size(); ++k) {
     const std::vector<fleet::NodePicture> pictures = pictures_on_disk(team.pieces(k));
-    EXPECT_GE(fleet.members[k].pictures, fleet.members[k].hypotheses.front().pictures);
+    EXPECT_GE(fleet.members[k].pictures, fleet.members[k].merged_with->pictures);
     EXPECT_FALSE(pictures.empty()) << fleet.members[k].robot_id;
     for (const fleet::NodePicture& picture : pictures) {
       EXPECT_GT(picture.features.size(), 0U) << fleet.members[k].robot_id;

@@ -70,6 +70,25 @@ TEST(ConvertFleet, WhereTheOthersGoComesBackUnchanged) {
   EXPECT_EQ(from_message<api::FleetShared>(again).error().code, Errc::kInvalidArgument);
 }
 
+TEST(ConvertFleet, HowTheMapsHangTogetherComesBackUnchanged) {
+  api::FleetMember member;
+  member.robot_id = "r1";
+  member.state = api::FleetState::kMerged;
+  member.hypotheses = {{{1.0, 2.0, 0.5}, 0.75, 8.5, 0.25, 3, 2}};
+  member.merged_with = {"r2", 3};
+  const api::FleetStatus told{{member}, 7};
+  pb::FleetStatus message;
+  write(told, &message);
+  pb::FleetStatus again;
+  ASSERT_TRUE(again.ParseFromString(message.SerializeAsString()));
+  EXPECT_EQ(from_message<api::FleetStatus>(again).value(), told);
+  again.mutable_members(0)->mutable_merged_with()->clear_through();
+  EXPECT_EQ(from_message<api::FleetStatus>(again)->members.front().merged_with, (api::FleetMergedWith{"", 3}))
+      << "with the main robot's map";
+  again.mutable_members(0)->mutable_merged_with()->set_through("no such/name");
+  EXPECT_EQ(from_message<api::FleetStatus>(again).error().code, Errc::kInvalidArgument);
+}
+
 OccupancyTile tile(int i, int j) {
   OccupancyTile made;
   made.index = {i, j};

@@ -23,6 +23,7 @@ TEST(MemberStanding, IsMergedAtThePoseOfTheMapJoin) {
   EXPECT_EQ(out.main_T_map, Pose2{});
   EXPECT_EQ(out.hypotheses.size(), 1U);
   EXPECT_EQ(out.confidence, 0.9) << "that of the link";
+  EXPECT_EQ(out.merged_with, (api::FleetMergedWith{"", 0})) << "with the map of the main robot";
 }
 
 TEST(MemberStanding, FollowsTheVerdictOfItsPairWhereNoLinkLeadsToIt) {
@@ -38,12 +39,34 @@ TEST(MemberStanding, FollowsTheVerdictOfItsPairWhereNoLinkLeadsToIt) {
   }
 }
 
-TEST(MemberStanding, NamesTheRobotOverWhoseMapItIsMerged) {
+/// Robots 1 and 2 share what the main robot and robot 1 do not: the pair of those two speaks for itself only.
+JoinOutcome merged_over_another() {
   JoinOutcome outcome = merged_at(kPose);
   outcome.links.at(1).through = 2;
+  outcome.pairs.front().answer = answer_with(fleet::MergeVerdict::kInsufficientOverlap, kPose);
+  outcome.pairs.front().answer.reason = "too little to be sure";
+  outcome.pairs.push_back({1, 2, answer_with(fleet::MergeVerdict::kMerged, kPose)});
+  outcome.pairs.back().answer.hypotheses.front().pictures.alike = 3;
+  return outcome;
+}
+
+TEST(MemberStanding, NamesTheRobotOverWhoseMapItIsMergedAndWhatSpeaksForThat) {
   MemberStanding standing;
-  EXPECT_TRUE(standing.settle(1, outcome, kNames));
+  EXPECT_TRUE(standing.settle(1, merged_over_another(), kNames));
   EXPECT_NE(standing.reason().find("'r2'"), std::string::npos) << standing.reason();
+  EXPECT_NE(standing.reason().find("as the test says"), std::string::npos) << standing.reason();
+  api::FleetMember out;
+  standing.describe(out);
+  EXPECT_EQ(out.merged_with, (api::FleetMergedWith{"r2", 3}));
+}
+
+TEST(MemberStanding, IsMergedWithNoneOnceItsMapIsANewOne) {
+  MemberStanding standing;
+  ASSERT_TRUE(standing.settle(1, merged_at(kPose), kNames));
+  standing.begin_new_map();
+  api::FleetMember out;
+  standing.describe(out);
+  EXPECT_FALSE(out.merged_with);
 }
 
 TEST(MemberStanding, IsAmbiguousWhereTheMapJoinLeftItOut) {
