@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <string>
 
 namespace seeker::localize {
@@ -117,6 +118,7 @@ LocaliserParams paper_localiser_params() {
   params.tracking.max_distance = 2.5;
   params.tracking.gate_chi2 = 9.210;
   params.relocalise.max_distance = 2.5;
+  params.relocalise.guess_inliers = std::numeric_limits<int>::max();  // the paper knows no guesses
   return params;
 }
 

@@ -197,19 +197,36 @@ TEST(Localiser, AGuessIsProvedByTheNextFrame) {
   EXPECT_LT(distance_m(localiser.estimate({}).map_T_base, drive.map_T_base), 0.10);
 }
 
+TEST(Localiser, OfThePaperGuessesNothing) {
+  const LandmarkRoom room(2, 500);
+  ViewNoise view{.descriptor = 0.2};
+  StereoLocaliser localiser = localiser_of(surveyed(room, 2, paper_database_params(), view), paper_localiser_params());
+  Drive drive(3);
+  ViewNoise few = kFewFeatures;
+  few.descriptor = view.descriptor;
+  ASSERT_THAT(drive.look(localiser, room, few).cause, HasSubstr("needed"));
+  drive.move(localiser, {0.07, 0.2});
+  EXPECT_EQ(drive.look(localiser, room, view).quality, LocalisationQuality::kUnknown) << "a place found once";
+  drive.move(localiser, {0.07, 0.2});
+  EXPECT_EQ(drive.look(localiser, room, view).quality, LocalisationQuality::kLocalised) << localiser.last().cause;
+}
+
 TEST(Localiser, AGuessIsNotBelievedInAForeignRoom) {
   const LandmarkRoom room(2, 500);
   const auto database = surveyed(room, 2);
+  int guesses = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const LandmarkRoom foreign(100 + seed, 500);
     StereoLocaliser localiser = localiser_of(database);
     Drive drive(seed);
-    drive.look(localiser, room, kFewFeatures);  // a guess, and then the robot is carried elsewhere
+    const std::string cause = drive.look(localiser, room, kFewFeatures).cause;
+    guesses += cause.find("needed") != std::string::npos ? 1 : 0;  // and then the robot is carried elsewhere
     for (int frame = 0; frame < 5; ++frame) {
       drive.move(localiser, {0.07, 0.2});
       EXPECT_EQ(drive.look(localiser, foreign, {}).quality, LocalisationQuality::kUnknown) << seed;
     }
   }
+  EXPECT_GE(guesses, 10) << "of the twenty places";
 }
 
 TEST(Localiser, APlaceThatAFrameSpeaksAgainstIsForgotten) {
