@@ -1,5 +1,5 @@
 /// \file
-/// The parsed command line as values. The parser library (CLI11) is used in parser.cpp and parser_errors.cpp only.
+/// The parsed command line as values. The parser library (CLI11) is used in the files parser*.cpp only.
 #pragma once
 
 #include <cstdint>
