@@ -73,6 +73,7 @@ void FleetExchange::fill(FleetResult& result) const {
   result.wrong = wrong_;
   result.injected = injected_;
   result.false_rejected = false_rejected_;
+  result.false_offered = false_offered_;
   result.false_accepted = false_accepted_;
   for (const auto& member : members_) {
     result.pictures += static_cast<int>(member->loop->neighbours().own_pictures().size());
@@ -160,7 +161,8 @@ void FleetExchange::count_false_pair(const fleet::MergeAnswer& answer, const Rel
   const auto says_false = [&](const fleet::MergeHypothesis& one) {
     return distance_m(one.a_T_b.a_T_b, false_a_T_b) < kWrongMerge_m;
   };
-  false_accepted_ += std::any_of(answer.hypotheses.begin(), answer.hypotheses.end(), says_false) ? 1 : 0;
+  false_offered_ += std::any_of(answer.hypotheses.begin(), answer.hypotheses.end(), says_false) ? 1 : 0;
+  false_accepted_ += answer.merged() && says_false(answer.hypotheses.front()) ? 1 : 0;
 }
 
 std::pair<double, double> FleetExchange::error_of(const Relation& relation) const {

@@ -86,6 +86,7 @@ class FleetExchange {
   int wrong_ = 0;
   int injected_ = 0;
   int false_rejected_ = 0;
+  int false_offered_ = 0;
   int false_accepted_ = 0;
 };
 

@@ -116,6 +116,7 @@ void describe(config::Fields& f, FleetResult& result) {
   f.field("alike", result.alike);
   f.field("injected", result.injected);
   f.field("false_rejected", result.false_rejected);
+  f.field("false_offered", result.false_offered);
   f.field("false_accepted", result.false_accepted);
 }
 

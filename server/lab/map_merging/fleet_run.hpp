@@ -37,7 +37,7 @@ struct FleetDrawing {
 };
 
 struct FleetResult {
-  int schema = 3;
+  int schema = 4;
   std::string world;
   std::uint64_t seed = 0;
   std::string settings;
@@ -61,7 +61,8 @@ struct FleetResult {
   int alike = 0;           ///< places of either robot whose pictures confirm the merges at the end, least pair
   int injected = 0;        ///< comparisons of two maps to which a false pair of nodes was added
   int false_rejected = 0;  ///< comparisons in which the false pair was refused
-  int false_accepted = 0;  ///< comparisons in which a relation came of it
+  int false_offered = 0;   ///< comparisons in which it was left as a hypothesis, believed or not
+  int false_accepted = 0;  ///< comparisons in which the maps were merged by it
   std::vector<FleetDrawing> drawings;  ///< of the first robot and those that are merged with it; not kept on disk
   // Where traffic is counted; not kept on disk.
   double sent_bytes = 0.0;  ///< bytes that a robot would have sent to the main one, mean

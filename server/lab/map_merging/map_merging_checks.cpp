@@ -168,12 +168,14 @@ Check check_printed_merges(const std::vector<FleetResult>& runs) {
 Check check_false_pairs(const std::vector<FleetResult>& runs) {
   int injected = 0;
   int rejected = 0;
+  int offered = 0;
   int accepted = 0;
   int wrong = 0;
   bool in_each = !runs.empty();
   for (const FleetResult& run : runs) {
     injected += run.injected;
     rejected += run.false_rejected;
+    offered += run.false_offered;
     accepted += run.false_accepted;
     wrong += run.wrong;
     in_each = in_each && run.false_rejected > 0;
@@ -182,6 +184,7 @@ Check check_false_pairs(const std::vector<FleetResult>& runs) {
           .passed = in_each && accepted == 0 && wrong == 0,
           .figures = {{"injected", std::to_string(injected)},
                       {"rejected", std::to_string(rejected)},
+                      {"offered", std::to_string(offered)},
                       {"accepted", std::to_string(accepted)},
                       {"wrong", std::to_string(wrong)},
                       {"runs", std::to_string(runs.size())}}};

@@ -76,6 +76,8 @@ TEST(FalsePairCheck, WantsTheFalsePairRefusedInEachRunAndAcceptedInNone) {
   EXPECT_FALSE(check_false_pairs({run}).passed) << "it was never asked";
   run.injected = run.false_rejected = 3;
   EXPECT_TRUE(check_false_pairs({run}).passed);
+  run.false_offered = 1;
+  EXPECT_TRUE(check_false_pairs({run}).passed) << "as one of several, which nobody has to believe";
   run.false_accepted = 1;
   EXPECT_FALSE(check_false_pairs({run}).passed);
 }
