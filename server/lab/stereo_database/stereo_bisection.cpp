@@ -56,7 +56,8 @@ const std::vector<PrintedChoice>& printed_choices() {
         "stereo.localiser.measurement.bearing_floor_deg=0.0572957795",
         "stereo.localiser.measurement.landmark_covariance=true", "stereo.localiser.disparity_offset_sigma_px=0.2",
         "stereo.localiser.disparity_offset_walk_px=0.005", "stereo.localiser.map_sigma_m=0.003",
-        "stereo.localiser.map_sigma_deg=0.06", "stereo.localiser.tracking.gate_chi2=18.421"}}};
+        "stereo.localiser.map_sigma_deg=0.06", "stereo.localiser.tracking.gate_chi2=18.421",
+        "stereo.localiser.relocalise.guess_inliers=5"}}};
   return kChoices;
 }
 
