@@ -19,11 +19,8 @@ std::pair<CLI::App*, std::shared_ptr<T>> add_fleet_verb(Parse& parse, CLI::App& 
 }  // namespace
 
 void add_fleet(Parse& parse) {
-  CLI::App* fleet =
-      parse.app.add_subcommand("fleet", "Several robots, one map: who has joined, and how their maps lie");
-  fleet->require_subcommand(1);
-  fleet->fallthrough();
-  fleet->footer("Example:\n  seeker fleet status\n  seeker fleet merge r2 --hypothesis 1");
+  CLI::App* fleet = add_group(parse.app, "fleet", "Several robots, one map: who has joined, and how their maps lie",
+                              "seeker fleet status\n  seeker fleet merge r2 --hypothesis 1");
   add_fleet_verb<FleetStatusVerb>(parse, *fleet, "status", "Every robot in the frame of the main one",
                                   "seeker fleet status");
   auto [merge, m] = add_fleet_verb<FleetMergeVerb>(parse, *fleet, "merge",

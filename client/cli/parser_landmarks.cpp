@@ -25,10 +25,8 @@ void add_landmark_files(Parse& parse, CLI::App& landmarks) {
 
 void add_landmarks(Parse& parse) {
   CLI::App* landmarks =
-      parse.app.add_subcommand("landmarks", "Databases of landmarks: look into, check, copy, export, prune");
-  landmarks->require_subcommand(1);
-  landmarks->fallthrough();
-  landmarks->footer("Example:\n  seeker landmarks info\n  seeker landmarks export lab out/lab.csv");
+      add_group(parse.app, "landmarks", "Databases of landmarks: look into, check, copy, export, prune",
+                "seeker landmarks info\n  seeker landmarks export lab out/lab.csv");
   auto [info, i] = add_verb<LandmarksInspectVerb>(parse, *landmarks, "info", "What is in a database, or in all of them",
                                                   "seeker landmarks info lab");
   info->add_option("name", i->name, "Name of the database (default: list all)");

@@ -32,10 +32,8 @@ void add_map_files(Parse& parse, CLI::App& map) {
 }  // namespace
 
 void add_maps(Parse& parse) {
-  CLI::App* map = parse.app.add_subcommand("map", "Maps: keep, load, look into, copy, export");
-  map->require_subcommand(1);
-  map->fallthrough();
-  map->footer("Example:\n  seeker map save office\n  seeker map export out/office");
+  CLI::App* map = add_group(parse.app, "map", "Maps: keep, load, look into, copy, export",
+                            "seeker map save office\n  seeker map export out/office");
   auto [map_export, m] = add_verb<MapExportVerb>(
       parse, *map, "export", "Write NAME.pgm and NAME.yaml (ROS map_server) and the picture NAME.png, or other formats",
       "seeker map export out/office\n  seeker map export out/office --format svg,geojson,tum");

@@ -13,6 +13,13 @@ CLI::App* add_subcommand(CLI::App& parent, const std::string& name, const std::s
   return sub;
 }
 
+CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string& description,
+                    const std::string& example) {
+  CLI::App* group = add_subcommand(parent, name, description, example, nullptr);
+  group->require_subcommand(1);
+  return group;
+}
+
 CLI::Option* repeatable(CLI::Option* option) { return option->allow_extra_args(false); }
 
 void add_main(CLI::App& verb, FleetOptions& options) {

@@ -28,6 +28,10 @@ struct Parse {
 CLI::App* add_subcommand(CLI::App& parent, const std::string& name, const std::string& description,
                          const std::string& example, std::function<void()> chosen);
 
+/// Adds a verb that says nothing without one of its own verbs, as `map` does.
+CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string& description,
+                    const std::string& example);
+
 /// Adds one verb: its options write to a struct that becomes Parse::verb when the verb is chosen.
 template <class T>
 std::pair<CLI::App*, std::shared_ptr<T>> add_verb(Parse& parse, CLI::App& parent, const std::string& name,

@@ -34,10 +34,8 @@ void add_issue(Parse& parse, CLI::App& pki) {
 }  // namespace
 
 void add_pki(Parse& parse) {
-  CLI::App* pki = parse.app.add_subcommand("pki", "Certificates of a site: who may connect to its robots, and as what");
-  pki->require_subcommand(1);
-  pki->fallthrough();
-  pki->footer("Example:\n  seeker pki init\n  seeker pki issue anna --role operator");
+  CLI::App* pki = add_group(parse.app, "pki", "Certificates of a site: who may connect to its robots, and as what",
+                            "seeker pki init\n  seeker pki issue anna --role operator");
   auto [init, i] = add_verb<PkiInitVerb>(parse, *pki, "init", "Make the certificate authority (CA) of a site",
                                          "seeker pki init\n  seeker pki init /media/stick/site --name \"Site north\"");
   init->add_option("folder", i->folder, "Folder of the site (default: ~/.config/seeker/site)");

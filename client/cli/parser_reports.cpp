@@ -40,10 +40,7 @@ void add_reports(Parse& parse) {
   auto [lines, l] = add_verb<LinesVerb>(parse, parse.app, "lines", "The straight lines in the newest laser scan",
                                         "seeker lines --json\n  seeker lines --out out/lines.svg");
   lines->add_option("--out", l->out, "Write the picture of the scan with its lines (.png or .svg)");
-  CLI::App* camera = parse.app.add_subcommand("camera", "Cameras");
-  camera->require_subcommand(1);
-  camera->fallthrough();
-  camera->footer("Example:\n  seeker camera grab --out view.png");
+  CLI::App* camera = add_group(parse.app, "camera", "Cameras", "seeker camera grab --out view.png");
   auto [grab, c] = add_verb<CameraGrabVerb>(parse, *camera, "grab", "Write one picture as PNG",
                                             "seeker camera grab --camera omni --out view.png");
   grab->add_option("--camera", c->camera, "Name of the camera (default: the one that targets are looked for with)");
